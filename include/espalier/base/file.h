@@ -1,0 +1,35 @@
+// Files that appear complete or not at all.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace espalier {
+
+/// The whole file as text. Throws UserError naming the file if it cannot be read.
+std::string read_text(const std::filesystem::path& path);
+
+/// Writes beside `path` and renames, so that `path` is either the old file or the whole new one.
+/// Throws RunError with the system's reason (disk full, read-only, ...) and removes what it wrote.
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+/// For writers that want a file name of their own: calls `write(temporary)` and renames the result to `path`.
+/// The temporary name keeps the extension. `write` returns false or throws on failure. Throws RunError.
+void write_file(const std::filesystem::path& path, const std::function<bool(const std::filesystem::path&)>& write);
+
+/// A folder's lock: two runs into one folder are refused. Released when destroyed, also by a killed process.
+class FolderLock {
+public:
+    /// Creates the folder if need be. Throws UserError if another process holds it, RunError if it cannot be written.
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int descriptor_ = -1;
+};
+
+}  // namespace espalier

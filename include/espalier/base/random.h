@@ -1,0 +1,54 @@
+// Counter-based random numbers (Philox 4x32-10; Salmon, Moraes, Dror & Shaw 2011).
+// A draw depends on who draws and when, never on the order of execution.
+#pragma once
+
+#include <cstdint>
+
+namespace espalier {
+
+/// What a draw is for. Streams never disturb each other.
+enum class Stream : std::uint32_t { derivation = 1, homomorphism = 2, blocks = 3, process = 4, placement = 5 };
+
+/// Mixes 64 bits so that neighbouring inputs give unrelated outputs (SplitMix64's finalizer).
+std::uint64_t mix(std::uint64_t value);
+/// A hash of two values, not symmetric.
+std::uint64_t mix(std::uint64_t a, std::uint64_t b);
+
+/// The key of a stream: scene seed, plant, purpose. `salt` tells apart users of one stream (a process's name, say).
+class RandomKey {
+public:
+    RandomKey() = default;
+    RandomKey(std::uint64_t seed, std::uint32_t plant, Stream stream, std::uint64_t salt = 0);
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0;
+};
+
+/// Draws of one drawer (a module's identity, say) in one step, numbered from 0 as they are taken.
+class RandomDraws {
+public:
+    RandomDraws(RandomKey key, std::uint64_t drawer, std::uint32_t step, std::uint32_t first_draw = 0)
+        : key_(key), drawer_(drawer), step_(step), draw_(first_draw) {}
+
+    /// Uniform in [0, 1), 53 bits.
+    double uniform();
+    /// Standard normal deviate (Box-Muller, two uniforms a call).
+    double normal();
+    /// Beta deviate with shapes a, b > 0 (Marsaglia & Tsang 2000 gammas).
+    double beta(double a, double b);
+    /// Number of successes in n tosses of probability p.
+    double binomial(double n, double p);
+
+    std::uint32_t drawn() const { return draw_; }
+
+private:
+    double gamma(double shape);
+
+    RandomKey key_;
+    std::uint64_t drawer_;
+    std::uint32_t step_;
+    std::uint32_t draw_;
+};
+
+}  // namespace espalier

@@ -1,0 +1,94 @@
+// Parameters as a file gives them: typed look-ups with defaults, ranges and units; names nobody asked for are errors.
+#pragma once
+
+#include "espalier/base/error.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace espalier {
+
+/// What a number may be; the bounds are part of the message when it is not.
+struct Range {
+    double lowest = -std::numeric_limits<double>::infinity();
+    double highest = std::numeric_limits<double>::infinity();
+    bool open_below = false;  ///< the lowest value itself is not allowed
+
+    static Range any() { return {}; }
+    static Range positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
+    static Range not_negative() { return {0, std::numeric_limits<double>::infinity(), false}; }
+    static Range between(double a, double b) { return {a, b, false}; }
+};
+
+/// A table of parameters (TOML's, or one made by a program). Copies share the same table.
+/// Every look-up marks its key as read and remembers the value used, default or not, for `resolved()`.
+/// Look-ups throw UserError with file, line and column when the value is missing, of the wrong type or out of range.
+class Settings {
+public:
+    Settings();
+
+    /// Reads a TOML file or text; `name` stands in messages. Throws UserError.
+    static Settings read_toml(const std::filesystem::path& path);
+    static Settings parse_toml(std::string_view text, const std::string& name, const std::filesystem::path& folder = {});
+
+    bool has(std::string_view key) const;
+    Place place(std::string_view key = {}) const;  ///< of a key, or of the table itself
+
+    // Required values.
+    double number(std::string_view key, Range range = Range::any()) const;
+    std::int64_t integer(std::string_view key, Range range = Range::any()) const;
+    std::string text(std::string_view key) const;
+    std::vector<double> numbers(std::string_view key) const;
+    glm::dvec3 vector(std::string_view key) const;
+
+    // Values with a default.
+    double number_or(std::string_view key, double fallback, Range range = Range::any()) const;
+    std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range range = Range::any()) const;
+    bool flag_or(std::string_view key, bool fallback) const;
+    std::string text_or(std::string_view key, std::string_view fallback) const;
+    std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback) const;
+    std::vector<std::string> texts_or(std::string_view key, std::vector<std::string> fallback) const;
+    glm::dvec3 vector_or(std::string_view key, glm::dvec3 fallback) const;
+
+    /// One of several words; anything else is an error that lists them and offers the nearest.
+    std::string choice_or(std::string_view key, std::string_view fallback, const std::vector<std::string>& words) const;
+
+    /// A file name, relative to the file that says it. Does not check that it exists.
+    std::filesystem::path path(std::string_view key) const;
+    std::optional<std::filesystem::path> path_if_any(std::string_view key) const;
+
+    /// A sub-table (empty if absent), an array of tables (empty if absent), the keys in the file's order.
+    Settings table(std::string_view key) const;
+    std::vector<Settings> tables(std::string_view key) const;
+    std::vector<std::string> keys() const;
+    /// True if the value of `key` is a table.
+    bool is_table(std::string_view key) const;
+    /// The value as text whatever its type (for #define overrides).
+    std::string value_text(std::string_view key) const;
+
+    /// Overrides one value, e.g. set("environment.light.voxel", "0.5"); `a.2.b` enters the third table of an array.
+    /// The value is read as TOML, or taken as text if it is not. Throws UserError if the path leads nowhere sensible.
+    void set(std::string_view dotted_key, std::string_view value);
+
+    /// Throws UserError listing every key that nobody read, here and below, with the nearest name that was asked for.
+    void reject_unread() const;
+
+    /// Everything read so far with the values used, as JSON text.
+    std::string resolved_json() const;
+
+    struct Node;
+
+private:
+    explicit Settings(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+    std::shared_ptr<Node> node_;
+};
+
+}  // namespace espalier

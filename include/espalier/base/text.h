@@ -1,0 +1,26 @@
+// Small things about text: the nearest known name, numbers as the C library prints them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace espalier {
+
+/// The candidate closest to `name` by edit distance, or "" if none is near enough to be a slip of the pen.
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+/// " (did you mean 'x'?)" for the nearest candidate, or "".
+std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
+
+/// A number as printf's %g writes it (6 significant digits): cpfg's notation for parameters.
+std::string format_general(double value);
+
+/// The shortest text that reads back as the same double.
+std::string format_exact(double value);
+
+/// Splits UTF-8 text into code points, each as its own string; invalid bytes stand for themselves.
+std::vector<std::string> code_points(std::string_view text);
+
+}  // namespace espalier

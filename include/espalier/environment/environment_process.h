@@ -1,0 +1,91 @@
+// A part of the world that answers queries. One file in src/environment/processes/ per process.
+#pragma once
+
+#include "espalier/base/random.h"
+#include "espalier/base/registry.h"
+#include "espalier/base/settings.h"
+#include "espalier/environment/field.h"
+#include "espalier/turtle/interpretation.h"
+
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// A plant as processes see it. `string` is the one that asked.
+struct PlantView {
+    std::uint32_t plant = 0;
+    const Model* model = nullptr;
+    const ModuleString* string = nullptr;
+    const Interpretation* interpretation = nullptr;
+};
+
+/// The world at one step. `dt` is the time a derivation step stands for, in the scene's unit.
+struct WorldView {
+    int step = 0;
+    double time = 0;
+    double dt = 1;
+    std::span<const PlantView> plants;
+};
+
+/// What a process is told when the world is made.
+struct EnvironmentContext {
+    std::string name;         ///< the process's name in the scene
+    std::optional<Box> domain;  ///< the scene's domain, if it gives one
+    std::uint64_t seed = 0;
+    std::uint32_t plants = 0;  ///< how many plants the world has
+    std::size_t memory = std::size_t(-1);  ///< bytes a process's fields may take; more is an error before allocating
+};
+
+/// One quantity of statistics.csv, "light.mean" being quantity "mean" of process "light".
+/// The columns are the same in every step.
+struct Quantity {
+    std::string name;
+    double value = 0;
+};
+
+/// Constructors take (Settings&, const EnvironmentContext&, Fields&), read their parameters (the scene rejects unread
+/// ones) and provide their fields. Order inside a step: `advance`, then `answer`, each once; then fields and statistics
+/// are recorded. Answers do not depend on the order of the queries, nor on the number of threads.
+class EnvironmentProcess {
+public:
+    virtual ~EnvironmentProcess() = default;
+
+    /// Brings the fields to this step. `queries` are this process's own, of all plants, in plant and string order.
+    virtual void advance(const WorldView& world, std::span<const Query> queries, Fields& fields) = 0;
+
+    /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
+    virtual void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers,
+                        Fields& fields) = 0;
+
+    /// This step's figures for one plant. Quantities of the whole world repeat for every plant.
+    virtual std::vector<Quantity> statistics(std::uint32_t plant) const = 0;
+
+    /// Fewest and most parameters a query to this process may have, for `check` and for a clear error.
+    virtual std::pair<int, int> query_arity() const = 0;
+
+    /// What lasts from step to step, as bytes, for a checkpoint.
+    virtual void save(std::ostream& out) const = 0;
+    virtual void restore(std::istream& in) = 0;
+};
+
+using ProcessRegistry = Registry<EnvironmentProcess, Settings&, const EnvironmentContext&, Fields&>;
+
+/// Defining one registers a process:
+///   const RegisteredProcess<Height> entry{{"height", "height above ground", "ground (m, 0): ..."}};
+template <class Process>
+struct RegisteredProcess {
+    explicit RegisteredProcess(PartDescription description) {
+        const std::string name = description.name;
+        ProcessRegistry::entries()[name] = {
+            std::move(description), [](Settings& settings, const EnvironmentContext& context, Fields& fields) {
+                return std::unique_ptr<EnvironmentProcess>(std::make_unique<Process>(settings, context, fields));
+            }};
+    }
+};
+
+}  // namespace espalier

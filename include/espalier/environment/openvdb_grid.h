@@ -1,0 +1,21 @@
+// What a Field holds. Include this only where grids are made, sampled or written: it includes OpenVDB.
+#pragma once
+
+#include "espalier/environment/field.h"
+
+#include <openvdb/openvdb.h>
+
+namespace espalier {
+
+struct FieldGrid {
+    openvdb::FloatGrid::Ptr grid;  ///< index space to metres by its transform; voxel centres are at integer indices
+    openvdb::CoordBBox box;        ///< the voxels a viewer should be shown (.vti): the domain, or what is active
+};
+
+/// openvdb::initialize(), once.
+void initialize_openvdb();
+
+/// A uniform-voxel grid whose voxel (0,0,0) has its centre at `origin` + voxel/2.
+openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dvec3& origin);
+
+}  // namespace espalier

@@ -1,0 +1,76 @@
+// What a turtle draws: internodes, polygons and organs with the module they belong to. Metres, radians.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// A place and an orthonormal frame. up = left x heading, as in cpfg: heading (0,1,0), left (-1,0,0), up (0,0,-1).
+struct Pose {
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 heading{0, 1, 0};
+    glm::dvec3 left{-1, 0, 0};
+    glm::dvec3 up{0, 0, -1};
+};
+
+/// An axis-aligned box; empty until something is added.
+struct Box {
+    glm::dvec3 lower{std::numeric_limits<double>::infinity()};
+    glm::dvec3 upper{-std::numeric_limits<double>::infinity()};
+
+    bool empty() const { return lower.x > upper.x; }
+    void add(const glm::dvec3& point);
+    void add(const Box& box);
+};
+
+/// One drawn segment. Internodes of one axis follow each other: `axis` counts the axes of the plant.
+struct Internode {
+    std::uint32_t module;  ///< index of the module in the plant's string
+    std::uint32_t axis;
+    std::uint16_t order;  ///< depth of branching, 0 = main axis
+    std::uint16_t colour;
+    glm::dvec3 base, tip;
+    double base_radius, tip_radius;
+};
+
+/// A filled polygon: `count` vertices from PlantGeometry::vertices[first].
+struct Polygon {
+    std::uint32_t module;
+    std::uint32_t first, count;
+    std::uint16_t order;
+    std::uint16_t colour;
+};
+
+/// A thing placed at a pose: a disc, a sphere, a circle's outline, a named surface.
+struct Organ {
+    enum class Shape : std::uint8_t { disc, sphere, circle, surface };
+    std::uint32_t module;
+    Shape shape;
+    std::uint16_t order;
+    std::uint16_t colour;
+    std::uint32_t surface;  ///< code point of the surface's id, 0 if none
+    Pose pose;
+    glm::dvec3 size;  ///< disc, sphere, circle: diameter in x; surface: scale along each axis
+};
+
+struct PlantGeometry {
+    std::vector<Internode> internodes;
+    std::vector<Polygon> polygons;
+    std::vector<glm::dvec3> vertices;
+    std::vector<Organ> organs;
+    std::uint32_t axes = 0;
+    Box bounds;
+
+    void clear();
+};
+
+/// Sums over the internodes: lengths, and volumes of the truncated cones they are.
+double total_length(const PlantGeometry& geometry);
+double total_volume(const PlantGeometry& geometry);
+
+}  // namespace espalier

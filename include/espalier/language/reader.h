@@ -1,0 +1,36 @@
+// Reads a model file (the cpfg language and Espalier's additions).
+#pragma once
+
+#include "espalier/base/error.h"
+#include "espalier/lsystem/lsystem.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace espalier {
+
+/// #define overrides: NAME -> text. They win over the file's own #define of the same name.
+using Defines = std::map<std::string, std::string>;
+
+struct ReadOptions {
+    Defines defines;
+    bool quirks = false;  ///< --cpfg-quirks
+};
+
+/// Reads a model file. Throws UserError with every mistake found (up to 20), each with file:line:column as the user
+/// wrote it, through #include and #define, and the line of text. Overriding a name the file never mentions is an error.
+std::shared_ptr<const Model> read_model(const std::filesystem::path& path, const ReadOptions& options = {});
+/// The same from text; `name` stands in messages, `folder` is where #include looks.
+std::shared_ptr<const Model> read_model_text(std::string_view text, const std::string& name,
+                                             const std::filesystem::path& folder = {}, const ReadOptions& options = {});
+
+/// What `espalier check` warns about: productions that can never apply, modules nobody produces, unmatched brackets,
+/// `consider` lists without brackets together with right contexts, homomorphism cycles, queries nobody answers.
+/// `turtle_symbols` are the symbols the turtle knows (multi-character ones included, such as "@o").
+std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols);
+
+}  // namespace espalier

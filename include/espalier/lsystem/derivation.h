@@ -1,0 +1,83 @@
+// Derivation: old string in, new string out. Two passes over the string (match and measure, then write),
+// parallel over chunks unless the model's productions have an order as part of their meaning.
+#pragma once
+
+#include "espalier/base/random.h"
+#include "espalier/lsystem/lsystem.h"
+#include "espalier/lsystem/module_string.h"
+
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct DerivationSettings {
+    std::uint64_t seed = 0;
+    std::uint32_t plant = 0;
+    /// Keep identity, parent and birth of every module. Always kept when the model draws random numbers.
+    bool lineage = false;
+    /// Bytes this plant's strings may take; a step that would exceed them throws RunError before it allocates.
+    std::size_t memory = std::size_t(-1);
+    /// Where printf goes (default: standard error).
+    std::function<void(const std::string&)> print;
+};
+
+class CompiledModel;
+
+/// Compiles expressions and indexes productions, once per model; shared by all plants that grow from it.
+/// Throws UserError for constant expressions that cannot be evaluated.
+std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model);
+const Model& source_of(const CompiledModel& compiled);
+
+/// True if the model's productions assign globals, print or read files, so that it is derived in order.
+bool has_order(const CompiledModel& compiled);
+bool draws_random_numbers(const CompiledModel& compiled);
+
+/// The growth of one plant: the model's globals, arrays and step counter, and the rule that turns a string into the next.
+/// Random draws depend on seed, plant, module identity, step and draw number only.
+class Derivation {
+public:
+    Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings = {});
+    ~Derivation();
+    Derivation(Derivation&&) noexcept;
+    Derivation& operator=(Derivation&&) noexcept;
+
+    /// Runs the Start block and writes the axiom to `string`.
+    void start(ModuleString& string);
+
+    /// One derivation step: Q + 1, StartEach, every module of `from` replaced at once, EndEach; the End block too if it
+    /// was the last step. `to`'s memory is reused. Throws RunError for division by zero, a NaN or infinite parameter
+    /// (naming file, line, column, module and values), and when the memory budget would be exceeded.
+    void step(const ModuleString& from, ModuleString& to);
+
+    int steps_done() const;
+    /// The model's derivation length, or what a scene set with set_length().
+    int length() const;
+    void set_length(int steps);
+    /// True once the model called stop().
+    bool stopped() const;
+
+    /// Replaces a module by its picture (homomorphism), depth first to the maximum depth, for interpretation.
+    /// Appends to `picture` and returns true; false if no production applies. `links` belong to `string`.
+    /// Contexts are those of the original string; draws come from the homomorphism's own stream. Thread safe.
+    bool picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
+                 std::size_t module, std::size_t parameters_at, ModuleString& picture) const;
+    /// False if `picture` returns false for this letter whatever its context: the test the turtle makes first.
+    bool may_have_picture(LetterId letter) const;
+    bool has_homomorphism() const;
+
+    /// Globals, arrays and random state as bytes, for a checkpoint.
+    void save(std::ostream& out) const;
+    void restore(std::istream& in);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace espalier

@@ -1,0 +1,52 @@
+// A scene: an experiment as a TOML file describes it. Plants, processes, timeline.
+#pragma once
+
+#include "espalier/base/settings.h"
+#include "espalier/environment/environment.h"
+#include "espalier/language/reader.h"
+#include "espalier/turtle/turtle.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// One plant of the world: a model growing at a place with a seed.
+struct PlantDescription {
+    std::string name;
+    std::shared_ptr<const CompiledModel> model;  ///< plants with the same model and defines share it
+    TurtleSettings turtle;                       ///< its pose is the plant's place and orientation
+    std::uint32_t stream = 0;  ///< which random numbers it draws; default: its number in the scene
+};
+
+struct Scene {
+    std::filesystem::path path;
+    std::string name;
+    int steps = 0;
+    std::uint64_t seed = 0;
+    double dt = 1;             ///< time one derivation step stands for
+    std::string time_unit = "step";
+    std::optional<Box> domain;
+    std::vector<PlantDescription> plants;
+    std::vector<std::pair<std::string, Settings>> processes;  ///< [environment.<name>] in the file's order
+    std::string default_process;                              ///< who answers ?E, "" = the only one
+    Settings timeline;
+    Settings root;  ///< the whole file, for `resolved_json` and `reject_unread`
+};
+
+struct SceneOptions {
+    std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value
+    std::optional<int> steps;
+    std::optional<std::uint64_t> seed;
+};
+
+/// Reads a scene and the models it names. Throws UserError with every mistake it can find at once.
+Scene read_scene(const std::filesystem::path& path, const SceneOptions& options = {});
+Scene read_scene_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                      const SceneOptions& options = {});
+
+}  // namespace espalier

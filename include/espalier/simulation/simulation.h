@@ -1,0 +1,38 @@
+// A run: a world stepped to its end, with its timeline.
+#pragma once
+
+#include "espalier/simulation/world.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace espalier {
+
+struct Progress {
+    int step = 0, steps = 0;
+    std::size_t modules = 0;
+    double seconds = 0;
+};
+
+struct RunOptions {
+    std::filesystem::path output;  ///< empty: no timeline
+    bool overwrite = false;
+    std::size_t memory = 0;        ///< bytes; 0: half of the machine
+    const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
+    std::function<void(const Progress&)> progress;
+};
+
+struct RunResult {
+    int steps = 0;
+    bool interrupted = false;
+    std::size_t modules = 0;
+    double seconds = 0;
+};
+
+/// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
+/// run.json saying how it ended. Throws UserError, RunError.
+RunResult run(const Scene& scene, const RunOptions& options = {});
+
+}  // namespace espalier

@@ -1,0 +1,31 @@
+// One frame of the timeline: everything about one step that a recorder may read, after its exchange.
+#pragma once
+
+#include "espalier/environment/environment.h"
+#include "espalier/lsystem/module_string.h"
+#include "espalier/turtle/interpretation.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct PlantFrame {
+    std::uint32_t plant = 0;
+    std::string name;
+    const Model* model = nullptr;
+    const ModuleString* string = nullptr;
+    const Interpretation* interpretation = nullptr;
+    std::vector<Quantity> quantities;  ///< "light.mean", ... of this plant, the same names in every frame
+};
+
+struct Frame {
+    int step = 0;     ///< frame k is k derivations
+    double time = 0;  ///< scene's unit
+    std::span<const PlantFrame> plants;
+    const Fields* fields = nullptr;
+};
+
+}  // namespace espalier

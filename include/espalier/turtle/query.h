@@ -1,0 +1,35 @@
+// A question of the plant to its surroundings, stamped by the turtle that met it.
+#pragma once
+
+#include "espalier/geometry/plant_geometry.h"
+#include "espalier/lsystem/module_string.h"
+
+#include <cstdint>
+#include <span>
+
+namespace espalier {
+
+/// Who answers: the scene's process for ?E and named queries, the turtle itself for ?P ?H ?L ?U ?Q.
+enum class QueryKind : std::uint8_t { communication, position, heading, left, up, orientation };
+
+/// One communication module of one plant. Parameters point into the plant's string.
+struct Query {
+    QueryKind kind = QueryKind::communication;
+    std::int16_t process = -1;  ///< index into Model::processes; -1: ?E, the scene's default process
+    LetterId following = no_letter;  ///< the module that follows in the string, if any
+    std::uint32_t plant = 0;
+    std::uint32_t module = 0;         ///< index of the module that carries the parameters
+    std::size_t parameters_at = 0;    ///< where they begin in ModuleString::parameters
+    std::span<const double> parameters;
+    std::span<const double> following_parameters;
+    Identity identity = 0;            ///< of the communication module; 0 if the string keeps no lineage
+    Identity following_identity = 0;
+    Pose pose;
+    double width = 0;  ///< line width, metres
+    double scale = 1;
+};
+
+/// An answer is written over a copy of the query's own parameters; what a process leaves alone keeps its value.
+using Answer = std::span<double>;
+
+}  // namespace espalier

@@ -1,0 +1,59 @@
+// The turtle: a pose that moves and turns, with width, colour and scale.
+#pragma once
+
+#include "espalier/geometry/plant_geometry.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace espalier {
+
+/// A directional influence on growth: before every segment the heading turns towards `direction`
+/// (at `angle` from it), by the elasticity times the sine of what separates them.
+struct Tropism {
+    glm::dvec3 direction{0, -1, 0};  ///< its length is the intensity
+    double angle = 0;                ///< radians
+    double elasticity = 0;
+    double elasticity_step = 0;
+    bool torque = false;  ///< rolls about the heading instead of bending it
+};
+
+/// Where a turtle starts and what a symbol without parameter means.
+struct TurtleSettings {
+    Pose pose;
+    double angle = 0.78539816339744831;  ///< radians (45 degrees)
+    double line_width = 1;
+    double line_width_increment = 0;
+    int colour = 128;
+    int colour_increment = 1;
+    double scale = 1;
+    double scale_multiplier = 1;
+    bool past_cut = true;  ///< draw what follows `%`
+    std::vector<Tropism> tropisms;
+};
+
+/// Everything `[` saves and `]` restores.
+struct TurtleState {
+    Pose pose;
+    double width = 1;
+    double scale = 1;
+    int colour = 128;
+    int back_colour = 128;
+    std::uint32_t axis = 0;
+    std::uint16_t order = 0;
+    bool on_axis = false;    ///< the axis has an internode that ends here
+    double node_width = 1;   ///< width at the end of that internode
+    std::vector<double> elasticities;  ///< one per tropism, empty if there are none
+};
+
+// Rotations by `angle` radians in cpfg's senses.
+void turn_left(Pose& pose, double angle);   ///< +
+void pitch_down(Pose& pose, double angle);  ///< &
+void roll_left(Pose& pose, double angle);   ///< / of cpfg: L towards U
+void level(Pose& pose);                     ///< @v: left horizontal
+/// Turns the heading to `heading` with the least twist; a zero vector means straight up.
+void head_towards(Pose& pose, const glm::dvec3& heading);
+/// Bends (or rolls) by the tropisms, as before every segment.
+void apply_tropisms(TurtleState& state, const std::vector<Tropism>& tropisms);
+
+}  // namespace espalier
