@@ -1,0 +1,124 @@
+#include "espalier/base/file.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <sys/file.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) {
+    return std::generic_category().message(error);
+}
+
+[[noreturn]] void fail_to_write(const fs::path& path, const std::string& why) {
+    throw RunError(fmt::format("cannot write {}: {}", path.string(), why));
+}
+
+fs::path temporary_beside(const fs::path& path) {
+    // Hidden, of this process, with the extension writers go by.
+    return path.parent_path() / fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
+}
+
+void write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) throw std::system_error(errno, std::generic_category());
+        text.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+// Why a writer may have failed without saying so.
+std::string likely_reason(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) return "the folder " + folder.string() + " is missing";
+    if (::access(folder.c_str(), W_OK) != 0) return reason(errno);
+    const fs::space_info space = fs::space(folder, error);
+    if (!error && space.available < (1u << 20)) return "the disk is full";
+    return "the writer failed (disk full or file too large?)";
+}
+
+}  // namespace
+
+std::string read_text(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) throw UserError(fmt::format("cannot read {}: it is a folder", path.string()));
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw UserError(fmt::format("cannot read {}: {}", path.string(), reason(errno)));
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (in.bad()) throw UserError(fmt::format("cannot read {}: {}", path.string(), reason(errno)));
+    return std::move(text).str();
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+    write_file(path, [&](const fs::path& temporary) {
+        const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (descriptor < 0) throw std::system_error(errno, std::generic_category());
+        try {
+            write_all(descriptor, text);
+        } catch (...) {
+            ::close(descriptor);
+            throw;
+        }
+        // Some file systems report a full disk only here.
+        if (::close(descriptor) != 0) throw std::system_error(errno, std::generic_category());
+        return true;
+    });
+}
+
+void write_file(const fs::path& path, const std::function<bool(const fs::path&)>& write) {
+    const fs::path temporary = temporary_beside(path);
+    std::error_code ignored;
+    try {
+        if (!write(temporary)) fail_to_write(path, likely_reason(path.parent_path()));
+    } catch (const std::system_error& error) {
+        fs::remove(temporary, ignored);
+        fail_to_write(path, error.code().message());
+    } catch (...) {
+        fs::remove(temporary, ignored);
+        throw;
+    }
+    std::error_code error;
+    fs::rename(temporary, path, error);
+    if (error) {
+        fs::remove(temporary, ignored);
+        fail_to_write(path, error.message());
+    }
+}
+
+FolderLock::FolderLock(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error && !fs::is_directory(folder)) {
+        throw RunError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+    }
+    const fs::path file = folder / ".lock";
+    descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw RunError(fmt::format("cannot write into {}: {}", folder.string(), reason(errno)));
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        ::close(descriptor_);
+        throw UserError(
+            fmt::format("another run is writing into {}; choose another folder with --output, "
+                        "or wait until it has ended",
+                        folder.string()));
+    }
+}
+
+FolderLock::~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+}  // namespace espalier

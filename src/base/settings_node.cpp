@@ -1,0 +1,137 @@
+#include "settings_node.h"
+
+#include "espalier/base/text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace espalier {
+namespace {
+
+using Node = Settings::Node;
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Node& node);
+
+Json json_of_table(const Node& node) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < node.names.size(); ++i) object[node.names[i]] = json_of(*node.items[i]);
+    for (const auto& [key, value] : node.defaults) {
+        if (value && !node.find(key)) object[key] = json_of(*value);
+    }
+    return object;
+}
+
+Json json_of(const Node& node) {
+    switch (node.type) {
+        case Node::Type::boolean:
+            return node.boolean;
+        case Node::Type::integer:
+            return node.integer;
+        case Node::Type::real:
+            return node.real;
+        case Node::Type::text:
+            return node.text;
+        case Node::Type::table:
+            return json_of_table(node);
+        case Node::Type::array:
+            break;
+    }
+    Json array = Json::array();
+    for (const auto& item : node.items) array.push_back(json_of(*item));
+    return array;
+}
+
+}  // namespace
+
+std::shared_ptr<Node> Node::make(bool value) {
+    auto node = std::make_shared<Node>(Type::boolean);
+    node->boolean = value;
+    return node;
+}
+
+std::shared_ptr<Node> Node::make(std::int64_t value) {
+    auto node = std::make_shared<Node>(Type::integer);
+    node->integer = value;
+    return node;
+}
+
+std::shared_ptr<Node> Node::make(double value) {
+    auto node = std::make_shared<Node>(Type::real);
+    node->real = value;
+    return node;
+}
+
+std::shared_ptr<Node> Node::make(std::string value) {
+    auto node = std::make_shared<Node>(Type::text);
+    node->text = std::move(value);
+    return node;
+}
+
+std::shared_ptr<Node> Node::find_shared(std::string_view key) const {
+    const auto at = std::find(names.begin(), names.end(), key);
+    return at == names.end() ? nullptr : items[at - names.begin()];
+}
+
+Node* Node::find(std::string_view key) const {
+    return find_shared(key).get();
+}
+
+std::shared_ptr<Node> Node::read_shared(std::string_view key) {
+    std::shared_ptr<Node> node = find_shared(key);
+    if (!node) return nullptr;
+    node->was_read = true;
+    // What lies in a plain array is read with it; tables inside answer for themselves.
+    for (const auto& item : node->items) {
+        if (node->type == Type::array) item->was_read = true;
+    }
+    return node;
+}
+
+Node& Node::require(std::string_view key, const char* expected) {
+    if (Node* node = read(key)) return *node;
+    remember_default(key, nullptr);
+    throw UserError(place, fmt::format("'{}' is missing here: {} is needed", key, expected));
+}
+
+void Node::remember_default(std::string_view key, std::shared_ptr<Node> value) {
+    const auto known = [&](const auto& entry) { return entry.first == key; };
+    const auto at = std::find_if(defaults.begin(), defaults.end(), known);
+    if (at == defaults.end()) defaults.emplace_back(std::string(key), std::move(value));
+}
+
+void Node::put(const std::string& key, std::shared_ptr<Node> value) {
+    const auto at = std::find(names.begin(), names.end(), key);
+    if (at != names.end()) {
+        items[at - names.begin()] = std::move(value);
+        return;
+    }
+    names.push_back(key);
+    items.push_back(std::move(value));
+}
+
+void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {
+    std::vector<std::string> known;
+    if (type == Type::table) {
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (items[i]->was_read) known.push_back(names[i]);
+        }
+        for (const auto& entry : defaults) known.push_back(entry.first);
+    }
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (type == Type::table && !items[i]->was_read) {
+            diagnostics.push_back({Diagnostic::Severity::error, items[i]->place,
+                                   fmt::format("'{}' means nothing here{}", names[i], did_you_mean(names[i], known))});
+        } else {
+            items[i]->collect_unread(diagnostics);
+        }
+    }
+}
+
+std::string Node::to_json() const {
+    return json_of(*this).dump(2);
+}
+
+}  // namespace espalier

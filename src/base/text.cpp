@@ -1,0 +1,77 @@
+#include "espalier/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace espalier {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row.back();
+}
+
+std::size_t sequence_length(unsigned char lead) {
+    if (lead < 0x80) return 1;
+    if (lead >= 0xC2 && lead < 0xE0) return 2;
+    if (lead >= 0xE0 && lead < 0xF0) return 3;
+    if (lead >= 0xF0 && lead < 0xF5) return 4;
+    return 1;
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
+    std::string best;
+    // One slip for short names, a third of the letters for long ones.
+    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        const std::size_t distance = edit_distance(name, candidate);
+        if (distance < best_distance) {
+            best = candidate;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+std::string did_you_mean(std::string_view name, std::span<const std::string> candidates) {
+    const std::string nearest = nearest_name(name, candidates);
+    return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+}
+
+std::string format_general(double value) {
+    return fmt::format("{:g}", value);
+}
+
+std::string format_exact(double value) {
+    return fmt::format("{}", value);
+}
+
+std::vector<std::string> code_points(std::string_view text) {
+    std::vector<std::string> points;
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t length = sequence_length(static_cast<unsigned char>(text[i]));
+        const auto continues = [&](std::size_t k) { return (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80; };
+        for (std::size_t k = 1; k < length; ++k) {
+            if (i + k >= text.size() || !continues(k)) length = 1;
+        }
+        points.emplace_back(text.substr(i, length));
+        i += length;
+    }
+    return points;
+}
+
+}  // namespace espalier
