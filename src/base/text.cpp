@@ -35,8 +35,8 @@ std::size_t sequence_length(unsigned char lead) {
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
     std::string best;
-    // One slip for short names, a third of the letters for long ones.
-    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+    // One slip for short names, two (a pair exchanged) from four letters on, a third of the letters for long ones.
+    std::size_t best_distance = (name.size() < 4 ? 1 : std::max<std::size_t>(2, name.size() / 3)) + 1;
     for (const std::string& candidate : candidates) {
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {

@@ -1,0 +1,62 @@
+#include "espalier/base/random.h"
+
+#include "catch.h"
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+using namespace espalier;
+
+TEST_CASE("the generator is Philox 4x32-10, by its published known answers", "[base]") {
+    const auto zero = r123::Philox4x32()({{0, 0, 0, 0}}, {{0, 0}});
+    CHECK(zero[0] == 0x6627e8d5u);
+    CHECK(zero[3] == 0x9b00dbd8u);
+}
+
+TEST_CASE("a draw depends on seed, plant, stream, drawer, step and number, and on nothing else", "[base]") {
+    const RandomKey key(7, 0, Stream::derivation);
+    const double value = RandomDraws(key, 11, 3).uniform();
+    CHECK(RandomDraws(RandomKey(7, 0, Stream::derivation), 11, 3).uniform() == value);
+    std::set<double> others = {value,
+                               RandomDraws(RandomKey(8, 0, Stream::derivation), 11, 3).uniform(),
+                               RandomDraws(RandomKey(7, 1, Stream::derivation), 11, 3).uniform(),
+                               RandomDraws(RandomKey(7, 0, Stream::homomorphism), 11, 3).uniform(),
+                               RandomDraws(key, 12, 3).uniform(),
+                               RandomDraws(key, 11, 4).uniform(),
+                               RandomDraws(key, 11, 3, 1).uniform()};
+    CHECK(others.size() == 7);
+}
+
+TEST_CASE("uniform draws fill [0,1) evenly: chi-square over 100 bins", "[base]") {
+    std::vector<int> bins(100);
+    for (std::uint64_t drawer = 0; drawer < 100000; ++drawer) {
+        const double u = RandomDraws(RandomKey(1, 2, Stream::derivation), drawer, 0).uniform();
+        REQUIRE(u >= 0);
+        REQUIRE(u < 1);
+        ++bins[static_cast<std::size_t>(u * 100)];
+    }
+    double chi = 0;
+    for (int count : bins) chi += (count - 1000.0) * (count - 1000.0) / 1000;
+    CHECK(chi < 134.6);  // 99th percentile of chi-square with 99 degrees of freedom
+    CHECK(chi > 69.2);   // 1st percentile
+}
+
+TEST_CASE("normal, beta and binomial deviates have the moments of their distributions", "[base]") {
+    RandomDraws draws(RandomKey(5, 0, Stream::derivation), 1, 0);
+    double sum = 0, squares = 0, beta = 0, tosses = 0;
+    const int n = 100000;
+    for (int i = 0; i < n; ++i) {
+        const double x = draws.normal();
+        sum += x;
+        squares += x * x;
+        beta += draws.beta(2, 3);
+        tosses += draws.binomial(10, 0.3);
+    }
+    CHECK(std::abs(sum / n) < 0.012);
+    CHECK(std::abs(squares / n - 1) < 0.02);
+    CHECK(std::abs(beta / n - 0.4) < 0.003);
+    CHECK(std::abs(tosses / n - 3) < 0.02);
+}

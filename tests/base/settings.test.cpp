@@ -1,0 +1,103 @@
+#include "espalier/base/settings.h"
+
+#include "catch.h"
+
+#include <functional>
+
+using namespace espalier;
+
+namespace {
+
+std::string message_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const UserError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+const char* const scene = R"(
+[simulation]
+steps = 40
+label = "lamp"
+
+[environment.water]
+voxel = 0.5
+[environment.light]
+voxel = 0.25
+at = [1, 2, 3]
+)";
+
+}  // namespace
+
+TEST_CASE("values come with the type asked for, and defaults where the file is silent", "[base]") {
+    const Settings root = Settings::parse_toml(scene, "scene.toml");
+    CHECK(root.table("simulation").integer("steps") == 40);
+    CHECK(root.table("simulation").integer_or("seed", 7) == 7);
+    CHECK(root.table("environment").table("light").vector("at") == glm::dvec3(1, 2, 3));
+    CHECK(root.table("environment").table("light").number_or("depth", 2.5) == 2.5);
+}
+
+TEST_CASE("tables keep the order of the file, because the order of processes has a meaning", "[base]") {
+    const Settings root = Settings::parse_toml(scene, "scene.toml");
+    CHECK(root.table("environment").keys() == std::vector<std::string>{"water", "light"});
+}
+
+TEST_CASE("a key nobody asked for is an error at its place that offers the nearest known name", "[base]") {
+    const Settings root = Settings::parse_toml("[light]\nvoxel = 1\ntransmitance = 0.3\n", "scene.toml");
+    const Settings light = root.table("light");
+    light.number("voxel");
+    light.number_or("transmittance", 0.5);
+    const std::string message = message_of([&] { root.reject_unread(); });
+    CHECK(message.find("scene.toml:3:1") != std::string::npos);
+    CHECK(message.find("did you mean 'transmittance'") != std::string::npos);
+}
+
+TEST_CASE("a table nobody entered is one error, not one for each of its keys", "[base]") {
+    const Settings root = Settings::parse_toml("[ligth]\na = 1\nb = 2\n", "scene.toml");
+    try {
+        root.reject_unread();
+        FAIL("an unread table must be an error");
+    } catch (const UserError& error) {
+        CHECK(error.diagnostics().size() == 1);
+    }
+}
+
+TEST_CASE("numbers out of range, not finite or of the wrong type name the place and what was expected", "[base]") {
+    const Settings root = Settings::parse_toml("a = -1\nb = nan\nc = \"x\"\nd = [1, 2]", "s.toml");
+    CHECK(message_of([&] { root.number("a", Range::positive()); }) == "s.toml:1:1: 'a' must be greater than 0, not -1");
+    CHECK(message_of([&] { root.number("b"); }) == "s.toml:2:1: 'b' must be a finite number, not nan");
+    CHECK(message_of([&] { root.number("c"); }) == "s.toml:3:1: 'c' must be a number, not a text");
+    CHECK(message_of([&] { root.vector("d"); }) == "s.toml:4:1: 'd' must have three numbers [x, y, z], not 2");
+    CHECK(message_of([&] { root.number("e"); }).find("'e' is missing") != std::string::npos);
+}
+
+TEST_CASE("--set overrides a value, makes a missing one, and enters arrays of tables by number", "[base]") {
+    Settings root = Settings::parse_toml("[[plant]]\nname = 'a'\n[[plant]]\nname = 'b'\n", "s.toml");
+    root.set("plant.1.name", "c");
+    root.set("simulation.steps", "3");
+    CHECK(root.tables("plant")[1].text("name") == "c");
+    CHECK(root.table("simulation").integer("steps") == 3);
+    CHECK_THROWS_AS(root.set("plant.2.name", "d"), UserError);
+    CHECK_THROWS_AS(root.set("plant..name", "d"), UserError);
+    CHECK_THROWS_AS(root.set("simulation.steps.x", "1"), UserError);
+}
+
+TEST_CASE("what was read is resolved with the defaults that were used", "[base]") {
+    const Settings root = Settings::parse_toml("a = 1", "s.toml");
+    root.integer("a");
+    root.number_or("b", 0.5);
+    CHECK(root.resolved_json() == "{\n  \"a\": 1,\n  \"b\": 0.5\n}");
+}
+
+TEST_CASE("a mistake in TOML shows the line it stands in", "[base]") {
+    const std::string message = message_of([] { Settings::parse_toml("a = 1\nb = = 2\n", "s.toml"); });
+    CHECK(message.find("s.toml:2:") == 0);
+    CHECK(message.find("b = = 2") != std::string::npos);
+}
+
+TEST_CASE("paths are relative to the file that says them", "[base]") {
+    const Settings root = Settings::parse_toml("model = '../m/a.l'", "s.toml", "/scenes");
+    CHECK(root.path("model") == "/m/a.l");
+}

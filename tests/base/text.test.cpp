@@ -1,0 +1,37 @@
+#include "espalier/base/text.h"
+
+#include "espalier/base/error.h"
+
+#include "catch.h"
+
+using namespace espalier;
+
+TEST_CASE("the nearest name is a slip of the pen away, or none", "[base]") {
+    const std::vector<std::string> names = {"voxel", "strength", "depth"};
+    CHECK(nearest_name("voxle", names) == "voxel");
+    CHECK(nearest_name("strenght", names) == "strength");
+    CHECK(nearest_name("gravity", names).empty());
+    CHECK(did_you_mean("dept", names) == " (did you mean 'depth'?)");
+}
+
+TEST_CASE("numbers print as cpfg prints them, or exactly", "[base]") {
+    CHECK(format_general(0.1) == "0.1");
+    CHECK(format_general(1e6) == "1e+06");
+    CHECK(format_general(123456.7) == "123457");
+    CHECK(format_exact(0.1) == "0.1");
+    CHECK(std::stod(format_exact(1.0 / 3)) == 1.0 / 3);
+}
+
+TEST_CASE("text splits into code points, and invalid bytes stand for themselves", "[base]") {
+    CHECK(code_points("aé") == std::vector<std::string>{"a", "é"});
+    CHECK(code_points("\xC3(") == std::vector<std::string>{"\xC3", "("});
+    CHECK(code_points("\xE2\x82").size() == 2);
+}
+
+TEST_CASE("a message shows place, source line and caret", "[base]") {
+    Diagnostic diagnostic;
+    diagnostic.place = {"m.l", 12, 3};
+    diagnostic.message = "'lenght' is unknown";
+    diagnostic.source = "A(lenght)";
+    CHECK(to_string(diagnostic) == "m.l:12:3: 'lenght' is unknown\n    A(lenght)\n      ^");
+}
