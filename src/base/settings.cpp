@@ -135,6 +135,14 @@ glm::dvec3 Settings::vector(std::string_view key) const {
     return vector_of(node_->require(key, "three numbers [x, y, z]"), key);
 }
 
+std::vector<glm::dvec3> Settings::vectors(std::string_view key) const {
+    const Node& node = node_->require(key, "an array of vectors [[x, y, z], ...]");
+    if (node.type != Type::array) wrong_type(node, key, "an array of vectors [[x, y, z], ...]");
+    std::vector<glm::dvec3> vectors;
+    for (const auto& item : node.items) vectors.push_back(vector_of(*item, key));
+    return vectors;
+}
+
 double Settings::number_or(std::string_view key, double fallback, Range range) const {
     const Node* node = node_->read(key);
     if (node) return number_of(*node, key, range);

@@ -48,6 +48,7 @@ public:
     std::string text(std::string_view key) const;
     std::vector<double> numbers(std::string_view key) const;
     glm::dvec3 vector(std::string_view key) const;
+    std::vector<glm::dvec3> vectors(std::string_view key) const;  ///< [[x, y, z], ...]
 
     // Values with a default.
     double number_or(std::string_view key, double fallback, Range range = Range::any()) const;

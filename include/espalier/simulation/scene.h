@@ -24,8 +24,10 @@ struct PlantDescription {
 };
 
 struct Scene {
-    std::filesystem::path path;
+    std::filesystem::path path;  ///< the file, empty if the scene was read from text
     std::string name;
+    std::string text;                                            ///< as it was read, before overrides
+    std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, and --steps and --seed
     int steps = 0;
     std::uint64_t seed = 0;
     double dt = 1;             ///< time one derivation step stands for
@@ -44,9 +46,14 @@ struct SceneOptions {
     std::optional<std::uint64_t> seed;
 };
 
-/// Reads a scene and the models it names. Throws UserError with every mistake it can find at once.
+/// Reads a scene and the models it names, but makes no process: World does. Throws UserError with every mistake it can find at once.
 Scene read_scene(const std::filesystem::path& path, const SceneOptions& options = {});
 Scene read_scene_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                       const SceneOptions& options = {});
+/// The scene of a model alone: one plant at the origin, nothing around it.
+Scene scene_of_model(const std::filesystem::path& model, const SceneOptions& options = {});
+
+/// The documentation of scene files, for `espalier list scene`.
+const char* scene_help();
 
 }  // namespace espalier

@@ -1,0 +1,26 @@
+#include "memory.h"
+
+#include <algorithm>
+#include <fstream>
+#include <unistd.h>
+
+namespace espalier {
+
+std::size_t half_of_the_machine() {
+    std::size_t bytes =
+        static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
+    // A container's limit (control groups, version 2); "max" is no number and leaves the machine's.
+    std::ifstream limit("/sys/fs/cgroup/memory.max");
+    std::size_t allowed = 0;
+    if (limit >> allowed) bytes = std::min(bytes, allowed);
+    return bytes / 2;
+}
+
+MemoryShares share_memory(std::size_t budget, std::size_t processes) {
+    // The geometry of a plant takes up to three times what its strings take: an internode is 96 bytes, a module with
+    // one parameter and lineage 30, twice. So a quarter of what the plants have is for strings.
+    const std::size_t fields = processes == 0 ? 0 : budget / 2;
+    return {(budget - fields) / 4, processes == 0 ? 0 : fields / processes};
+}
+
+}  // namespace espalier

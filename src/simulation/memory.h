@@ -1,0 +1,18 @@
+// How much memory a run may take, and how it is shared out.
+#pragma once
+
+#include <cstddef>
+
+namespace espalier {
+
+/// Half of the machine's memory, or of what the container this runs in may use, in bytes.
+std::size_t half_of_the_machine();
+
+/// A budget divided between the plants' strings, their geometry and the fields of the processes.
+struct MemoryShares {
+    std::size_t strings;  ///< all strings together, old and new
+    std::size_t process;  ///< the fields of each process
+};
+MemoryShares share_memory(std::size_t budget, std::size_t processes);
+
+}  // namespace espalier

@@ -1,0 +1,175 @@
+#include "plant_table.h"
+
+#include "espalier/base/random.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <limits>
+#include <set>
+
+namespace espalier {
+namespace {
+
+constexpr double most_plants = 1e6;
+
+Tropism read_tropism(const Settings& table) {
+    Tropism tropism;
+    tropism.direction = table.vector_or("direction", tropism.direction);
+    tropism.angle = glm::radians(table.number_or("angle", 0));
+    tropism.elasticity = table.number_or("elasticity", 0);
+    tropism.elasticity_step = table.number_or("elasticity_step", 0);
+    tropism.torque = table.flag_or("torque", false);
+    if (glm::length(tropism.direction) == 0) {
+        throw UserError(table.place("direction"), "'direction' of a tropism must not be zero");
+    }
+    table.reject_unread();
+    return tropism;
+}
+
+TurtleSettings read_turtle(const Settings& table) {
+    TurtleSettings turtle;
+    const auto colour_index = [&](const char* key, int fallback) {
+        return static_cast<int>(table.integer_or(key, fallback, Range::between(0, 65535)));
+    };
+    turtle.angle = glm::radians(table.number_or("angle", glm::degrees(turtle.angle)));
+    turtle.line_width = table.number_or("line_width", turtle.line_width, Range::not_negative());
+    turtle.line_width_increment = table.number_or("line_width_increment", turtle.line_width_increment);
+    turtle.colour = colour_index("colour", turtle.colour);
+    turtle.colour_increment = colour_index("colour_increment", turtle.colour_increment);
+    turtle.scale = table.number_or("scale", turtle.scale, Range::positive());
+    turtle.scale_multiplier = table.number_or("scale_multiplier", turtle.scale_multiplier, Range::positive());
+    turtle.past_cut = table.flag_or("past_cut", turtle.past_cut);
+    for (const Settings& tropism : table.tables("tropism")) turtle.tropisms.push_back(read_tropism(tropism));
+    table.reject_unread();
+    return turtle;
+}
+
+// Rows run along z, columns along x, and the middle of the stand is at `position`.
+std::vector<glm::dvec3> grid_offsets(const Settings& grid, std::uint64_t seed, std::uint32_t stream) {
+    const auto columns = grid.integer("columns", Range::between(1, most_plants));
+    const auto rows = grid.integer_or("rows", 1, Range::between(1, most_plants));
+    const double spacing = grid.number("spacing", Range::positive());
+    const double jitter = grid.number_or("jitter", 0, Range::not_negative());
+    grid.reject_unread();
+    if (static_cast<double>(columns) * static_cast<double>(rows) > most_plants) {
+        throw UserError(grid.place(), fmt::format("a stand may have at most {:.0f} plants", most_plants));
+    }
+    std::vector<glm::dvec3> offsets;
+    for (std::int64_t row = 0; row < rows; ++row) {
+        for (std::int64_t column = 0; column < columns; ++column) {
+            RandomDraws draws({seed, stream + static_cast<std::uint32_t>(offsets.size()), Stream::placement}, 0, 0);
+            const double dx = jitter * (2 * draws.uniform() - 1);
+            const double dz = jitter * (2 * draws.uniform() - 1);
+            offsets.push_back({(static_cast<double>(column) - 0.5 * static_cast<double>(columns - 1)) * spacing + dx, 0,
+                               (static_cast<double>(row) - 0.5 * static_cast<double>(rows - 1)) * spacing + dz});
+        }
+    }
+    return offsets;
+}
+
+std::vector<glm::dvec3> read_places(const Settings& table, std::uint64_t seed, std::uint32_t stream) {
+    if (table.has("positions")) {
+        for (const char* other : {"position", "grid"}) {
+            if (table.has(other)) {
+                throw UserError(table.place(other), fmt::format("give either 'positions' or '{}', not both", other));
+            }
+        }
+        std::vector<glm::dvec3> positions = table.vectors("positions");
+        if (positions.empty()) throw UserError(table.place("positions"), "'positions' is empty: no plant would grow");
+        return positions;
+    }
+    const glm::dvec3 position = table.vector_or("position", {0, 0, 0});
+    if (!table.has("grid")) return {position};
+    std::vector<glm::dvec3> places = grid_offsets(table.table("grid"), seed, stream);
+    for (glm::dvec3& place : places) place += position;
+    return places;
+}
+
+Defines read_defines(const Settings& table) {
+    Defines defines;
+    for (const std::string& name : table.keys()) defines[name] = table.value_text(name);
+    return defines;
+}
+
+using ModelKey = std::pair<std::filesystem::path, Defines>;
+using Models = std::map<ModelKey, std::shared_ptr<const CompiledModel>>;
+
+std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, Models& models) {
+    const ModelKey key{table.path("model"), read_defines(table.table("define"))};
+    if (!std::filesystem::exists(key.first)) {
+        throw UserError(table.place("model"), fmt::format("there is no model {}", key.first.string()));
+    }
+    std::shared_ptr<const CompiledModel>& model = models[key];
+    if (!model) model = compile(read_model(key.first, {key.second, false}));
+    return model;
+}
+
+Pose read_pose(const Settings& table) {
+    Pose pose;
+    const glm::dvec3 heading = table.vector_or("heading", pose.heading);
+    if (glm::length(heading) == 0) throw UserError(table.place("heading"), "'heading' must not be zero");
+    head_towards(pose, heading);
+    roll_left(pose, glm::radians(table.number_or("roll", 0)));
+    return pose;
+}
+
+class PlantReader {
+public:
+    PlantReader(std::uint64_t seed, std::vector<PlantDescription>& plants) : seed_(seed), plants_(plants) {}
+
+    void read(const Settings& table) {
+        PlantDescription plant;
+        plant.model = compiled_model(table, models_);
+        plant.turtle = read_turtle(table.table("turtle"));
+        plant.turtle.pose = read_pose(table);
+        const auto stream = static_cast<std::uint32_t>(
+            table.integer_or("stream", static_cast<std::int64_t>(plants_.size()), Range::between(0, 4294967295.0)));
+        const std::vector<glm::dvec3> places = read_places(table, seed_, stream);
+        const std::string name = read_name(table, source_of(*plant.model));
+        table.reject_unread();
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            plant.name = places.size() == 1 ? name : fmt::format("{}-{}", name, i + 1);
+            plant.stream = stream + static_cast<std::uint32_t>(i);
+            plant.turtle.pose.position = places[i];
+            plants_.push_back(plant);
+        }
+    }
+
+private:
+    // A name given twice is a mistake; a name nobody gave is made from the model's.
+    std::string read_name(const Settings& table, const Model& model) {
+        std::string name = table.text_or("name", "");
+        if (!name.empty() && !names_.insert(name).second) {
+            throw UserError(table.place("name"), fmt::format("two plants are called '{}'", name));
+        }
+        if (!name.empty()) return name;
+        const std::string stem = std::filesystem::path(model.name).stem().string();
+        name = stem;
+        for (int number = 2; !names_.insert(name).second; ++number) name = fmt::format("{}-{}", stem, number);
+        return name;
+    }
+
+    std::uint64_t seed_;
+    std::vector<PlantDescription>& plants_;
+    std::set<std::string> names_;
+    Models models_;
+};
+
+}  // namespace
+
+std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes) {
+    std::vector<PlantDescription> plants;
+    mistakes.attempt([&] {
+        const std::vector<Settings> tables = root.tables("plant");
+        if (tables.empty()) throw UserError(root.place(), "no [[plant]] in this scene: at least one is needed");
+        PlantReader reader(seed, plants);
+        for (const Settings& table : tables) {
+            mistakes.attempt([&] { reader.read(table); });
+        }
+    });
+    return plants;
+}
+
+}  // namespace espalier

@@ -1,0 +1,34 @@
+// The [[plant]] tables of a scene: individuals and stands, and the models they grow from.
+#pragma once
+
+#include "espalier/simulation/scene.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace espalier {
+
+/// Collects the mistakes of several places, so that the user reads them all at once.
+class Mistakes {
+public:
+    template <class Action>
+    void attempt(const Action& action) {
+        try {
+            action();
+        } catch (const UserError& error) {
+            diagnostics_.insert(diagnostics_.end(), error.diagnostics().begin(), error.diagnostics().end());
+        }
+    }
+    void throw_if_any() const {
+        if (!diagnostics_.empty()) throw UserError(diagnostics_);
+    }
+
+private:
+    std::vector<Diagnostic> diagnostics_;
+};
+
+/// Reads every plant of the scene, in order. Plants with the same model and defines share one CompiledModel.
+std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes);
+
+}  // namespace espalier
