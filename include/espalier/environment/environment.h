@@ -1,6 +1,7 @@
 // The environment of a world: its processes and their fields, and the exchange of one step.
 #pragma once
 
+#include "espalier/base/column.h"
 #include "espalier/environment/environment_process.h"
 
 #include <memory>
@@ -39,10 +40,30 @@ public:
     void restore(std::istream& in);
 
 private:
+    /// The questions to one process and its answers, their memory reused from step to step.
+    struct Batch {
+        std::vector<Query> queries;
+        Column<double> values;  ///< the answers, one after the other
+        std::vector<Answer> answers;
+    };
+
+    void gather(const WorldView& world);
+    void gather(const PlantView& plant, int step);
+    Batch& batch_for(const Query& query, const PlantView& plant);
+    void require_sound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
+    void answer_turtle_queries();
+    void consult(std::size_t process, const WorldView& world);
+    void require_finite(std::size_t process, const WorldView& world) const;
+    std::size_t batches_end() const { return processes_.size(); }  ///< where the turtle's own batch stands
+
     std::vector<std::string> names_;
+    std::vector<std::string> kinds_;  ///< what each process is: "voxel-shade"
     std::vector<std::unique_ptr<EnvironmentProcess>> processes_;
+    std::vector<std::pair<int, int>> arities_;
     Fields fields_;
     std::optional<std::size_t> default_;
+    std::vector<Batch> batches_;                       ///< one per process, and last the turtle's own
+    std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name the plant's model declares
 };
 
 }  // namespace espalier

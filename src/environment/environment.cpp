@@ -1,0 +1,118 @@
+#include "espalier/environment/environment.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace espalier {
+namespace {
+
+const ProcessRegistry::Entry& registered_process(const Settings& settings) {
+    const std::string kind = settings.text("process");
+    const auto& entries = ProcessRegistry::entries();
+    const auto found = entries.find(kind);
+    if (found != entries.end()) return found->second;
+    std::vector<std::string> kinds;
+    for (const auto& entry : entries) kinds.push_back(entry.first);
+    throw UserError(settings.place("process"), fmt::format("there is no process '{}'{}; there are: {}", kind,
+                                                           did_you_mean(kind, kinds), fmt::join(kinds, ", ")));
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    return names.empty() ? "the scene has no processes" : fmt::format("the scene has: {}", fmt::join(names, ", "));
+}
+
+std::string parameters_text(const std::pair<int, int>& arity) {
+    if (arity.first == arity.second) return fmt::format("{} parameter{}", arity.first, arity.first == 1 ? "" : "s");
+    return fmt::format("{} to {} parameters", arity.first, arity.second);
+}
+
+/// Every module a model may put into its string, with the place where it says so.
+template <class Visit>
+void visit_written_modules(const Model& model, const Visit& visit) {
+    const auto visit_successors = [&](const std::vector<Production>& productions) {
+        for (const Production& production : productions) {
+            for (const ModuleTemplate& module : production.successor) visit(module);
+        }
+    };
+    for (const LSystem& system : model.systems) {
+        for (const ModuleTemplate& module : system.axiom) visit(module);
+        visit_successors(system.productions);
+        visit_successors(system.decomposition.productions);
+    }
+}
+
+}  // namespace
+
+Environment::Environment(const std::vector<std::pair<std::string, Settings>>& tables,
+                         const EnvironmentContext& context) {
+    for (const auto& [name, table] : tables) {
+        Settings settings = table;
+        EnvironmentContext own = context;
+        own.name = name;
+        const ProcessRegistry::Entry& entry = registered_process(settings);
+        processes_.push_back(entry.make(settings, own, fields_));
+        names_.push_back(name);
+        kinds_.push_back(entry.description.name);
+        arities_.push_back(processes_.back()->query_arity());
+    }
+    if (processes_.size() == 1) default_ = 0;
+    batches_.resize(processes_.size() + 1);
+}
+
+std::optional<std::size_t> Environment::find(const std::string& name) const {
+    for (std::size_t process = 0; process < names_.size(); ++process) {
+        if (names_[process] == name) return process;
+    }
+    return std::nullopt;
+}
+
+void Environment::set_default(const std::string& name) {
+    default_ = find(name);
+    if (!default_) {
+        throw UserError(fmt::format("the default process '{}' is not in the scene{}; {}", name,
+                                    did_you_mean(name, names_), listed(names_)));
+    }
+}
+
+void Environment::require_answers(const Model& model, const std::string& plant_name) const {
+    for (const std::string& name : model.processes) {
+        if (find(name)) continue;
+        throw UserError(
+            fmt::format("plant '{}': model {} declares `environment {};` but the scene has no process of "
+                        "that name{}; {}",
+                        plant_name, model.name, name, did_you_mean(name, names_), listed(names_)));
+    }
+    visit_written_modules(model, [&](const ModuleTemplate& module) {
+        const std::string& symbol = model.alphabet.name(module.letter);
+        if (symbol.size() < 2 || symbol[0] != '?') return;
+        const bool unnamed = symbol == "?E";
+        const std::optional<std::size_t> process = unnamed ? default_ : find(symbol.substr(1));
+        if (unnamed && !process) {
+            throw UserError(module.place, fmt::format("plant '{}': model {} asks ?E, but the scene has no default "
+                                                      "process; {}",
+                                                      plant_name, model.name, listed(names_)));
+        }
+        if (!process) return;  // ?P ?H ?L ?U ?Q
+        const int given = model.alphabet.arity(module.letter);
+        if (given >= arities_[*process].first && given <= arities_[*process].second) return;
+        throw UserError(module.place,
+                        fmt::format("plant '{}': model {} gives {} {}, but process '{}' ({}) takes {}", plant_name,
+                                    model.name, symbol, parameters_text({given, given}), names_[*process],
+                                    kinds_[*process], parameters_text(arities_[*process])));
+    });
+}
+
+std::vector<Quantity> Environment::statistics(std::uint32_t plant) const {
+    std::vector<Quantity> all;
+    for (std::size_t process = 0; process < processes_.size(); ++process) {
+        for (Quantity& quantity : processes_[process]->statistics(plant)) {
+            all.push_back({names_[process] + "." + quantity.name, quantity.value});
+        }
+    }
+    return all;
+}
+
+}  // namespace espalier

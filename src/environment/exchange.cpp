@@ -1,0 +1,119 @@
+// One exchange: gather every question, let every process advance and answer, then write the answers.
+#include "espalier/base/error.h"
+#include "espalier/environment/environment.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+std::string described(const PlantView& plant, int step) {
+    return fmt::format("step {}: plant {} (model {})", step, plant.plant, plant.model->name);
+}
+
+}  // namespace
+
+void Environment::exchange(const WorldView& world, std::span<ModuleString*> strings) {
+    assert(strings.size() == world.plants.size());
+    gather(world);
+    answer_turtle_queries();
+    for (std::size_t process = 0; process < processes_.size(); ++process) consult(process, world);
+    // Only now: the queries' parameters point into these strings.
+    for (const Batch& batch : batches_) {
+        for (std::size_t i = 0; i < batch.queries.size(); ++i) {
+            Column<double>& parameters = strings[batch.queries[i].plant]->parameters;
+            std::copy(batch.answers[i].begin(), batch.answers[i].end(),
+                      parameters.begin() + static_cast<std::ptrdiff_t>(batch.queries[i].parameters_at));
+        }
+    }
+}
+
+// Plant order, then string order; answers begin as copies of the parameters.
+void Environment::gather(const WorldView& world) {
+    for (Batch& batch : batches_) {
+        batch.queries.clear();
+        batch.values.clear();
+        batch.answers.clear();
+    }
+    for (const PlantView& plant : world.plants) gather(plant, world.step);
+    for (Batch& batch : batches_) {
+        double* next = batch.values.data();
+        for (const Query& query : batch.queries) {
+            batch.answers.emplace_back(next, query.parameters.size());
+            next += query.parameters.size();
+        }
+    }
+}
+
+void Environment::gather(const PlantView& plant, int step) {
+    by_name_.clear();
+    for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
+    for (const Query& query : plant.interpretation->queries) {
+        Batch& batch = batch_for(query, plant);
+        const auto process = static_cast<std::size_t>(&batch - batches_.data());
+        if (process != batches_end()) require_sound(query, process, plant, step);
+        batch.queries.push_back(query);
+        batch.values.insert(batch.values.end(), query.parameters.begin(), query.parameters.end());
+    }
+}
+
+Environment::Batch& Environment::batch_for(const Query& query, const PlantView& plant) {
+    if (query.kind != QueryKind::communication) return batches_[batches_end()];
+    const bool unnamed = query.process < 0;
+    const std::optional<std::size_t> process = unnamed ? default_ : by_name_[static_cast<std::size_t>(query.process)];
+    if (process) return batches_[*process];
+    const std::string name = unnamed ? "E" : plant.model->processes[static_cast<std::size_t>(query.process)];
+    throw UserError(fmt::format("plant {} (model {}) asks ?{}, and no process of the scene answers that", plant.plant,
+                                plant.model->name, name));
+}
+
+// A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
+void Environment::require_sound(const Query& query, std::size_t process, const PlantView& plant, int step) const {
+    const auto [fewest, most] = arities_[process];
+    const auto given = static_cast<int>(query.parameters.size());
+    if (given < fewest || given > most) {
+        throw UserError(fmt::format("{} asks process '{}' ({}) with {} parameters, which takes {} to {}",
+                                    described(plant, step), names_[process], kinds_[process], given, fewest, most));
+    }
+    for (const double value : query.parameters) {
+        if (std::isfinite(value)) continue;
+        throw RunError(fmt::format("{} asks process '{}' ({}) with the parameter {}", described(plant, step),
+                                   names_[process], kinds_[process], value));
+    }
+}
+
+void Environment::answer_turtle_queries() {
+    const Batch& batch = batches_[batches_end()];
+    for (std::size_t i = 0; i < batch.queries.size(); ++i) answer_from_turtle(batch.queries[i], batch.answers[i]);
+}
+
+void Environment::consult(std::size_t process, const WorldView& world) {
+    Batch& batch = batches_[process];
+    try {
+        processes_[process]->advance(world, batch.queries, fields_);
+        processes_[process]->answer(world, batch.queries, batch.answers, fields_);
+    } catch (const UserError&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw RunError(
+            fmt::format("step {}: process '{}' ({}): {}", world.step, names_[process], kinds_[process], error.what()));
+    }
+    require_finite(process, world);
+}
+
+void Environment::require_finite(std::size_t process, const WorldView& world) const {
+    const Batch& batch = batches_[process];
+    for (std::size_t i = 0; i < batch.answers.size(); ++i) {
+        for (const double value : batch.answers[i]) {
+            if (std::isfinite(value)) continue;
+            throw RunError(fmt::format("{}: process '{}' ({}) answers {}",
+                                       described(world.plants[batch.queries[i].plant], world.step), names_[process],
+                                       kinds_[process], value));
+        }
+    }
+}
+
+}  // namespace espalier
