@@ -1,12 +1,14 @@
 #include "memory.h"
 
+#include "espalier/simulation/simulation.h"
+
 #include <algorithm>
 #include <fstream>
 #include <unistd.h>
 
 namespace espalier {
 
-std::size_t half_of_the_machine() {
+std::size_t default_memory() {
     std::size_t bytes =
         static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
     // A container's limit (control groups, version 2); "max" is no number and leaves the machine's.

@@ -5,9 +5,6 @@
 
 namespace espalier {
 
-/// Half of the machine's memory, or of what the container this runs in may use, in bytes.
-std::size_t half_of_the_machine();
-
 /// A budget divided between the plants' strings, their geometry and the fields of the processes.
 struct MemoryShares {
     std::size_t strings;  ///< all strings together, old and new

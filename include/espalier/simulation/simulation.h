@@ -13,7 +13,7 @@ namespace espalier {
 struct Progress {
     int step = 0, steps = 0;
     std::size_t modules = 0;
-    double seconds = 0;
+    double seconds = 0;  ///< since the run began
 };
 
 struct RunOptions {
@@ -27,9 +27,13 @@ struct RunOptions {
 struct RunResult {
     int steps = 0;
     bool interrupted = false;
+    bool stopped = false;  ///< a model called stop()
     std::size_t modules = 0;
     double seconds = 0;
 };
+
+/// What --memory is when nobody says: half of the machine, or of what its container may use, in bytes.
+std::size_t default_memory();
 
 /// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
 /// run.json saying how it ended. Throws UserError, RunError.

@@ -1,0 +1,78 @@
+#include "run_record.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include <ctime>
+
+namespace espalier {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json plants_json(const Scene& scene, const World& world) {
+    Json plants = Json::array();
+    for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+        plants.push_back({{"name", scene.plants[i].name},
+                          {"model", world.model(i).path.string()},
+                          {"stream", scene.plants[i].stream},
+                          {"modules", world.string(i).size()}});
+    }
+    return plants;
+}
+
+Json overrides_json(const Scene& scene) {
+    Json overrides = Json::array();
+    for (const auto& [key, value] : scene.overrides) overrides.push_back(key + "=" + value);
+    return overrides;
+}
+
+}  // namespace
+
+RunRecord::RunRecord(const Scene& scene, const RunOptions& options)
+    : scene_(scene),
+      memory_(options.memory),
+      started_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {}
+
+void RunRecord::add_step(const StageTimes& times) {
+    timings_ += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f}\n", steps_++, times.derive, times.interpret, times.exchange,
+                            times.record);
+    total_.derive += times.derive;
+    total_.interpret += times.interpret;
+    total_.exchange += times.exchange;
+    total_.record += times.record;
+}
+
+std::string RunRecord::json(const World& world, const std::string& exit, double seconds) const {
+    Json json;
+    json["program"] = "espalier";
+    json["version"] = ESPALIER_VERSION;
+    json["exit"] = exit;
+    json["scene"] = {{"name", scene_.name}, {"path", scene_.path.string()}, {"text", scene_.text}};
+    json["overrides"] = overrides_json(scene_);
+    json["seed"] = scene_.seed;
+    json["steps"] = scene_.steps;
+    json["steps_done"] = steps_ - 1;
+    json["dt"] = scene_.dt;
+    json["time_unit"] = scene_.time_unit;
+    json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    json["memory"] = memory_;
+    json["started"] = started_;
+    json["plants"] = plants_json(scene_, world);
+    json["timings"] = {{"total", seconds},
+                       {"derive", total_.derive},
+                       {"interpret", total_.interpret},
+                       {"exchange", total_.exchange},
+                       {"record", total_.record}};
+    json["parameters"] = Json::parse(scene_.root.resolved_json());
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void RunRecord::write(const Timeline& timeline, const World& world, const std::string& exit, double seconds) const {
+    timeline.write_run(json(world, exit, seconds));
+    write_text(timeline.folder() / "timings.csv", timings_);
+}
+
+}  // namespace espalier

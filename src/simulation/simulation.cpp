@@ -1,0 +1,89 @@
+#include "espalier/simulation/simulation.h"
+
+#include "run_record.h"
+
+#include <chrono>
+#include <exception>
+#include <optional>
+
+namespace espalier {
+namespace {
+
+class Run {
+public:
+    Run(const Scene& scene, const RunOptions& options)
+        : scene_(scene), options_(options), world_(scene, options.memory), record_(scene, options) {
+        if (options.output.empty()) return;
+        timeline_.emplace(options.output, scene.timeline, scene.steps, options.overwrite);
+        write_record("running");
+    }
+
+    RunResult walk() {
+        try {
+            grow();
+            if (timeline_) timeline_->finish();
+        } catch (const std::exception& error) {
+            end_failed(error.what());
+            throw;
+        }
+        const bool cut_short = !world_.stopped() && world_.steps_done() < scene_.steps;
+        write_record(cut_short ? "interrupted" : "done");
+        return {world_.steps_done(), cut_short, world_.stopped(), world_.modules(), seconds()};
+    }
+
+private:
+    void grow() {
+        world_.start();
+        record_frame();
+        while (world_.steps_done() < scene_.steps && !world_.stopped() && !interrupted()) {
+            world_.step();
+            record_frame();
+        }
+    }
+
+    void record_frame() {
+        StageTimes times = world_.times();
+        const auto begin = std::chrono::steady_clock::now();
+        if (timeline_) timeline_->record(world_.frame());
+        times.record = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        record_.add_step(times);
+        if (options_.progress) options_.progress({world_.steps_done(), scene_.steps, world_.modules(), seconds()});
+    }
+
+    // What made the run fail is what the user must read; a disk too full to write it down is not.
+    void end_failed(const std::string& why) {
+        if (!timeline_) return;
+        try {
+            timeline_->finish();
+        } catch (const std::exception&) {
+        }
+        try {
+            write_record("failed: " + why);
+        } catch (const std::exception&) {
+        }
+    }
+
+    void write_record(const std::string& exit) {
+        if (timeline_) record_.write(*timeline_, world_, exit, seconds());
+    }
+
+    bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    const Scene& scene_;
+    const RunOptions& options_;
+    World world_;
+    RunRecord record_;
+    std::optional<Timeline> timeline_;
+};
+
+}  // namespace
+
+RunResult run(const Scene& scene, const RunOptions& options) {
+    RunOptions resolved = options;
+    if (resolved.memory == 0) resolved.memory = default_memory();
+    return Run(scene, resolved).walk();
+}
+
+}  // namespace espalier
