@@ -1,0 +1,137 @@
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+
+#include "commands.h"
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> result;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) result.push_back(cell);
+    return result;
+}
+
+// The rows of statistics.csv that belong to its last step: column name to cell, one object per plant.
+Json last_statistics(const fs::path& file) {
+    if (!fs::exists(file)) return Json::array();
+    std::istringstream in(read_text(file));
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> columns = cells(line);
+    Json rows = Json::array();
+    std::string step;
+    while (std::getline(in, line)) {
+        const std::vector<std::string> values = cells(line);
+        if (values.size() != columns.size()) continue;
+        if (values.front() != step) rows = Json::array();
+        step = values.front();
+        Json row;
+        for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = values[i];
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::size_t count_files(const fs::path& folder, const std::string& extension) {
+    if (!fs::is_directory(folder)) return 0;
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) count += entry.path().extension() == extension;
+    return count;
+}
+
+Json fields_of(const fs::path& folder) {
+    Json fields = Json::object();
+    if (!fs::is_directory(folder)) return fields;
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.is_directory()) paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    for (const fs::path& path : paths) fields[path.filename().string()] = count_files(path, ".vti");
+    return fields;
+}
+
+Json read_run(const fs::path& folder) {
+    const fs::path file = folder / "run.json";
+    if (!fs::exists(file)) {
+        throw UserError(fmt::format("{} holds no run: there is no run.json in it", folder.string()));
+    }
+    Json run = Json::parse(read_text(file), nullptr, false);
+    if (!run.is_object() || !run.contains("exit")) {
+        throw UserError(fmt::format("{} is not what a run writes", file.string()));
+    }
+    return run;
+}
+
+Json summary_of(const fs::path& folder) {
+    const Json run = read_run(folder);
+    Json summary;
+    for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
+        summary[key] = run.value(key, Json());
+    }
+    summary["scene"] = run.value("scene", Json::object()).value("name", "");
+    summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
+    summary["frames"] = count_files(folder / "plants", ".vtp");
+    summary["fields"] = fields_of(folder / "fields");
+    summary["plants"] = run.value("plants", Json::array());
+    summary["last_step"] = last_statistics(folder / "statistics.csv");
+    return summary;
+}
+
+// A table with aligned columns; long stands are cut after 20 plants.
+void print_statistics(const Json& rows) {
+    if (rows.empty()) return;
+    constexpr std::size_t most_rows = 20;
+    const std::size_t shown = std::min(rows.size(), most_rows);
+    for (const auto& [column, first] : rows.front().items()) {
+        std::string line = fmt::format("  {:24}", column);
+        for (std::size_t i = 0; i < shown; ++i) line += fmt::format(" {:>12}", rows[i][column].get<std::string>());
+        fmt::print("{}\n", line);
+    }
+    if (shown < rows.size()) fmt::print("  ... and {} plants more in statistics.csv\n", rows.size() - shown);
+}
+
+void print_summary(const fs::path& folder, const Json& summary) {
+    const auto text = [&](const char* key) {
+        const Json& value = summary[key];
+        return value.is_string() ? value.get<std::string>() : value.dump();
+    };
+    fmt::print("{}: scene {}, seed {}, espalier {}\n", folder.string(), text("scene"), text("seed"), text("version"));
+    fmt::print("ended: {}; {} of {} steps in {} on {} threads, begun {}\n", text("exit"), text("steps_done"),
+               text("steps"), duration_text(summary["seconds"].get<double>()), text("threads"), text("started"));
+    fmt::print("frames: {} of plants", text("frames"));
+    for (const auto& [name, count] : summary["fields"].items()) fmt::print(", {} of field {}", count.dump(), name);
+    fmt::print("\nlast step, one column a plant:\n");
+    print_statistics(summary["last_step"]);
+}
+
+}  // namespace
+
+int info_command(const InfoArguments& arguments) {
+    try {
+        const Json summary = summary_of(arguments.folder);
+        if (arguments.json) {
+            fmt::print("{}\n", summary.dump(2, ' ', false, Json::error_handler_t::replace));
+        } else {
+            print_summary(arguments.folder, summary);
+        }
+    } catch (const Json::exception& error) {
+        throw UserError(
+            fmt::format("{} is not what a run writes: {}", (arguments.folder / "run.json").string(), error.what()));
+    }
+    return exit_code::done;
+}
+
+}  // namespace espalier

@@ -1,0 +1,239 @@
+// The command line, and the one place that catches.
+#include "espalier/base/error.h"
+#include "espalier/base/text.h"
+
+#include "commands.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <csignal>
+#include <new>
+
+namespace espalier {
+namespace {
+
+std::pair<std::string, std::string> key_and_value(const std::string& text, const char* option) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        throw UserError(fmt::format("{} {}: KEY=VALUE is expected", option, text));
+    }
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
+std::size_t memory_size(const std::string& text) {
+    std::size_t used = 0;
+    double number = 0;
+    try {
+        number = std::stod(text, &used);
+    } catch (const std::exception&) {
+    }
+    const std::string unit = text.substr(used);
+    const std::size_t power = unit.empty() || unit == "B" ? 0 : std::string("KMGT").find(unit[0]) + 1;
+    const std::string rest = power == 0 ? "" : unit.substr(1);
+    const bool known = power <= 4 && (rest.empty() || rest == "B" || rest == "iB");
+    const double bytes = number * std::pow(1024.0, static_cast<double>(known ? power : 0));
+    if (!known || used == 0 || !(bytes >= 1) || bytes > 1e18) {
+        throw UserError(fmt::format("--memory {}: a size such as 512M or 4G is expected", text));
+    }
+    return static_cast<std::size_t>(bytes);
+}
+
+// What CLI11 fills in; the commands get it in their own terms.
+struct CommandLine {
+    RunArguments run;
+    CheckArguments check;
+    DeriveArguments derive;
+    InfoArguments info;
+    ListArguments list;
+    std::vector<std::string> sets, defines;
+    std::string memory;
+    int steps = -1;
+    std::int64_t seed = -1;
+
+    std::optional<int> steps_if_any() const { return steps < 0 ? std::nullopt : std::optional(steps); }
+    std::optional<std::uint64_t> seed_if_any() const {
+        return seed < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed));
+    }
+    std::size_t bytes() const { return memory.empty() ? 0 : memory_size(memory); }
+    KeyValues overrides() const {
+        KeyValues result;
+        for (const std::string& set : sets) result.push_back(key_and_value(set, "--set"));
+        return result;
+    }
+    KeyValues definitions() const {
+        KeyValues result;
+        for (const std::string& define : defines) result.push_back(key_and_value(define, "--define"));
+        return result;
+    }
+};
+
+void add_growth_options(CLI::App* command, CommandLine& line) {
+    command->add_option("--steps", line.steps, "derivations; default: what the scene or the model says")
+        ->check(CLI::Range(0, 1000000000));
+    command->add_option("--seed", line.seed, "of all random numbers; the same seed gives the same bytes")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--memory", line.memory, "what it may take, such as 4G; default: half of the machine");
+}
+
+void add_set_option(CLI::App* command, CommandLine& line) {
+    command->add_option("--set", line.sets, "KEY=VALUE overrides one value of the scene; may be repeated")
+        ->allow_extra_args(false);
+}
+
+void add_define_option(CLI::App* command, CommandLine& line) {
+    command->add_option("--define", line.defines, "NAME=VALUE overrides a #define of the model; may be repeated")
+        ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("run", "grow a scene, or a model on its own, and record it");
+    command->add_option("scene", line.run.scene, "a scene (.toml) or a model (.l)")->required();
+    add_set_option(command, line);
+    add_growth_options(command, line);
+    command->add_option("--threads", line.run.threads, "default: all; the result is the same with any number")
+        ->check(CLI::Range(1, 4096));
+    command->add_option("--output", line.run.output, "folder; default: output/<scene>-<time>");
+    command->add_flag("--overwrite", line.run.overwrite, "replace the timeline in that folder");
+    command->add_flag("--quiet", line.run.quiet, "print nothing but errors");
+    command->add_flag("--json", line.run.json, "print the result as JSON");
+    command->footer(R"(Examples:
+  espalier run environments/two-trees.toml
+  espalier run environments/two-trees.toml --set environment.light.voxel=0.5 --output output/coarse
+  espalier run models/02_branching.l --steps 5 --set plant.0.define.ANGLE=30
+Ctrl-C ends the run after the step at hand and keeps what was recorded; once more stops at once.)");
+}
+
+void add_check(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("check", "read a model or a scene and explain what is wrong");
+    command->add_option("file", line.check.file, "a scene (.toml) or a model (.l)")->required();
+    add_set_option(command, line);
+    add_define_option(command, line);
+    command->add_flag("--cpfg-quirks", line.check.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
+    command->add_flag("--json", line.check.json, "print the findings as JSON");
+    command->footer("Example:\n  espalier check models/02_branching.l");
+}
+
+void add_derive(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("derive", "print the string of a model after its steps");
+    command->add_option("model", line.derive.model, "a model (.l)")->required();
+    add_growth_options(command, line);
+    add_define_option(command, line);
+    command->add_option("--format", line.derive.format, "text (cpfg's notation), counts (per symbol) or json")
+        ->check(CLI::IsMember({"text", "counts", "json"}));
+    command->add_flag("--before-exchange", line.derive.before_exchange,
+                      "leave the last step's queries unanswered, as cpfg does");
+    command->add_flag("--cpfg-quirks", line.derive.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
+    command->footer(
+        R"(Nothing surrounds the plant: ?P ?H ?L ?U ?Q are answered, ?E and named queries keep their parameters.
+Examples:
+  espalier derive models/02_branching.l --steps 3
+  espalier derive models/03_parameters.l --format counts --define RATE=1.2)");
+}
+
+void add_info(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("info", "summarise what a run left in a folder");
+    command->add_option("folder", line.info.folder, "an output folder")->required();
+    command->add_flag("--json", line.info.json, "print it as JSON");
+    command->footer("Example:\n  espalier info output/two-trees-20260101-120000");
+}
+
+void add_list(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("list", "document processes, symbols, recorders, models, scenes");
+    command->add_option("kind", line.list.kind, fmt::format("{}", fmt::join(list_kinds(), ", ")));
+    command->add_option("name", line.list.name, "one of them, in full");
+    command->add_flag("--json", line.list.json, "print it as JSON");
+    command->footer(
+        "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene");
+}
+
+// CLI11 says what it did not expect; the nearest option is offered as for every other name.
+std::string explain(const CLI::App& program, const CLI::ParseError& error) {
+    std::vector<std::string> names;
+    const CLI::App* command = &program;
+    for (const CLI::App* subcommand : program.get_subcommands()) command = subcommand;
+    for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
+    for (const CLI::App* subcommand : command->get_subcommands({})) names.push_back(subcommand->get_name());
+    std::string hint;
+    for (const std::string& rest : program.remaining(true)) {
+        if (hint.empty()) hint = did_you_mean(rest, names);
+    }
+    const std::string name = command == &program ? "espalier" : "espalier " + command->get_name();
+    return fmt::format("{}{}\n`{} --help` explains the options", error.what(), hint, name);
+}
+
+int dispatch(const CLI::App& program, CommandLine& line) {
+    if (program.got_subcommand("run")) {
+        line.run.overrides = line.overrides();
+        line.run.steps = line.steps_if_any();
+        line.run.seed = line.seed_if_any();
+        line.run.memory = line.bytes();
+        return run_command(line.run);
+    }
+    if (program.got_subcommand("check")) {
+        line.check.overrides = line.overrides();
+        line.check.defines = line.definitions();
+        return check_command(line.check);
+    }
+    if (program.got_subcommand("derive")) {
+        line.derive.steps = line.steps_if_any();
+        line.derive.seed = line.seed_if_any();
+        line.derive.defines = line.definitions();
+        line.derive.memory = line.bytes();
+        return derive_command(line.derive);
+    }
+    if (program.got_subcommand("info")) return info_command(line.info);
+    return list_command(line.list);
+}
+
+int fail(const std::string& message, int code, bool json) {
+    fmt::print(stderr, "{}\n", message);
+    if (json) {
+        const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", code}, {"message", message}};
+        fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    }
+    return code;
+}
+
+int parse_and_dispatch(int argc, char** argv) {
+    CommandLine line;
+    CLI::App program("Espalier grows plants from L-systems in environments they shape, and records their growth.",
+                     "espalier");
+    program.set_version_flag("--version", ESPALIER_VERSION);
+    program.require_subcommand(1);
+    program.footer("`espalier COMMAND --help` explains a command, with examples.");
+    add_run(program, line);
+    add_check(program, line);
+    add_derive(program, line);
+    add_info(program, line);
+    add_list(program, line);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& help_or_version) {
+        return program.exit(help_or_version);
+    } catch (const CLI::ParseError& error) {
+        return fail(explain(program, error), exit_code::user_error, false);
+    }
+    const bool json = line.run.json || line.check.json || line.info.json || line.list.json;
+    try {
+        return dispatch(program, line);
+    } catch (const UserError& error) {
+        return fail(error.what(), exit_code::user_error, json);
+    } catch (const std::bad_alloc&) {
+        return fail("the machine has no memory left; --memory sets a limit below that", exit_code::run_failed, json);
+    } catch (const std::exception& error) {
+        return fail(error.what(), exit_code::run_failed, json);
+    }
+}
+
+}  // namespace
+}  // namespace espalier
+
+int main(int argc, char** argv) {
+    // A file larger than the system allows is an error of the writer, not the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+    return espalier::parse_and_dispatch(argc, argv);
+}

@@ -1,0 +1,68 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <unistd.h>
+
+namespace espalier {
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long>(std::ceil(seconds));
+    if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (std::size_t at = digits.size(); at > 3;) {
+        at -= 3;
+        digits.insert(at, 1, ',');
+    }
+    return digits;
+}
+
+ProgressReport::ProgressReport(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressReport::~ProgressReport() {
+    if (drawn_) fmt::print(stderr, "\n");
+}
+
+void ProgressReport::operator()(const Progress& progress) {
+    if (quiet_) return;
+    const double latest = progress.seconds - last_seconds_;
+    last_seconds_ = progress.seconds;
+    step_seconds_ = progress.step <= 1 ? latest : 0.7 * step_seconds_ + 0.3 * latest;
+    if (terminal_) {
+        redraw(progress);
+    } else {
+        print_tenth(progress);
+    }
+}
+
+void ProgressReport::redraw(const Progress& progress) {
+    const bool last = progress.step == progress.steps;
+    if (!last && drawn_ && progress.seconds - drawn_seconds_ < 0.1) return;
+    drawn_ = true;
+    drawn_seconds_ = progress.seconds;
+    const int left = progress.steps - progress.step;
+    // The line is erased to its end, because it may become shorter.
+    fmt::print(stderr, "\rstep {}/{}  {} modules  {:.3g} steps/s  {}\033[K", progress.step, progress.steps,
+               grouped(progress.modules), step_seconds_ > 0 ? 1 / step_seconds_ : 0.0,
+               last ? duration_text(progress.seconds) : duration_text(left * step_seconds_) + " left");
+    std::fflush(stderr);
+}
+
+void ProgressReport::print_tenth(const Progress& progress) {
+    if (progress.steps == 0) return;
+    const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
+    if (tenths == tenths_) return;
+    tenths_ = tenths;
+    fmt::print(stderr, "step {}/{}  {} modules  {}\n", progress.step, progress.steps, grouped(progress.modules),
+               duration_text(progress.seconds));
+}
+
+}  // namespace espalier

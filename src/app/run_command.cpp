@@ -1,0 +1,101 @@
+#include "espalier/simulation/simulation.h"
+
+#include "commands.h"
+#include "progress.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <csignal>
+#include <ctime>
+#include <unistd.h>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<bool> interrupt{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+void request_interrupt(int) {
+    interrupt = true;
+    static const char message[] = "\nfinishing this step (once more to stop at once)\n";
+    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, sizeof message - 1);
+}
+
+// The first signal asks, the second kills.
+void listen_for_interrupts() {
+    struct sigaction action = {};
+    action.sa_handler = request_interrupt;
+    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    // Progress that nobody reads any more must not end a run.
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+// output/<scene>-<time>, numbered if two runs of a scene begin in the same second.
+fs::path default_output(const std::string& scene) {
+    const fs::path base =
+        fs::path("output") / fmt::format("{}-{:%Y%m%d-%H%M%S}", scene, fmt::localtime(std::time(nullptr)));
+    fs::path output = base;
+    for (int number = 2; fs::exists(output); ++number) output = fmt::format("{}-{}", base.string(), number);
+    return output;
+}
+
+void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
+    if (arguments.json) {
+        const nlohmann::ordered_json json = {{"exit", result.interrupted ? "interrupted" : "done"},
+                                             {"output", output.string()},
+                                             {"steps", scene.steps},
+                                             {"steps_done", result.steps},
+                                             {"stopped", result.stopped},
+                                             {"plants", scene.plants.size()},
+                                             {"modules", result.modules},
+                                             {"seconds", result.seconds}};
+        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        return;
+    }
+    if (arguments.quiet) return;
+    fmt::print("{}: {} of {} steps{}, {} modules in {} plant{}, {}\n", scene.name, result.steps, scene.steps,
+               result.interrupted ? " (interrupted)"
+               : result.stopped   ? " (the model stopped)"
+                                  : "",
+               grouped(result.modules), scene.plants.size(), scene.plants.size() == 1 ? "" : "s",
+               duration_text(result.seconds));
+    fmt::print("{}\n", (output / "").string());
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+    listen_for_interrupts();
+    std::optional<tbb::global_control> threads;
+    if (arguments.threads > 0) {
+        threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
+    }
+    const SceneOptions scene_options{arguments.overrides, arguments.steps, arguments.seed};
+    const bool is_scene = arguments.scene.extension() == ".toml";
+    const Scene scene =
+        is_scene ? read_scene(arguments.scene, scene_options) : scene_of_model(arguments.scene, scene_options);
+
+    RunOptions options;
+    options.output = arguments.output.empty() ? default_output(scene.name) : arguments.output;
+    options.overwrite = arguments.overwrite;
+    options.memory = arguments.memory;
+    options.interrupt = &interrupt;
+    RunResult result;
+    {
+        ProgressReport report(arguments.quiet);
+        options.progress = [&](const Progress& progress) { report(progress); };
+        result = run(scene, options);
+    }
+    print_result(arguments, scene, options.output, result);
+    return result.interrupted ? exit_code::interrupted : exit_code::done;
+}
+
+}  // namespace espalier
