@@ -1,0 +1,173 @@
+// Soil water: a content that diffuses between obstacles, layers and sides, and that roots drink.
+// Its parameters and queries are described in water_parameters.cpp, the numbers behind it in docs/water.md.
+#include "espalier/base/text.h"
+#include "espalier/environment/environment_process.h"
+
+#include "environment/water_diffusion.h"
+#include "environment/water_direction.h"
+#include "environment/water_field.h"
+#include "environment/water_parameters.h"
+#include "environment/water_solids.h"
+#include "environment/water_stock.h"
+#include "environment/water_uptake.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <ostream>
+
+namespace espalier {
+namespace {
+
+WaterGrid affordable_grid(const WaterParameters& parameters, const EnvironmentContext& context) {
+    // Two bricks of doubles, two grids of floats, flags.
+    constexpr double bytes_per_voxel = 2 * 8 + 2 * 5 + 3;
+    const double voxels = WaterGrid::voxels_needed(parameters.domain, parameters.voxel, parameters.flat);
+    const double bytes = voxels * bytes_per_voxel;
+    if (!(voxels <= 2e9) || bytes > static_cast<double>(context.memory)) {
+        throw UserError(parameters.voxel_place,
+                        fmt::format("'{}' would have {} voxels and take {} GB: use larger voxels, a smaller domain or "
+                                    "more memory",
+                                    context.name, format_general(voxels), format_general(bytes / 1e9)));
+    }
+    return WaterGrid(parameters.domain, parameters.voxel, parameters.flat);
+}
+
+class SoilWater final : public EnvironmentProcess {
+public:
+    SoilWater(Settings& settings, const EnvironmentContext& context, Fields& fields)
+        : parameters_(read_water_parameters(settings, context)),
+          grid_(affordable_grid(parameters_, context)),
+          solids_(parameters_),
+          diffusion_(grid_, parameters_),
+          field_(context.name, parameters_.unit, grid_),
+          uptake_(context.plants, 0),
+          wish_(context.plants, 0) {
+        solids_.look(fields);
+        stock_.emplace(grid_, parameters_, solids_.free_voxels(grid_));
+        field_.set_faces(stock_->faces());
+        field_.publish(stock_->contents(), fields);
+    }
+
+    void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
+        if (solids_.look(fields)) {
+            stock_->set_free(solids_.free_voxels(grid_));
+            field_.set_faces(stock_->faces());
+        }
+        if (parameters_.mode == WaterMode::relaxation) {
+            stock_->relax(world.dt);
+        } else {
+            stock_->diffuse(diffusion_, world.dt);
+        }
+    }
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields& fields) override {
+        require_finite(queries);
+        std::vector<WaterWish> wishes(queries.size());
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
+            for (std::size_t q = range.begin(); q != range.end(); ++q) wishes[q] = sense(queries[q], answers[q]);
+        });
+        const std::vector<double> obtained = parameters_.depletion ? stock_->share(wishes) : stock_->lend(wishes);
+        std::fill(uptake_.begin(), uptake_.end(), 0);
+        std::fill(wish_.begin(), wish_.end(), 0);
+        for (std::size_t q = 0; q < queries.size(); ++q) {
+            if (answers[q].empty()) continue;
+            answers[q][0] = obtained[q] * parameters_.amount;
+            if (queries[q].plant >= uptake_.size()) continue;
+            uptake_[queries[q].plant] += answers[q][0];
+            wish_[queries[q].plant] += wishes[q].amount * parameters_.amount;
+        }
+        stock_->measure();
+        field_.publish(stock_->contents(), fields);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        const WaterBalance& balance = stock_->balance();
+        const double amount = parameters_.amount;
+        return {{"uptake", plant < uptake_.size() ? uptake_[plant] : 0},
+                {"wish", plant < wish_.size() ? wish_[plant] : 0},
+                {"total", balance.total * amount},
+                {"added", balance.added * amount},
+                {"boundary", balance.boundary * amount},
+                {"drunk", balance.drunk * amount},
+                {"displaced", balance.displaced * amount},
+                {"balance", balance.relative_error()},
+                {"minimum", balance.minimum},
+                {"maximum", balance.maximum}};
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 100}; }
+
+    void save(std::ostream& out) const override {
+        stock_->save(out);
+        write_doubles(out, uptake_);
+        write_doubles(out, wish_);
+    }
+
+    void restore(std::istream& in) override {
+        stock_->restore(in);
+        read_doubles(in, uptake_);
+        read_doubles(in, wish_);
+        field_.set_faces(stock_->faces());
+        field_.rewrite(stock_->contents());
+    }
+
+private:
+    static void require_finite(std::span<const Query> queries) {
+        for (const Query& query : queries) {
+            const std::size_t used = std::min<std::size_t>(query.parameters.size(), 4);
+            for (std::size_t p = 0; p < used; ++p) {
+                if (std::isfinite(query.parameters[p])) continue;
+                throw RunError(fmt::format("plant {} asks for water with parameter {} = {}", query.plant, p + 1,
+                                           format_general(query.parameters[p])));
+            }
+        }
+    }
+
+    /// Writes what the query senses into its answer; returns what it wishes.
+    WaterWish sense(const Query& query, Answer answer) const {
+        if (answer.empty()) return {};
+        const std::size_t arity = answer.size();
+        const WaterSample sample = sample_water(grid_, stock_->faces(), stock_->contents(), query.pose.position);
+        if (arity == 2 || arity == 3) answer[1] = sample.content;
+        if (arity >= 4) {
+            const glm::dvec3 direction = weigh(query, sample.gradient);
+            for (int axis = 0; axis < 3; ++axis) answer[1 + axis] = direction[axis];
+            if (arity >= 8) {
+                const WaterHeading way = clear_heading(grid_, solids_, query.pose, direction, query.parameters[3]);
+                for (int axis = 0; axis < 3; ++axis) answer[4 + axis] = way.heading[axis];
+                answer[7] = way.clear;
+            }
+            if (arity >= 9) answer[8] = sample.content;
+        }
+        // A bound that no soil reaches keeps sums of wishes finite.
+        return {sample.stencil, std::clamp(query.parameters[0], 0.0, 1e100) / parameters_.amount};
+    }
+
+    /// Gravity and gradient, as the query weighs them.
+    glm::dvec3 weigh(const Query& query, const glm::dvec3& gradient) const {
+        const WaterLayer* layer = layer_at(parameters_, query.pose.position.y);
+        const glm::dvec3 down = layer ? layer->gravity : glm::dvec3(0, -1, 0);
+        const double per_metre = parameters_.gradient_length / parameters_.range;
+        return query.parameters[1] * down + query.parameters[2] * per_metre * gradient;
+    }
+
+    WaterParameters parameters_;
+    WaterGrid grid_;
+    WaterSolids solids_;
+    WaterDiffusion diffusion_;
+    WaterField field_;
+    std::optional<WaterStock> stock_;
+    std::vector<double> uptake_, wish_;  ///< per plant, this step
+};
+
+const RegisteredProcess<SoilWater> entry{
+    {"soil-water", "water or another substance in soil: diffusion, obstacles, layers, uptake by roots",
+     soil_water_help}};
+
+}  // namespace
+}  // namespace espalier

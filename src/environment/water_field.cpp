@@ -1,0 +1,72 @@
+#include "environment/water_field.h"
+
+#include "espalier/environment/openvdb_grid.h"
+
+#include <openvdb/tree/LeafManager.h>
+
+namespace espalier {
+namespace {
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+openvdb::CoordBBox box_of(const WaterGrid& grid) {
+    const glm::ivec3 size = grid.size();
+    return {openvdb::Coord(0, 0, 0), openvdb::Coord(size.x - 1, size.y - 1, size.z - 1)};
+}
+
+/// Calls visit(offset in the leaf, cell of the brick) for every voxel of the leaf in the box.
+template <class Visit>
+void for_voxels(const Leaf& leaf, const WaterGrid& grid, Visit visit) {
+    openvdb::CoordBBox box = leaf.getNodeBoundingBox();
+    box.intersect(box_of(grid));
+    for (int x = box.min().x(); x <= box.max().x(); ++x) {
+        for (int y = box.min().y(); y <= box.max().y(); ++y) {
+            for (int z = box.min().z(); z <= box.max().z(); ++z) {
+                visit(Leaf::coordToOffset(openvdb::Coord(x, y, z)), grid.cell({x, y, z}));
+            }
+        }
+    }
+}
+
+void write(const WaterBrick& contents, const WaterGrid& grid, openvdb::FloatTree& tree) {
+    openvdb::tree::LeafManager<openvdb::FloatTree> leaves(tree);
+    leaves.foreach ([&](Leaf& leaf, std::size_t) {
+        float* values = leaf.buffer().data();
+        for_voxels(leaf, grid, [&](openvdb::Index offset, std::size_t cell) {
+            values[offset] = static_cast<float>(contents[cell]);
+        });
+    });
+}
+
+}  // namespace
+
+WaterField::WaterField(std::string name, std::string unit, const WaterGrid& grid)
+    : name_(std::move(name)), unit_(std::move(unit)), grid_(grid) {
+    initialize_openvdb();
+}
+
+void WaterField::set_faces(const WaterFaces& faces) {
+    auto grid = openvdb::FloatGrid::create(0);
+    grid->setName(name_);
+    grid->setTransform(cell_centred_transform(grid_.voxel(), grid_.lower()));
+    grid->tree().denseFill(box_of(grid_), 0, true);
+    openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
+    leaves.foreach ([&](Leaf& leaf, std::size_t) {
+        for_voxels(leaf, grid_, [&](openvdb::Index offset, std::size_t cell) {
+            if (!faces.free(cell)) leaf.setValueOff(offset);
+        });
+    });
+    topology_ = std::make_shared<FieldGrid>(FieldGrid{grid, box_of(grid_)});
+}
+
+void WaterField::publish(const WaterBrick& contents, Fields& fields) {
+    published_ = std::make_shared<FieldGrid>(FieldGrid{topology_->grid->deepCopy(), topology_->box});
+    rewrite(contents);
+    fields.provide({name_, unit_, "content of the soil", published_});
+}
+
+void WaterField::rewrite(const WaterBrick& contents) {
+    write(contents, grid_, published_->grid->tree());
+}
+
+}  // namespace espalier

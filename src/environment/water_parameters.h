@@ -1,0 +1,81 @@
+// What a scene says about soil water, read and checked.
+#pragma once
+
+#include "espalier/environment/environment_process.h"
+#include "espalier/environment/shape.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+enum class WaterMode { diffusion, relaxation };
+
+/// A side of the domain: closed, or held at a content on its face.
+struct WaterSide {
+    bool fixed = false;
+    double content = 0;
+};
+
+struct WaterLayer {
+    double bottom = 0, top = 0;
+    glm::dvec3 diffusion{0};  ///< m2 per time unit, along x, y, z
+    glm::dvec3 gravity{0, -1, 0};
+    std::optional<double> initial;
+};
+
+/// A part of the soil that begins with another content; outside the shape it fades over `edge` metres.
+struct WaterRegion {
+    std::shared_ptr<const Shape> shape;
+    double content = 0;
+    double edge = 0;
+};
+
+/// A part of the soil that is held at a content, or gains `rate` per time unit.
+struct WaterSource {
+    std::shared_ptr<const Shape> shape;
+    std::optional<double> hold;
+    double rate = 0;
+    Place place;
+};
+
+struct WaterParameters {
+    WaterMode mode = WaterMode::diffusion;
+    Box domain;
+    double voxel = 0;
+    bool flat = false;  ///< two-dimensional
+    std::string unit;
+    double initial = 0;
+    glm::dvec3 diffusion{0};
+    int max_substeps = 0;
+    int sweeps = 0;
+    double relaxation = 0;
+    double tolerance = 0;
+    std::array<WaterSide, 6> sides;  ///< -x, +x, -y, +y, -z, +z
+    std::vector<WaterLayer> layers;
+    std::vector<WaterRegion> regions;
+    std::vector<WaterSource> sources;
+    std::vector<std::shared_ptr<const Shape>> obstacles;
+    std::string obstacle_field, container_field;  ///< distance fields of other processes; empty: none
+    bool depletion = true;
+    double amount = 1;  ///< amount of one voxel full of content 1
+    double range = 1;
+    double gradient_length = 0;
+
+    Place voxel_place;
+    Place settings_place;
+};
+
+/// Throws UserError.
+WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context);
+
+/// The layer at height y, or null.
+const WaterLayer* layer_at(const WaterParameters& parameters, double y);
+
+/// What `espalier list` prints for process soil-water.
+extern const char* const soil_water_help;
+
+}  // namespace espalier
