@@ -1,0 +1,48 @@
+// A file in an open folder is all a new part needs: what lies there and what is registered must be the same.
+#include "espalier/environment/environment_process.h"
+
+#include "catch.h"
+#include "sources.h"
+
+#include <set>
+
+namespace {
+
+using namespace layout;
+
+// "voxel_shade.cpp" registers "voxel-shade".
+std::string part_name(const fs::path& file) {
+    std::string name = file.stem().string();
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+}
+
+std::set<std::string> parts_in(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const fs::path& file : sources_below(folder)) {
+        if (file.extension() == ".cpp") names.insert(part_name(file));
+    }
+    return names;
+}
+
+template <class Registry>
+std::set<std::string> registered() {
+    std::set<std::string> names;
+    for (const auto& entry : Registry::entries()) names.insert(entry.first);
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("every file of environment/processes registers the process it is named after", "[layout]") {
+    CHECK(!parts_in("src/environment/processes").empty());
+    CHECK(parts_in("src/environment/processes") == registered<espalier::ProcessRegistry>());
+}
+
+TEST_CASE("every process explains itself", "[layout]") {
+    for (const auto& [name, entry] : espalier::ProcessRegistry::entries()) {
+        INFO(name);
+        CHECK(!entry.description.summary.empty());
+        CHECK(!entry.description.help.empty());
+    }
+}

@@ -1,0 +1,57 @@
+// The sources as the layout tests read them.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace layout {
+
+namespace fs = std::filesystem;
+
+inline const std::vector<std::string> stations{"base",        "lsystem",  "language",   "geometry", "turtle",
+                                               "environment", "timeline", "simulation", "app"};
+
+/// Where a station stands in the line, or -1.
+inline int place_in_line(const std::string& station) {
+    const auto at = std::find(stations.begin(), stations.end(), station);
+    return at == stations.end() ? -1 : static_cast<int>(at - stations.begin());
+}
+
+inline const fs::path root = ESPALIER_SOURCE_DIR;
+
+/// Headers and sources below `folder` (relative to the root), sorted.
+inline std::vector<fs::path> sources_below(const fs::path& folder) {
+    std::vector<fs::path> files;
+    if (fs::is_directory(root / folder)) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            const fs::path& path = entry.path();
+            if (path.extension() == ".h" || path.extension() == ".cpp") files.push_back(fs::relative(path, root));
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+inline std::vector<std::string> lines_of(const fs::path& file) {
+    std::ifstream in(root / file);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// What a file includes, without quotes or angle brackets, in order.
+inline std::vector<std::string> includes_of(const fs::path& file) {
+    std::vector<std::string> includes;
+    for (const std::string& line : lines_of(file)) {
+        if (!line.starts_with("#include")) continue;
+        const std::size_t begin = line.find_first_of("<\"");
+        const std::size_t end = line.find_last_of(">\"");
+        if (begin != std::string::npos && end > begin) includes.push_back(line.substr(begin + 1, end - begin - 1));
+    }
+    return includes;
+}
+
+}  // namespace layout
