@@ -10,6 +10,9 @@
 
 namespace espalier {
 
+/// Thread safe. Simple solids, unions seen from outside and intersections seen from inside are exact everywhere. In the
+/// other cases (deep in a union, outside a difference) `distance` is a lower bound of the distance with the right
+/// sign, and `nearest` a point of the surface that need not be the very nearest.
 class Shape {
 public:
     struct Sample {
@@ -22,7 +25,8 @@ public:
 
     virtual double distance(const glm::dvec3& point) const = 0;
     virtual Sample sample(const glm::dvec3& point) const = 0;
-    bool inside(const glm::dvec3& point) const { return distance(point) <= 0; }
+    /// The surface itself is inside.
+    virtual bool inside(const glm::dvec3& point) const { return distance(point) <= 0; }
     /// Empty optional for shapes without bounds (half space).
     virtual std::optional<Box> bounds() const = 0;
 };
@@ -31,6 +35,10 @@ public:
 /// (`shape = "union", of = [ {...}, {...} ]`), with transforms. The help of process `shape` lists them all.
 /// Throws UserError for what it cannot read: an open or empty mesh, an unknown kind, a radius that is not positive.
 std::shared_ptr<const Shape> read_shape(Settings& table);
+
+/// `shape` grown by `growth` metres (shrunk if negative) and moved.
+std::shared_ptr<const Shape> grown_and_moved(std::shared_ptr<const Shape> shape, double growth,
+                                             const glm::dvec3& movement);
 
 /// The text that documents shapes in `espalier list`.
 const char* shape_help();
