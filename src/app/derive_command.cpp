@@ -13,11 +13,18 @@
 namespace espalier {
 namespace {
 
+bool has_queries(const Alphabet& alphabet) {
+    for (std::size_t symbol = 0; symbol < alphabet.symbol_count(); ++symbol) {
+        if (alphabet.symbol_name(static_cast<SymbolId>(symbol)).starts_with('?')) return true;
+    }
+    return false;
+}
+
 // Answers ?P ?H ?L ?U ?Q. Without a scene nobody else answers: those queries keep their parameters.
 class TurtleAnswers {
 public:
     explicit TurtleAnswers(const Model& model)
-        : model_(model), symbols_(symbol_table(model)), asks_(model.alphabet.find_symbol("?").has_value()) {}
+        : model_(model), symbols_(symbol_table(model)), asks_(has_queries(model.alphabet)) {}
 
     void exchange(ModuleString& string, const Derivation& derivation) {
         if (!asks_) return;

@@ -33,17 +33,23 @@ Parts symbol_parts() {
     return parts;
 }
 
-// What a file says of itself: its leading comment, without the marks. The first line is the summary.
+// The comment a file begins with, without its marks: a block, or lines of // or #.
+std::string leading_comment(const std::string& text) {
+    if (text.starts_with("/*")) return text.substr(2, text.find("*/") - 2);
+    std::string comment;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line) && (line.starts_with("//") || line.starts_with("#"));) {
+        comment += line.substr(std::min(line.find_first_not_of("/#"), line.size())) + "\n";
+    }
+    return comment;
+}
+
+// What a file says of itself. The first line of its comment is the summary.
 PartDescription describe_file(const fs::path& file) {
     PartDescription part{file.string(), "", ""};
-    std::istringstream in(read_text(file));
+    std::istringstream in(leading_comment(read_text(file)));
     for (std::string line; std::getline(in, line);) {
-        const std::size_t mark = line.find_first_not_of("/*# \t");
-        const bool comment =
-            line.starts_with("/*") || line.starts_with("//") || line.starts_with("#") || line.starts_with(" *");
-        if (!comment) break;
-        std::string text = mark == std::string::npos ? "" : line.substr(mark);
-        if (text.ends_with("*/")) text = text.substr(0, text.find_last_not_of("*/ ") + 1);
+        const std::string text = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
         if (part.summary.empty()) {
             part.summary = text;
         } else {

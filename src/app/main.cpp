@@ -103,7 +103,7 @@ void add_run(CLI::App& program, CommandLine& line) {
     command->footer(R"(Examples:
   espalier run environments/two-trees.toml
   espalier run environments/two-trees.toml --set environment.light.voxel=0.5 --output output/coarse
-  espalier run models/02_branching.l --steps 5 --set plant.0.define.ANGLE=30
+  espalier run models/course/02-branching.l --steps 5
 Ctrl-C ends the run after the step at hand and keeps what was recorded; once more stops at once.)");
 }
 
@@ -114,7 +114,7 @@ void add_check(CLI::App& program, CommandLine& line) {
     add_define_option(command, line);
     command->add_flag("--cpfg-quirks", line.check.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
     command->add_flag("--json", line.check.json, "print the findings as JSON");
-    command->footer("Example:\n  espalier check models/02_branching.l");
+    command->footer("Example:\n  espalier check models/course/02-branching.l");
 }
 
 void add_derive(CLI::App& program, CommandLine& line) {
@@ -130,8 +130,8 @@ void add_derive(CLI::App& program, CommandLine& line) {
     command->footer(
         R"(Nothing surrounds the plant: ?P ?H ?L ?U ?Q are answered, ?E and named queries keep their parameters.
 Examples:
-  espalier derive models/02_branching.l --steps 3
-  espalier derive models/03_parameters.l --format counts --define RATE=1.2)");
+  espalier derive models/course/02-branching.l --steps 3
+  espalier derive models/course/03-parameters.l --format counts)");
 }
 
 void add_info(CLI::App& program, CommandLine& line) {

@@ -13,9 +13,7 @@ class Run {
 public:
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), world_(scene, options.memory), record_(scene, options) {
-        if (options.output.empty()) return;
-        timeline_.emplace(options.output, scene.timeline, scene.steps, options.overwrite);
-        write_record("running");
+        if (!options.output.empty()) open_timeline();
     }
 
     RunResult walk() {
@@ -32,6 +30,24 @@ public:
     }
 
 private:
+    // A mistake in the scene's [timeline] should not leave an empty folder behind.
+    void open_timeline() {
+        const bool existed = std::filesystem::exists(options_.output);
+        try {
+            timeline_.emplace(options_.output, scene_.timeline, scene_.steps, options_.overwrite);
+        } catch (const UserError&) {
+            if (!existed) remove_if_unused(options_.output);
+            throw;
+        }
+        write_record("running");
+    }
+
+    static void remove_if_unused(const std::filesystem::path& folder) {
+        std::error_code ignored;
+        std::filesystem::remove(folder / ".lock", ignored);
+        std::filesystem::remove(folder, ignored);  // does nothing unless empty
+    }
+
     void grow() {
         world_.start();
         record_frame();

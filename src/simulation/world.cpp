@@ -119,6 +119,7 @@ World::World(const Scene& scene, std::size_t memory) : state_(std::make_unique<S
     const EnvironmentContext context{"", scene.domain, scene.seed, static_cast<std::uint32_t>(scene.plants.size()),
                                      state.shares.process};
     state.environment = std::make_unique<Environment>(scene.processes, context);
+    for (const auto& process : scene.processes) process.second.reject_unread();
     if (!scene.default_process.empty()) state.environment->set_default(scene.default_process);
 
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
