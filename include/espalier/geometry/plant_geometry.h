@@ -64,7 +64,7 @@ struct PlantGeometry {
     std::vector<glm::dvec3> vertices;
     std::vector<Organ> organs;
     std::uint32_t axes = 0;
-    Box bounds;
+    Box bounds;  ///< of everything drawn, thickness included
 
     void clear();
 };

@@ -15,14 +15,14 @@ enum class QueryKind : std::uint8_t { communication, position, heading, left, up
 /// One communication module of one plant. Parameters point into the plant's string.
 struct Query {
     QueryKind kind = QueryKind::communication;
-    std::int16_t process = -1;  ///< index into Model::processes; -1: ?E, the scene's default process
+    std::int16_t process = -1;       ///< index into Model::processes; -1: ?E, the scene's default process
     LetterId following = no_letter;  ///< the module that follows in the string, if any
     std::uint32_t plant = 0;
-    std::uint32_t module = 0;         ///< index of the module that carries the parameters
-    std::size_t parameters_at = 0;    ///< where they begin in ModuleString::parameters
+    std::uint32_t module = 0;       ///< index of the module that carries the parameters
+    std::size_t parameters_at = 0;  ///< where they begin in ModuleString::parameters
     std::span<const double> parameters;
     std::span<const double> following_parameters;
-    Identity identity = 0;            ///< of the communication module; 0 if the string keeps no lineage
+    Identity identity = 0;  ///< of the communication module; 0 if the string keeps no lineage
     Identity following_identity = 0;
     Pose pose;
     double width = 0;  ///< line width, metres

@@ -4,37 +4,103 @@
 
 #include "espalier/turtle/interpretation.h"
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace espalier {
 
-/// The walk a symbol acts upon.
-struct Walk {
-    const TurtleSettings& settings;
-    Interpretation& result;
-    TurtleState turtle;
-    std::vector<TurtleState> stack;
-    std::uint32_t module = 0;  ///< index in the plant's string of the module that is being drawn
-    std::uint32_t plant = 0;
-    std::vector<std::vector<glm::dvec3>> open_polygons;
-    std::size_t polygons_open = 0;
-    bool stop = false;  ///< set by `%` when the rest is not drawn
-    const Model* model = nullptr;
-    const ModuleString* string = nullptr;
+/// The walk of one turtle along one string: what a symbol acts upon.
+class Walk {
+public:
+    Walk(const Model& model, const ModuleString& string, const TurtleSettings& settings, std::uint32_t plant,
+         Interpretation& result);
 
-    /// Moves by `distance` metres along the heading after the tropisms; draws an internode if asked.
-    void move(double distance, bool draw, bool record_vertex);
+    const TurtleSettings& settings;
+    TurtleState turtle;
+    std::vector<double> elasticities;  ///< one per tropism
+    bool stopped = false;              ///< nothing that follows is drawn
+
+    /// Moves by distance * scale along the heading, after the tropisms have acted on it.
+    void move(double distance, bool draws, bool records_vertex);
+    /// Moves elsewhere; the next internode begins a new axis.
+    void jump(const glm::dvec3& position);
+    /// The first parameter as an angle in degrees, or the model's angle if there is none.
+    Rotation rotation(std::span<const double> parameters);
+
+    void push();
+    void pop();
+
+    void set_width(double width);
+    void set_scale(double scale);
+    /// The elasticity of a tropism counted from 1; null if there is no such tropism.
+    double* elasticity(double id);
+
+    /// Opens a polygon; a group of vertices that is not `filled` collects them and draws nothing.
+    void open_polygon(bool filled);
+    void close_polygon();
+    void record_vertex();
+
+    /// Puts an organ at `pose`; `size` in metres, the scale already in it.
+    void place(Organ::Shape shape, const Pose& pose, const glm::dvec3& size, std::uint32_t surface = 0);
+
+    /// Sends the current module's parameters; does nothing inside a picture, whose answers nobody could read.
+    void ask(QueryKind kind);
+
+    /// The symbol of the current module, one code point or a declared name.
+    const std::string& symbol() const;
+
+    /// Throws RunError naming the module, the plant and the modules around it.
+    [[noreturn]] void fail(const std::string& what) const;
+
+private:
+    friend class Interpreter;
+    struct OpenPolygon {
+        std::size_t first;
+        std::uint32_t module;
+        bool filled;
+    };
+    struct KnownRotation {
+        double degrees;
+        Rotation rotation;
+    };
+
+    void begin_axis();
+
+    const Model& model_;
+    const ModuleString& string_;
+    PlantGeometry& geometry_;
+    std::vector<Query>& queries_;
+    const std::uint32_t plant_;
+    const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
+
+    std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn
+    std::size_t parameters_at_ = 0;  // where its parameters begin
+    LetterId letter_ = no_letter;    // of the module that acts: module_'s own, or one of its picture
+    bool in_picture_ = false;
+
+    std::vector<TurtleState> stack_;
+    std::vector<double> elasticity_stack_;
+    std::vector<OpenPolygon> open_polygons_;
+    std::vector<glm::dvec3> open_vertices_;
+    Rotation default_rotation_;
+    std::array<KnownRotation, 16> known_rotations_;  // angles repeat; sines are dear
 };
 
 using SymbolAction = void (*)(Walk& walk, std::span<const double> parameters);
 
-/// Defining one registers it. `symbol` is what stands in the string ("F", "@o", "+"); `arities` the numbers of
-/// parameters it acts on, others are ignored as cpfg ignores them.
+/// Defining one registers it. `name` is what stands in the string ("F", "@o", "+"); its characters are modules of their
+/// own, of which only the last may have parameters. A final `*` stands for any character ("~*"). `arities` are the
+/// numbers of parameters it acts on, any if empty; with other numbers it is skipped.
 struct Symbol {
-    Symbol(std::string symbol, std::vector<int> arities, std::string help, SymbolAction action);
+    Symbol(std::string name, std::vector<int> arities, std::string help, SymbolAction action);
+    Symbol(const Symbol&) = delete;
+    Symbol& operator=(const Symbol&) = delete;
+
+    bool accepts(int arity) const;
 
     std::string name;
     std::vector<int> arities;

@@ -4,6 +4,7 @@
 #include "espalier/geometry/plant_geometry.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace espalier {
@@ -26,13 +27,15 @@ struct TurtleSettings {
     double line_width_increment = 0;
     int colour = 128;
     int colour_increment = 1;
+    int back_colour = 128;
+    int back_colour_increment = 1;
     double scale = 1;
     double scale_multiplier = 1;
     bool past_cut = true;  ///< draw what follows `%`
     std::vector<Tropism> tropisms;
 };
 
-/// Everything `[` saves and `]` restores.
+/// What `[` saves and `]` restores, but for the elasticities, which the walk keeps on a stack of their own.
 struct TurtleState {
     Pose pose;
     double width = 1;
@@ -40,20 +43,28 @@ struct TurtleState {
     int colour = 128;
     int back_colour = 128;
     std::uint32_t axis = 0;
-    std::uint16_t order = 0;
-    bool on_axis = false;    ///< the axis has an internode that ends here
-    double node_width = 1;   ///< width at the end of that internode
-    std::vector<double> elasticities;  ///< one per tropism, empty if there are none
+    std::uint16_t order = 0;  ///< depth of branching, at most 65535
+    bool on_axis = false;     ///< the axis has an internode that ends here
+    double node_width = 1;    ///< width at the end of that internode
 };
 
-// Rotations by `angle` radians in cpfg's senses.
-void turn_left(Pose& pose, double angle);   ///< +
-void pitch_down(Pose& pose, double angle);  ///< &
-void roll_left(Pose& pose, double angle);   ///< / of cpfg: L towards U
-void level(Pose& pose);                     ///< @v: left horizontal
+/// The cosine and sine of an angle in radians. Quarter turns are exact, so that right angles stay right.
+struct Rotation {
+    double cosine = 1, sine = 0;
+
+    Rotation() = default;
+    Rotation(double angle);
+    Rotation inverse() const;
+};
+
+// Rotations in cpfg's senses.
+void turn_left(Pose& pose, Rotation rotation);   ///< + : H towards L
+void pitch_down(Pose& pose, Rotation rotation);  ///< & : H towards U
+void roll_left(Pose& pose, Rotation rotation);   ///< / : L towards U
+void level(Pose& pose);                          ///< @v: left horizontal
 /// Turns the heading to `heading` with the least twist; a zero vector means straight up.
 void head_towards(Pose& pose, const glm::dvec3& heading);
-/// Bends (or rolls) by the tropisms, as before every segment.
-void apply_tropisms(TurtleState& state, const std::vector<Tropism>& tropisms);
+/// Bends and rolls as before every segment; one elasticity per tropism.
+void apply_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities);
 
 }  // namespace espalier

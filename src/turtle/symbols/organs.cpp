@@ -1,0 +1,70 @@
+// Discs, spheres, outlines and surfaces where the turtle is.
+#include "espalier/turtle/symbol.h"
+
+#include <cstdint>
+
+namespace espalier {
+namespace {
+
+/// Towards the reader of a front view, who looks along -z.
+Pose facing_the_screen(const Walk& walk) {
+    Pose pose;
+    pose.position = walk.turtle.pose.position;
+    return pose;
+}
+
+glm::dvec3 diameter(const Walk& walk, std::span<const double> parameters) {
+    return glm::dvec3(parameters.empty() ? walk.turtle.width : parameters[0] * walk.turtle.scale);
+}
+
+/// The first code point of UTF-8 text.
+std::uint32_t code_point(const std::string& text) {
+    const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
+    const std::uint32_t lead = byte(0);
+    const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    if (length == 1 || text.size() < length) return lead;
+    std::uint32_t result = lead & (0xFFu >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i) result = result << 6 | (byte(i) & 0x3F);
+    return result;
+}
+
+void place_surface(Walk& walk, std::span<const double> parameters) {
+    glm::dvec3 size(walk.turtle.scale);
+    if (parameters.size() == 1) size *= parameters[0];
+    if (parameters.size() == 3) size *= glm::dvec3(parameters[0], parameters[1], parameters[2]);
+    walk.place(Organ::Shape::surface, walk.turtle.pose, size, code_point(walk.symbol()));
+}
+
+const Symbol screen_disc{"@o",
+                         {0, 1},
+                         "@o(diameter): a disc that faces the screen; the line width without parameter",
+                         [](Walk& walk, std::span<const double> parameters) {
+                             walk.place(Organ::Shape::disc, facing_the_screen(walk), diameter(walk, parameters));
+                         }};
+
+const Symbol disc{"@c",
+                  {0, 1},
+                  "@c(diameter): a disc in the plane of heading and left",
+                  [](Walk& walk, std::span<const double> parameters) {
+                      walk.place(Organ::Shape::disc, walk.turtle.pose, diameter(walk, parameters));
+                  }};
+
+const Symbol sphere{"@O", {0, 1}, "@O(diameter): a sphere", [](Walk& walk, std::span<const double> parameters) {
+                        walk.place(Organ::Shape::sphere, walk.turtle.pose, diameter(walk, parameters));
+                    }};
+
+const Symbol screen_circle{
+    "@bo", {0, 1}, "@bo(diameter): the outline of @o", [](Walk& walk, std::span<const double> parameters) {
+        walk.place(Organ::Shape::circle, facing_the_screen(walk), diameter(walk, parameters));
+    }};
+
+const Symbol circle{
+    "@bc", {0, 1}, "@bc(diameter): the outline of @c", [](Walk& walk, std::span<const double> parameters) {
+        walk.place(Organ::Shape::circle, walk.turtle.pose, diameter(walk, parameters));
+    }};
+
+const Symbol surface{
+    "~*", {0, 1, 3}, "~x(scale) or ~x(sx, sy, sz): the surface x, recorded as an organ", place_surface};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,30 @@
+// The scale of lengths and of widths set from now on.
+#include "espalier/turtle/symbol.h"
+
+namespace espalier {
+namespace {
+
+double factor(const Walk& walk, std::span<const double> parameters) {
+    return parameters.empty() ? walk.settings.scale_multiplier : parameters[0];
+}
+
+const Symbol set{"@D", {1}, "@D(scale): set the scale", [](Walk& walk, std::span<const double> parameters) {
+                     walk.set_scale(parameters[0]);
+                 }};
+
+const Symbol multiply{"@Di",
+                      {0, 1},
+                      "@Di(factor): multiply the scale; by the scene's multiplier without parameter",
+                      [](Walk& walk, std::span<const double> parameters) {
+                          walk.set_scale(walk.turtle.scale * factor(walk, parameters));
+                      }};
+
+const Symbol divide{"@Dd",
+                    {0, 1},
+                    "@Dd(factor): divide the scale; by the scene's multiplier without parameter",
+                    [](Walk& walk, std::span<const double> parameters) {
+                        walk.set_scale(walk.turtle.scale / factor(walk, parameters));
+                    }};
+
+}  // namespace
+}  // namespace espalier

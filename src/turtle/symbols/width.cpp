@@ -1,0 +1,26 @@
+// The width of what F and G draw: set, in units of the scale, or changed by the model's increment.
+#include "espalier/turtle/symbol.h"
+
+namespace espalier {
+namespace {
+
+void change_width(Walk& walk, std::span<const double> parameters, double increment) {
+    walk.set_width(parameters.empty() ? walk.turtle.width + increment : parameters[0] * walk.turtle.scale);
+}
+
+const Symbol wider{"#",
+                   {0, 1},
+                   "#(width): set the line width, times the scale; without parameter, widen by the increment",
+                   [](Walk& walk, std::span<const double> parameters) {
+                       change_width(walk, parameters, walk.settings.line_width_increment);
+                   }};
+
+const Symbol narrower{"!",
+                      {0, 1},
+                      "!(width): set the line width, times the scale; without parameter, narrow by the increment",
+                      [](Walk& walk, std::span<const double> parameters) {
+                          change_width(walk, parameters, -walk.settings.line_width_increment);
+                      }};
+
+}  // namespace
+}  // namespace espalier

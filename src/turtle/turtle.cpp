@@ -1,0 +1,125 @@
+#include "espalier/turtle/turtle.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+/// Turns `first` towards `second`, both unit and perpendicular.
+void rotate_pair(glm::dvec3& first, glm::dvec3& second, Rotation by) {
+    const glm::dvec3 turned = first * by.cosine + second * by.sine;
+    second = second * by.cosine - first * by.sine;
+    first = turned;
+}
+
+/// Rodrigues' rotation formula; `axis` is a unit vector.
+glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, Rotation by) {
+    return vector * by.cosine + glm::cross(axis, vector) * by.sine + axis * (glm::dot(axis, vector) * (1 - by.cosine));
+}
+
+/// Rounds off what a general rotation leaves of non-orthogonality.
+void straighten(Pose& pose) {
+    pose.heading = glm::normalize(pose.heading);
+    pose.left = glm::normalize(pose.left - pose.heading * glm::dot(pose.left, pose.heading));
+    pose.up = glm::cross(pose.left, pose.heading);
+}
+
+/// Rotates the whole frame, so that the heading turns with the least twist.
+void rotate_frame(Pose& pose, const glm::dvec3& axis, Rotation by) {
+    pose.heading = rotated(pose.heading, axis, by);
+    pose.left = rotated(pose.left, axis, by);
+    straighten(pose);
+}
+
+/// The direction one tropism pulls to: its own, or the one at `angle` from it on the heading's side.
+glm::dvec3 pull(const Tropism& tropism, const glm::dvec3& heading) {
+    const glm::dvec3& T = tropism.direction;
+    if (tropism.angle == 0) return T;
+    const glm::dvec3 across = glm::cross(heading, T);
+    const double sine = glm::length(across);
+    if (sine == 0) return T * std::cos(tropism.angle);
+    return T * std::cos(tropism.angle) + glm::cross(T, across) * (std::sin(tropism.angle) / sine);
+}
+
+}  // namespace
+
+Rotation::Rotation(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {
+    // pi/2 and its like cannot be written in binary; what is left of 0 is an artefact.
+    constexpr double artefact = 4e-16;
+    if (std::abs(cosine) < artefact) {
+        cosine = 0;
+        sine = std::copysign(1.0, sine);
+    }
+    if (std::abs(sine) < artefact) {
+        sine = 0;
+        cosine = std::copysign(1.0, cosine);
+    }
+}
+
+Rotation Rotation::inverse() const {
+    Rotation result = *this;
+    result.sine = -sine;
+    return result;
+}
+
+void turn_left(Pose& pose, Rotation rotation) {
+    rotate_pair(pose.heading, pose.left, rotation);
+}
+
+void pitch_down(Pose& pose, Rotation rotation) {
+    rotate_pair(pose.heading, pose.up, rotation);
+}
+
+void roll_left(Pose& pose, Rotation rotation) {
+    rotate_pair(pose.left, pose.up, rotation);
+}
+
+void level(Pose& pose) {
+    const glm::dvec3 left = glm::cross(glm::dvec3(0, 1, 0), pose.heading);
+    const double length = glm::length(left);
+    if (length < 1e-9) return;
+    pose.left = left / length;
+    pose.up = glm::cross(pose.left, pose.heading);
+}
+
+void head_towards(Pose& pose, const glm::dvec3& heading) {
+    const double length = glm::length(heading);
+    const glm::dvec3 target = length > 0 ? heading / length : glm::dvec3(0, 1, 0);
+    const glm::dvec3 across = glm::cross(pose.heading, target);
+    const double sine = glm::length(across);
+    if (sine > 1e-12) {
+        Rotation by;
+        by.cosine = glm::dot(pose.heading, target);
+        by.sine = sine;
+        rotate_frame(pose, across / sine, by);
+    } else if (glm::dot(pose.heading, target) < 0) {
+        pose.left = -pose.left;  // straight back: turn in the plane of heading and left, as | does
+    }
+    pose.heading = target;
+    straighten(pose);
+}
+
+void apply_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities) {
+    glm::dvec3 bend(0), twist(0);
+    for (std::size_t i = 0; i < tropisms.size(); ++i) {
+        if (elasticities[i] == 0) continue;
+        if (tropisms[i].torque) {
+            twist += tropisms[i].direction * elasticities[i];
+        } else {
+            bend += pull(tropisms[i], pose.heading) * elasticities[i];
+        }
+    }
+    // Prusinkiewicz & Lindenmayer 1990, section 2.3: alpha = e |H x T|, about the axis H x T.
+    const glm::dvec3 axis = glm::cross(pose.heading, bend);
+    const double torque = glm::length(axis);
+    if (torque > 0) rotate_frame(pose, axis / torque, std::min(torque, 1.0));
+
+    // The same for up, about the heading: only the part of the twist across the heading counts.
+    const double roll = std::clamp(glm::dot(glm::cross(pose.up, twist), pose.heading), -1.0, 1.0);
+    if (roll != 0) roll_left(pose, Rotation(-roll));
+}
+
+}  // namespace espalier
