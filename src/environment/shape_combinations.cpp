@@ -72,8 +72,9 @@ public:
             if (!bounds) return std::nullopt;
             box.add(*bounds);
         }
-        // Each melting adds at most a quarter of `blend` where the surfaces are alike.
-        const double bulge = 0.25 * blend_ * static_cast<double>(parts_.size() - 1);
+        // Each melting lowers the distance by a quarter of `blend` at most, and none below the least part by more
+        // than `blend`, where melting ends.
+        const double bulge = std::min(0.25 * static_cast<double>(parts_.size() - 1), 1.0) * blend_;
         return Box{box.lower - bulge, box.upper + bulge};
     }
 
