@@ -20,6 +20,8 @@ struct RecorderContext {
 class Recorder {
 public:
     virtual ~Recorder() = default;
+    /// True for recorders that must see every step, whatever `every` says.
+    virtual bool sees_every_step() const { return false; }
     virtual void record(const Frame& frame) = 0;
     /// After the last frame, also of an interrupted or failed run.
     virtual void finish() = 0;

@@ -1,0 +1,32 @@
+// A table that grows by whole lines: valid after every row, also after a crash or on a full disk.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace espalier {
+
+class CsvFile {
+public:
+    /// Makes the file anew with its header (without line break). Throws RunError.
+    CsvFile(const std::filesystem::path& path, std::string_view header);
+    ~CsvFile();
+    CsvFile(const CsvFile&) = delete;
+    CsvFile& operator=(const CsvFile&) = delete;
+
+    /// Appends whole lines, each with its line break, in one write. Takes back a write that could not be completed
+    /// and throws RunError.
+    void append(std::string_view lines);
+
+private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+    std::size_t size_ = 0;
+};
+
+/// A value as CSV writes it: in quotes if it holds a comma, a quote or a line break.
+std::string csv_text(std::string_view text);
+
+}  // namespace espalier

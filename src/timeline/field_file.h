@@ -1,0 +1,18 @@
+// Fields on disk: .vdb for OpenVDB, .vti for every viewer; the same bytes for the same grid.
+#pragma once
+
+#include "espalier/environment/field.h"
+
+#include <filesystem>
+
+namespace espalier {
+
+/// Complete or not at all; Blosc and active masks. Throws RunError.
+void write_vdb(const std::filesystem::path& path, const Field& field);
+
+/// The field over its box as a .vti with a value at every voxel's centre. Throws RunError if that is more than
+/// `most_vti_voxels`.
+void write_vti(const std::filesystem::path& path, const Field& field, double time, int step);
+inline constexpr std::uint64_t most_vti_voxels = std::uint64_t{1} << 28;
+
+}  // namespace espalier

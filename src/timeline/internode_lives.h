@@ -1,0 +1,52 @@
+// The internodes of one plant through a run: each once, with its birth, its death and its last shape.
+#pragma once
+
+#include "espalier/timeline/frame.h"
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace espalier {
+
+struct InternodeLife {
+    Identity identity, parent;
+    std::uint32_t part;  ///< a module may draw several internodes; this is its part-th
+    std::int32_t birth;  ///< of the module
+    std::int32_t death;  ///< first step without it; meaningful once it is dead
+    bool alive;
+    std::uint16_t symbol, order, colour;
+    glm::vec3 base, tip;  ///< as last seen
+    float base_radius, tip_radius;
+    std::uint32_t place;  ///< among those that lived at its last step
+};
+
+class InternodeLives {
+public:
+    /// Brings the lives to a step. `symbols` numbers the letters. Throws RunError if the string keeps no lineage.
+    void record(int step, const PlantFrame& plant, std::span<const std::uint16_t> symbols);
+
+    /// In the order of first appearance.
+    const std::vector<InternodeLife>& all() const { return lives_; }
+
+private:
+    struct Key {
+        Identity identity;
+        std::uint32_t part;
+        bool operator==(const Key&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const { return key.identity + key.part; }
+    };
+
+    /// The life of an internode, made if it is new.
+    std::uint32_t life_of(const Key& key, std::size_t& expected);
+
+    std::vector<InternodeLife> lives_;
+    std::unordered_map<Key, std::uint32_t, Hash> index_;
+    std::vector<std::uint32_t> living_;  ///< the lives seen one step ago, in string order
+    std::vector<std::uint32_t> next_living_;
+};
+
+}  // namespace espalier

@@ -1,0 +1,55 @@
+// The plants of a frame as points and cells, each knowing the module it shows.
+#pragma once
+
+#include "espalier/base/column.h"
+#include "espalier/timeline/frame.h"
+
+#include <cstdint>
+#include <span>
+
+namespace espalier {
+
+enum class Kind : std::uint8_t { query = 0, axis = 1, polygon = 2, organ = 3 };
+
+/// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
+struct Owner {
+    std::uint32_t plant;
+    std::uint32_t module;
+    std::uint16_t order;
+    std::uint16_t colour;
+    Kind kind;
+};
+
+/// Cells of one kind of VTK's: cell i has the points connectivity[offsets[i]] .. connectivity[offsets[i + 1] - 1].
+struct Cells {
+    Column<std::int32_t> offsets{0};
+    Column<std::int32_t> connectivity;
+    Column<Owner> owners;
+
+    void clear();
+    /// Ends the cell whose points were appended to `connectivity`.
+    void close(const Owner& owner);
+};
+
+/// Reused from frame to frame: clear() keeps the memory.
+struct PlantMesh {
+    Column<float> points;  ///< x, y, z of one point after the other
+    Column<float> radii;
+    Column<Owner> owners;  ///< of the points
+    Cells vertices, lines, polygons;
+
+    void clear();
+    /// Returns the point's number. Throws RunError beyond 2^31 points.
+    std::int32_t add_point(const glm::dvec3& position, double radius, const Owner& owner);
+};
+
+/// One line per axis, broken where the next internode does not begin where the last ended.
+/// An axis's cell belongs to its first internode; a point to the internode that ends there, the first to the one that
+/// begins there.
+void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+/// The queries of some letters, as vertices: letter i is asked for if asked[i].
+void add_queries(PlantMesh& mesh, const PlantFrame& frame, std::span<const char> asked, std::uint32_t plant);
+
+}  // namespace espalier

@@ -1,0 +1,100 @@
+// The fields of every frame: fields.pvd, fields/NAME/NNNN.vti for any viewer and fields/NAME/NNNN.vdb beside it.
+//
+// Parameters: fields (list of field names, default none; ["all"] for every field), field_files (list of "vti", "vdb";
+// default both). A field that does not change is written once and named by every time step.
+// The .vti has a value at every voxel's centre, over the domain or the active box, and field data unit and meaning.
+#include "espalier/base/text.h"
+#include "espalier/timeline/recorder.h"
+
+#include "timeline/collection_file.h"
+#include "timeline/field_file.h"
+#include "timeline/folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace espalier {
+namespace {
+
+class FieldRecorder final : public Recorder {
+public:
+    FieldRecorder(const Settings& settings, const RecorderContext& context)
+        : folder_(context.folder),
+          collection_(context.folder / "fields.pvd"),
+          names_(settings.texts_or("fields", {})),
+          place_(settings.place("fields")) {
+        const std::vector<std::string> known{"vti", "vdb"};
+        const std::vector<std::string> files = settings.texts_or("field_files", known);
+        for (const std::string& file : files) {
+            if (std::find(known.begin(), known.end(), file) != known.end()) continue;
+            throw UserError(settings.place("field_files"), fmt::format("'field_files' may hold vti and vdb, not '{}'{}",
+                                                                       file, did_you_mean(file, known)));
+        }
+        vti_ = std::find(files.begin(), files.end(), "vti") != files.end();
+        vdb_ = std::find(files.begin(), files.end(), "vdb") != files.end();
+    }
+
+    bool wanted() const { return !names_.empty() && (vti_ || vdb_); }
+
+    void record(const Frame& frame) override {
+        if (written_.empty()) find_fields(*frame.fields);
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            const Field& field = *frame.fields->find(names_[i]);
+            if (field.changes || written_[i].empty()) written_[i] = write(field, frame);
+            collection_.add(frame.time, static_cast<int>(i), names_[i], written_[i] + (vti_ ? ".vti" : ".vdb"));
+        }
+        collection_.write();
+    }
+
+    void finish() override {}
+
+private:
+    // At the first frame every process has provided its fields.
+    void find_fields(const Fields& fields) {
+        std::vector<std::string> known;
+        for (const auto& [name, field] : fields.all()) known.push_back(name);
+        if (names_ == std::vector<std::string>{"all"}) names_ = known;
+        for (const std::string& name : names_) {
+            if (!fields.find(name)) {
+                throw UserError(place_,
+                                fmt::format("there is no field '{}'{}; the fields of this scene are: {}", name,
+                                            did_you_mean(name, known),
+                                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+            }
+            if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
+                throw UserError(place_,
+                                fmt::format("field '{}' cannot be recorded: its name must serve as a folder's", name));
+            }
+        }
+        written_.resize(names_.size());
+    }
+
+    // Returns the files' common name, without extension.
+    std::string write(const Field& field, const Frame& frame) const {
+        const std::string name = fmt::format("fields/{}/{:04}", field.name, frame.step);
+        make_folder(folder_ / "fields" / field.name);
+        if (vti_) write_vti(folder_ / (name + ".vti"), field, frame.time, frame.step);
+        if (vdb_) write_vdb(folder_ / (name + ".vdb"), field);
+        return name;
+    }
+
+    std::filesystem::path folder_;
+    CollectionFile collection_;
+    std::vector<std::string> names_;
+    Place place_;
+    bool vti_ = true, vdb_ = true;
+    std::vector<std::string> written_;  ///< per field, the last files' name
+};
+
+const RegisteredRecorder entry{{"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",
+                                "fields (list of names, none): which to write; [\"all\"] for every one\n"
+                                "field_files (list, [\"vti\", \"vdb\"]): in which formats"},
+                               [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
+                                   auto recorder = std::make_unique<FieldRecorder>(settings, context);
+                                   if (!recorder->wanted()) return nullptr;
+                                   return recorder;
+                               }};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,128 @@
+// The plants of every frame: plants.pvd, and plants/NNNN.vtp with a line per axis, organs and polygons.
+//
+// Parameters: skeleton (true or false, default true); parameters (table of array name = "SYMBOL.NUMBER"): module
+// parameters that become point arrays; a query's ("?E.1") also makes its queries vertices.
+// Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
+// (0 query, 1 axis, 2 polygon, 3 organ); point arrays besides: radius and the chosen parameters.
+#include "espalier/timeline/recorder.h"
+
+#include "timeline/attribute_arrays.h"
+#include "timeline/chosen_parameters.h"
+#include "timeline/collection_file.h"
+#include "timeline/folder.h"
+#include "timeline/plant_mesh.h"
+#include "timeline/vtk_file.h"
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkTypeInt32Array.h>
+
+namespace espalier {
+namespace {
+
+vtkSmartPointer<vtkCellArray> cell_array(Cells& cells) {
+    auto array = vtkSmartPointer<vtkCellArray>::New();
+    array->SetData(array_over<vtkTypeInt32Array>("", cells.offsets.data(), cells.offsets.size()),
+                   array_over<vtkTypeInt32Array>("", cells.connectivity.data(), cells.connectivity.size()));
+    return array;
+}
+
+class Skeleton final : public Recorder {
+public:
+    Skeleton(const Settings& settings, const RecorderContext& context)
+        : folder_(context.folder),
+          collection_(context.folder / "plants.pvd"),
+          chosen_(read_chosen_parameters(settings.table("parameters"))) {}
+
+    void record(const Frame& frame) override {
+        if (!checked_) require_known(chosen_, frame.plants);
+        checked_ = true;
+        fill_mesh(frame);
+        const std::string file = fmt::format("plants/{:04}.vtp", frame.step);
+        make_folder(folder_ / "plants");
+        write_vtk(folder_ / file, *poly_data(frame));
+        collection_.add(frame.time, 0, "plants", file);
+        collection_.write();
+    }
+
+    void finish() override {}
+
+private:
+    void fill_mesh(const Frame& frame) {
+        mesh_.clear();
+        for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
+            const PlantFrame& plant = frame.plants[i];
+            add_queries(mesh_, plant, asked_letters(plant.model->alphabet), i);
+            add_axes(mesh_, plant.interpretation->geometry, i);
+            add_polygons(mesh_, plant.interpretation->geometry, i);
+            add_organs(mesh_, plant.interpretation->geometry, i);
+        }
+    }
+
+    std::vector<char> asked_letters(const Alphabet& alphabet) const {
+        std::vector<char> asked(alphabet.size(), 0);
+        for (const ChosenParameter& parameter : chosen_) {
+            if (!parameter.of_query()) continue;
+            const std::vector<int> slots = parameter_slots(parameter, alphabet);
+            for (std::size_t i = 0; i < slots.size(); ++i) asked[i] |= slots[i] >= 0;
+        }
+        return asked;
+    }
+
+    vtkSmartPointer<vtkPolyData> poly_data(const Frame& frame) {
+        auto data = vtkSmartPointer<vtkPolyData>::New();
+        vtkNew<vtkPoints> points;
+        points->SetData(array_over<vtkFloatArray>("points", mesh_.points.data(), mesh_.points.size(), 3));
+        data->SetPoints(points);
+        data->SetVerts(cell_array(mesh_.vertices));
+        data->SetLines(cell_array(mesh_.lines));
+        data->SetPolys(cell_array(mesh_.polygons));
+
+        const AttributeArrays arrays(frame, symbols_, chosen_);
+        vtkPointData& of_points = *data->GetPointData();
+        of_points.AddArray(array_over<vtkFloatArray>("radius", mesh_.radii.data(), mesh_.radii.size()));
+        arrays.add_attributes(of_points, mesh_.owners);
+        arrays.add_parameters(of_points, mesh_.owners);
+        arrays.add_attributes(*data->GetCellData(), cell_owners());
+        add_time(*data->GetFieldData(), frame.time, frame.step);
+        add_texts(*data->GetFieldData(), "symbol_names", symbols_.names());
+        return data;
+    }
+
+    // VTK counts a data set's cells so: vertices, lines, polygons.
+    const Column<Owner>& cell_owners() {
+        cell_owners_.clear();
+        for (const Cells* cells : {&mesh_.vertices, &mesh_.lines, &mesh_.polygons}) {
+            cell_owners_.insert(cell_owners_.end(), cells->owners.begin(), cells->owners.end());
+        }
+        return cell_owners_;
+    }
+
+    std::filesystem::path folder_;
+    CollectionFile collection_;
+    std::vector<ChosenParameter> chosen_;
+    bool checked_ = false;  ///< the chosen parameters against the models
+    SymbolNumbers symbols_;
+    PlantMesh mesh_;
+    Column<Owner> cell_owners_;
+};
+
+const RegisteredRecorder entry{
+    {"skeleton", "plants.pvd and plants/NNNN.vtp: a line per axis, organs and polygons, with identities",
+     "skeleton (true or false, true): write them\n"
+     "parameters (table, none): arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }:\n"
+     "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points"},
+    [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
+        auto recorder = std::make_unique<Skeleton>(settings, context);
+        if (!settings.flag_or("skeleton", true)) return nullptr;
+        return recorder;
+    }};
+
+}  // namespace
+}  // namespace espalier

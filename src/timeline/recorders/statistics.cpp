@@ -1,0 +1,103 @@
+// statistics.csv: one row per step and plant, whatever `every` says.
+//
+// Parameters: statistics (true or false, default true).
+// Columns: step, plant (its number); modules (of the string, brackets included); queries; internodes; organs (polygons
+// included); length (m, of all internodes); height (m, highest point above the base of the first internode); volume
+// (m3, of all internodes); born, died (modules since the step before, brackets included); then the processes'
+// quantities.
+#include "espalier/base/text.h"
+#include "espalier/timeline/csv_file.h"
+#include "espalier/timeline/recorder.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+namespace espalier {
+namespace {
+
+std::vector<std::string> quantity_names(const PlantFrame& plant) {
+    std::vector<std::string> names;
+    for (const Quantity& quantity : plant.quantities) names.push_back(quantity.name);
+    return names;
+}
+
+double height(const PlantGeometry& geometry) {
+    if (geometry.bounds.empty()) return 0;
+    const double base = geometry.internodes.empty() ? geometry.bounds.lower.y : geometry.internodes.front().base.y;
+    return geometry.bounds.upper.y - base;
+}
+
+// Modules whose life began after `step`.
+std::size_t born_after(const ModuleString& string, int step) {
+    std::size_t born = 0;
+    for (const std::uint32_t birth : string.births) born += static_cast<std::int64_t>(birth) > step;
+    return born;
+}
+
+class Statistics final : public Recorder {
+public:
+    explicit Statistics(const RecorderContext& context) : path_(context.folder / "statistics.csv") {}
+
+    bool sees_every_step() const override { return true; }
+
+    void record(const Frame& frame) override {
+        if (!file_) begin(frame);
+        std::string rows;
+        for (const PlantFrame& plant : frame.plants) rows += row(frame.step, plant);
+        file_->append(rows);
+        previous_step_ = frame.step;
+    }
+
+    void finish() override {}
+
+private:
+    void begin(const Frame& frame) {
+        std::string header = "step,plant,modules,queries,internodes,organs,length,height,volume,born,died";
+        if (!frame.plants.empty()) quantities_ = quantity_names(frame.plants.front());
+        for (const std::string& name : quantities_) header.append(",").append(csv_text(name));
+        file_.emplace(path_, header);
+    }
+
+    std::string row(int step, const PlantFrame& plant) {
+        if (quantity_names(plant) != quantities_) {
+            throw RunError(fmt::format("the quantities of plant '{}' at step {} are not the columns of {}", plant.name,
+                                       step, path_.string()));
+        }
+        const PlantGeometry& geometry = plant.interpretation->geometry;
+        const std::size_t modules = plant.string->size();
+        std::string row =
+            fmt::format("{},{},{},{},{},{},{},{},{},{}", step, plant.plant, modules,
+                        plant.interpretation->queries.size(), geometry.internodes.size(),
+                        geometry.organs.size() + geometry.polygons.size(), format_exact(total_length(geometry)),
+                        format_exact(height(geometry)), format_exact(total_volume(geometry)), turnover(plant));
+        for (const Quantity& quantity : plant.quantities) row.append(",").append(format_exact(quantity.value));
+        return row + "\n";
+    }
+
+    // "born,died". Every module was here one step ago or is born since; those that were and are not have died.
+    std::string turnover(const PlantFrame& plant) {
+        const std::size_t now = plant.string->size();
+        const std::size_t before = std::exchange(modules_[plant.plant], now);
+        if (!plant.string->has_lineage() && now > 0) return ",";
+        const std::size_t born = born_after(*plant.string, previous_step_);
+        return fmt::format("{},{}", born, before + born - now);
+    }
+
+    std::filesystem::path path_;
+    std::optional<CsvFile> file_;
+    std::vector<std::string> quantities_;
+    std::map<std::uint32_t, std::size_t> modules_;  ///< per plant, one step ago
+    int previous_step_ = -1;
+};
+
+const RegisteredRecorder entry{
+    {"statistics", "statistics.csv: a row per step and plant", "statistics (true or false, true): write it"},
+    [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
+        if (!settings.flag_or("statistics", true)) return nullptr;
+        return std::make_unique<Statistics>(context);
+    }};
+
+}  // namespace
+}  // namespace espalier

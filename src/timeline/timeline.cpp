@@ -1,0 +1,97 @@
+#include "espalier/timeline/timeline.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array indices{"plants.pvd", "fields.pvd", "lifespans.vtp", "statistics.csv"};
+constexpr std::array reports{"run.json", "timings.csv"};
+
+bool holds_timeline(const fs::path& folder) {
+    return std::any_of(indices.begin(), indices.end(), [&](const char* name) { return fs::exists(folder / name); });
+}
+
+// "0012.vtp": named by a step's number.
+bool is_frame_file(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    const std::string extension = path.extension().string();
+    const bool numbered =
+        !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    return numbered && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
+}
+
+void remove_frame_files(const fs::path& folder) {
+    if (!fs::is_directory(folder)) return;
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+        if (item.is_regular_file() && is_frame_file(item.path())) fs::remove(item.path());
+    }
+}
+
+// Indices first: what they no longer name is nobody's.
+void remove_timeline(const fs::path& folder) {
+    try {
+        for (const char* name : indices) fs::remove(folder / name);
+        for (const char* name : reports) fs::remove(folder / name);
+        remove_frame_files(folder / "plants");
+        remove_frame_files(folder / "fields");
+    } catch (const fs::filesystem_error& error) {
+        throw RunError(
+            fmt::format("cannot remove the old timeline in {}: {}", folder.string(), error.code().message()));
+    }
+}
+
+}  // namespace
+
+Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool overwrite)
+    : folder_(folder), lock_(folder), last_step_(last_step) {
+    if (!overwrite && holds_timeline(folder)) {
+        throw UserError(
+            fmt::format("{} already holds a timeline; choose another folder with --output, or replace it "
+                        "with --overwrite",
+                        folder.string()));
+    }
+    every_ = static_cast<int>(table.integer_or("every", 1, Range::between(1, 1e9)));
+    const RecorderContext context{folder, last_step};
+    for (const auto& [name, entry] : RecorderRegistry::entries()) {
+        if (auto recorder = entry.make(table, context)) recorders_.push_back(std::move(recorder));
+    }
+    table.reject_unread();
+    if (overwrite) remove_timeline(folder);
+}
+
+Timeline::~Timeline() = default;
+
+void Timeline::record(const Frame& frame) {
+    const bool due = frame.step % every_ == 0 || frame.step == last_step_;
+    for (const auto& recorder : recorders_) {
+        if (due || recorder->sees_every_step()) recorder->record(frame);
+    }
+}
+
+void Timeline::finish() {
+    std::exception_ptr first;
+    for (const auto& recorder : recorders_) {
+        try {
+            recorder->finish();
+        } catch (...) {
+            if (!first) first = std::current_exception();
+        }
+    }
+    if (first) std::rethrow_exception(first);
+}
+
+void Timeline::write_run(const std::string& json) const {
+    write_text(folder_ / "run.json", json);
+}
+
+}  // namespace espalier
