@@ -1,0 +1,259 @@
+// voxel-shade: organs cast pyramids of shadow; a query answers the light the shadows of all others leave.
+// Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/shade_grids.h"
+#include "environment/shade_light.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace espalier {
+namespace {
+
+// 2^35 voxels, half a terabyte when all of them are shaded.
+constexpr double most_domain_voxels = 34359738368.0;
+
+ShadeRule read_rule(const Settings& settings) {
+    ShadeRule rule;
+    rule.attenuate = settings.choice_or("mode", "add", {"add", "attenuate"}) == "attenuate";
+    rule.strength = settings.number_or("strength", rule.strength, Range::between(0, 1e6));
+    rule.dissipation = settings.number_or("dissipation", rule.dissipation, Range::between(1, 1e12));
+    rule.depth = static_cast<int>(settings.integer_or("depth", rule.depth, Range::between(0, 1000)));
+    rule.spread = settings.number_or("spread", rule.spread, Range::between(0, 100));
+    rule.full_light = settings.number_or("full_light", rule.full_light, Range::between(0, 1e12));
+    rule.flat = settings.integer_or("dimensions", 3, Range::between(2, 3)) == 2;
+    return rule;
+}
+
+std::optional<Box> read_domain(const Settings& settings, const std::optional<Box>& of_scene) {
+    if (!settings.has("domain")) return of_scene;
+    const Settings table = settings.table("domain");
+    const Box domain{table.vector("lower"), table.vector("upper")};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (domain.lower[axis] < domain.upper[axis]) continue;
+        throw UserError(table.place("upper"), "the domain's upper corner must lie above its lower corner");
+    }
+    return domain;
+}
+
+/// The voxels whose centres lie in [lower, upper). A domain as wide as n voxels always has n of them.
+VoxelBox voxels_of(const Box& domain, double voxel, bool flat) {
+    const glm::dvec3 lower = glm::ceil(domain.lower / voxel - 1e-9);
+    const glm::dvec3 upper = glm::max(glm::ceil(domain.upper / voxel - 1e-9) - 1.0, lower);
+    VoxelBox box{glm::ivec3(lower), glm::ivec3(upper)};
+    if (flat) box.lower.z = box.upper.z = 0;
+    return box;
+}
+
+void require_size(const Box& domain, double voxel, bool flat, std::size_t memory, const Place& place) {
+    glm::dvec3 size = (domain.upper - domain.lower) / voxel;
+    if (flat) size.z = 1;
+    const glm::dvec3 end = glm::max(glm::abs(domain.lower), glm::abs(domain.upper)) / voxel;
+    const double voxels = std::max(size.x, 1.0) * std::max(size.y, 1.0) * std::max(size.z, 1.0);
+    const double bytes = voxels * (sizeof(Shade) + 2 * sizeof(float));
+    const bool numbered = std::max({end.x, end.y, flat ? 0 : end.z}) < 1 << 29;
+    if (numbered && voxels <= most_domain_voxels && bytes <= static_cast<double>(memory)) return;
+    throw UserError(place,
+                    fmt::format("a domain of {:g} x {:g} x {:g} m in voxels of {:g} m has {:.3g} voxels and needs "
+                                "up to {:.3g} GiB of memory; take larger voxels or a smaller domain",
+                                domain.upper.x - domain.lower.x, domain.upper.y - domain.lower.y,
+                                domain.upper.z - domain.lower.z, voxel, voxels, bytes / 1073741824.0));
+}
+
+void require_period(const Box& domain, const ShadeLattice& lattice, const ShadeRule& rule, const Place& place) {
+    for (const int axis : {0, 2}) {
+        if (axis == 2 && rule.flat) continue;
+        const double voxels = (domain.upper[axis] - domain.lower[axis]) / lattice.voxel;
+        if (std::abs(voxels - std::round(voxels)) > 1e-6 || voxels < 0.5) {
+            throw UserError(place, fmt::format("a periodic domain must be a whole number of voxels wide, not {:g} of "
+                                               "{:g} m along {}",
+                                               voxels, lattice.voxel, axis == 0 ? "x" : "z"));
+        }
+        if (half_width(rule, rule.depth) > 8 * voxels) {
+            throw UserError(place, "the pyramids are more than 8 times as wide as the periodic domain on either side");
+        }
+    }
+}
+
+ShadeLattice read_lattice(const Settings& settings, const EnvironmentContext& context, const ShadeRule& rule) {
+    ShadeLattice lattice;
+    lattice.voxel = settings.number_or("voxel", lattice.voxel, Range::positive());
+    lattice.flat = rule.flat;
+    lattice.trilinear = settings.choice_or("sampling", "trilinear", {"trilinear", "nearest"}) == "trilinear";
+    lattice.periodic = settings.flag_or("periodic", false);
+    lattice.fixed = settings.flag_or("fixed", lattice.periodic || settings.has("domain"));
+    const std::optional<Box> domain = read_domain(settings, context.domain);
+    if (domain) require_size(*domain, lattice.voxel, rule.flat, context.memory, settings.place("voxel"));
+    if (!lattice.fixed && !lattice.periodic) return lattice;
+    if (!domain) {
+        throw UserError(settings.place(lattice.periodic ? "periodic" : "fixed"),
+                        fmt::format("'{}' needs a domain = {{ lower = [x, y, z], upper = [x, y, z] }}, its own or the "
+                                    "scene's, to be {}",
+                                    context.name, lattice.periodic ? "periodic" : "fixed"));
+    }
+    if (lattice.periodic) require_period(*domain, lattice, rule, settings.place("voxel"));
+    lattice.domain = voxels_of(*domain, lattice.voxel, rule.flat);
+    return lattice;
+}
+
+/// The voxels that can be shaded. A periodic domain that is not fixed has no top and no bottom.
+VoxelBox clip_of(const ShadeLattice& lattice) {
+    const int far = 1 << 30;
+    VoxelBox clip{glm::ivec3(-far), glm::ivec3(far)};
+    if (lattice.fixed) return lattice.domain;
+    if (lattice.periodic) {
+        clip = lattice.domain;
+        clip.lower.y = -far;
+        clip.upper.y = far;
+    }
+    return clip;
+}
+
+class VoxelShade final : public EnvironmentProcess {
+public:
+    VoxelShade(Settings& settings, const EnvironmentContext& context, Fields& fields)
+        : name_(context.name),
+          casts_(read_rule(settings)),
+          lattice_(read_lattice(settings, context, casts_.rule())),
+          gradient_radius_(settings.number_or("gradient_radius", lattice_.voxel, Range::positive())),
+          field_(clip_of(lattice_), context.memory),
+          shown_casts_(casts_.rule()),
+          totals_(context.plants) {
+        publish(fields);
+    }
+
+    void advance(const WorldView&, std::span<const Query> queries, Fields& fields) override {
+        casts_.clear();
+        casts_begin_.clear();
+        for (const Query& query : queries) {
+            casts_begin_.push_back(casts_.casts().size());
+            if (query.parameters[0] > 0) cast(lattice_.voxel_of(query.pose.position), query.parameters[0]);
+        }
+        casts_begin_.push_back(casts_.casts().size());
+        if (casts_ == shown_casts_) return;
+        field_.rebuild(casts_);
+        publish(fields);
+        shown_casts_ = casts_;
+    }
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        const ShadeLight light(lattice_, casts_, field_);
+        const auto answer_some = [&](const tbb::blocked_range<std::size_t>& some) {
+            for (std::size_t i = some.begin(); i < some.end(); ++i) answer_one(light, queries[i], own(i), answers[i]);
+        };
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), answer_some);
+        sum_up(queries, answers);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        const Totals totals = plant < totals_.size() ? totals_[plant] : Totals();
+        const double queries = totals.queries;
+        return {{"mean", queries > 0 ? totals.light / queries : 0},
+                {"min", queries > 0 ? totals.least : 0},
+                {"max", queries > 0 ? totals.most : 0},
+                {"queries", queries},
+                {"casts", totals.casts}};
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // Shade is made anew from the queries of every step: nothing lasts.
+    void save(std::ostream&) const override {}
+    void restore(std::istream&) override {}
+
+private:
+    struct Totals {
+        double light = 0, queries = 0, casts = 0;
+        double least = std::numeric_limits<double>::infinity(), most = 0;
+    };
+
+    // In a periodic domain, with every image whose pyramid reaches into the stored period.
+    void cast(const glm::ivec3& voxel, double s) {
+        const glm::ivec3 apex = lattice_.wrapped(voxel);
+        if (!lattice_.periodic) return casts_.add(apex, s);
+        const glm::ivec3 period = lattice_.domain.upper - lattice_.domain.lower + 1;
+        const int width = casts_.half_width(casts_.rule().depth);
+        const int images_x = width / period.x + 1;
+        const int images_z = lattice_.flat ? 0 : width / period.z + 1;
+        for (int x = -images_x; x <= images_x; ++x) {
+            for (int z = -images_z; z <= images_z; ++z) casts_.add(apex + glm::ivec3(x * period.x, 0, z * period.z), s);
+        }
+    }
+
+    std::span<const ShadeCast> own(std::size_t query) const {
+        return casts_.casts().subspan(casts_begin_[query], casts_begin_[query + 1] - casts_begin_[query]);
+    }
+
+    void answer_one(const ShadeLight& light, const Query& query, std::span<const ShadeCast> own, Answer answer) const {
+        const glm::dvec3& point = query.pose.position;
+        answer[0] = light.at(point, own);
+        if (answer.size() < 4) return;
+        const glm::dvec3 gradient = light.gradient(point, gradient_radius_, own);
+        for (int axis = 0; axis < 3; ++axis) answer[static_cast<std::size_t>(axis) + 1] = gradient[axis];
+    }
+
+    void sum_up(std::span<const Query> queries, std::span<const Answer> answers) {
+        std::fill(totals_.begin(), totals_.end(), Totals());
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (queries[i].plant >= totals_.size()) totals_.resize(queries[i].plant + 1);
+            Totals& totals = totals_[queries[i].plant];
+            totals.light += answers[i][0];
+            totals.queries += 1;
+            totals.casts += queries[i].parameters[0] > 0;
+            totals.least = std::min(totals.least, answers[i][0]);
+            totals.most = std::max(totals.most, answers[i][0]);
+        }
+    }
+
+    void publish(Fields& fields) const {
+        const VoxelBox& shown = lattice_.fixed ? lattice_.domain : field_.box();
+        provide_shade_fields(field_, casts_.rule(), lattice_.voxel, shown, name_, fields);
+    }
+
+    std::string name_;
+    ShadeCasts casts_;
+    ShadeLattice lattice_;
+    double gradient_radius_;
+    ShadeField field_;
+    ShadeCasts shown_casts_;                ///< what `field_` holds
+    std::vector<std::size_t> casts_begin_;  ///< of each query, and the end of the last
+    std::vector<Totals> totals_;
+};
+
+const RegisteredProcess<VoxelShade> entry{
+    {"voxel-shade", "light left by the shadow pyramids of all organs (Palubicki et al. 2009)",
+     R"(Every query with s > 0 casts a pyramid: it shades its own voxel (layer q = 0) and, q = 1 ... depth layers below, a
+square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  What a query casts itself never shades it.
+
+?name(s)          -> light Q at the query's place; s is the strength it casts with, s <= 0 asks only
+?name(s, x, y, z) -> light, and its gradient per metre: the brightest direction, not normalised
+Further parameters (20 in all at most) stay as they are.
+
+voxel           m, 0.5; edge of a voxel. Voxel (0, 0, 0) has its centre at the origin
+mode            "add" (default): Q = max(full_light - sum of shadows, 0)
+                "attenuate": Q = full_light times the product of 1 - min(1, shadow)
+strength        a, 0.2; what a query of strength 1 takes away in its own voxel
+dissipation     b >= 1, 2; each layer below takes b times less
+depth           q_max, 6; layers below the caster's own, 0 to 1000
+spread          1; voxels the half-width grows by per layer, 0 to 100
+full_light      C, 1
+sampling        "trilinear" (default): between the eight voxels around the query; "nearest": the voxel it is in
+gradient_radius m, one voxel; central differences reach so far
+dimensions      3; 2: one voxel thick, z does not matter
+domain          { lower, upper } in m; default: the scene's
+fixed           true if `domain` is given here or `periodic` is true, else false: shade grows with the plants.
+                Outside a fixed domain is full light
+periodic        false; true: the domain repeats along x and z for ever
+
+Fields: name (light), name.shade (the sum, or the optical depth).
+Statistics of a plant: mean, min, max of its answers, queries, casts.
+)"}};
+
+}  // namespace
+}  // namespace espalier
