@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <new>
+#include <string_view>
 
 namespace espalier {
 namespace {
@@ -215,7 +217,8 @@ int parse_and_dispatch(int argc, char** argv) {
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        return fail(explain(program, error), exit_code::user_error, false);
+        const bool json_wanted = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+        return fail(explain(program, error), exit_code::user_error, json_wanted);
     }
     const bool json = line.run.json || line.check.json || line.info.json || line.list.json;
     try {

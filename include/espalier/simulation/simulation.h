@@ -21,7 +21,7 @@ struct RunOptions {
     bool overwrite = false;
     std::size_t memory = 0;        ///< bytes; 0: half of the machine
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
-    std::function<void(const Progress&)> progress;
+    std::function<void(const Progress&)> progress = nullptr;
 };
 
 struct RunResult {

@@ -1,0 +1,224 @@
+// Each mistake gets one clear message and the right exit code, and what was recorded before stays whole.
+#include "catch.h"
+#include "program.h"
+
+#include <nlohmann/json.hpp>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string plant = "[[plant]]\nmodel = 'bush.l'\n";
+const std::string light = "[environment.light]\nprocess = 'voxel-shade'\n";
+
+class BadInput : public Workplace {
+public:
+    BadInput() { write("bush.l", models::bush); }
+
+    Outcome run_scene(const std::string& text, const std::string& arguments = "") const {
+        write("scene.toml", text);
+        return run("run scene.toml --quiet --output out " + arguments);
+    }
+    std::string exit_of(const std::string& folder) const {
+        return json::parse(text_of(path() / folder / "run.json"))["exit"];
+    }
+    std::size_t frames_in(const std::string& folder) const {
+        std::size_t count = 0;
+        for (const auto& entry : fs::directory_iterator(path() / folder / "plants")) {
+            CHECK_FALSE(entry.path().filename().string().starts_with("."));
+            count += entry.path().extension() == ".vtp";
+        }
+        return count;
+    }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(BadInput, "mistakes on the command line exit with 1 and offer the nearest name", "[app]") {
+    CHECK(run("").code == 1);
+    CHECK(run("rnu bush.l").code == 1);
+    CHECK_THAT(run("run bush.l --stpes 3").err, Contains("did you mean '--steps'?"));
+    CHECK(run("run bush.l --steps -1").code == 1);
+    CHECK(run("run bush.l --steps many").code == 1);
+    CHECK(run("run bush.l --threads 0").code == 1);
+    CHECK_THAT(run("run bush.l --memory lots").err, Contains("512M or 4G"));
+    CHECK(run("run bush.l --memory -1G").code == 1);
+    CHECK_THAT(run("run bush.l --set steps").err, Contains("KEY=VALUE"));
+    CHECK(run("run bush.l --set plant.7.define.X=1").code == 1);
+    CHECK_THAT(run("list proceses").err, Contains("did you mean 'processes'?"));
+    CHECK_THAT(run("list processes voxel-shde").err, Contains("did you mean 'voxel-shade'?"));
+    CHECK(run("derive bush.l --format xml").code == 1);
+    CHECK_FALSE(fs::exists(path() / "output"));
+}
+
+TEST_CASE_METHOD(BadInput, "files that are missing, or are not what they should be, exit with 1", "[app]") {
+    CHECK(run("run nowhere.toml").code == 1);
+    CHECK_THAT(run("run nowhere.toml").err, Contains("nowhere.toml") && Contains("No such file"));
+    CHECK(run("run nowhere.l").code == 1);
+    CHECK(run("run .").code == 1);
+    CHECK(run("info nowhere").code == 1);
+    CHECK(run_scene("[[plant]]\nmodel = 'oak.l'\n").code == 1);
+    CHECK_THAT(run_scene("[[plant]]\nmodel = 'oak.l'\n").err, Contains("scene.toml:2:1") && Contains("oak.l"));
+    write("run.json", "{}");
+    CHECK(run("info .").code == 1);
+    write("noise.l", std::string("\x7f\x45\x4c\x46\x00\xff\xfe", 7));
+    CHECK(run("derive noise.l").code == 1);
+    write("noise.toml", std::string("\xff\xfe\x00[", 4));
+    CHECK(run("run noise.toml").code == 1);
+}
+
+TEST_CASE_METHOD(BadInput, "mistakes in a scene exit with 1 and leave no output folder", "[app]") {
+    const auto fails_with = [&](const std::string& text, const std::string& words) {
+        const Outcome outcome = run_scene(text);
+        INFO(outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(words));
+        CHECK_FALSE(fs::exists(path() / "out"));
+    };
+    fails_with(plant + "[simulation]\nstpes = 3\n",
+               "scene.toml:4:1: 'stpes' means nothing here (did you mean 'steps'?)");
+    fails_with(plant + "[simulation\n", "scene.toml:3:");
+    fails_with(plant + "[environment.light]\nprocess = 'voxle-shade'\n", "did you mean 'voxel-shade'?");
+    fails_with(plant + light + "voxel = -0.25\n", "scene.toml:5:1: 'voxel' must be greater than 0");
+    fails_with(plant + light + "voxel = 0\n", "'voxel' must be greater than 0");
+    fails_with(plant + light + "voxel = nan\n", "'voxel' must be a finite number");
+    fails_with(plant + light + "voxle = 0.25\n", "(did you mean 'voxel'?)");
+    fails_with(plant + "[timeline]\nevry = 2\n", "(did you mean 'every'?)");
+    fails_with("[simulation]\nsteps = 3\n", "no [[plant]]");
+}
+
+TEST_CASE_METHOD(BadInput, "a domain of 10^12 voxels is refused before it is allocated", "[app]") {
+    write("asking.l", "lsystem: 1\nderivation length: 3\naxiom: F(1)?E(1)\n\nendlsystem\n");
+    for (const char* process : {"voxel-shade", "soil-water"}) {
+        const Outcome outcome = run_scene(
+            "[simulation]\ndomain = { lower = [0, 0, 0], upper = [10000, 10000, 10000] }\n"
+            "[[plant]]\nmodel = 'bush.l'\n[environment.field]\nprocess = '" +
+            std::string(process) + "'\nvoxel = 1.0\n");
+        INFO(process << ": " << outcome.err);
+        // A sparse field may as well take it: nothing stands in most of those voxels.
+        CHECK((outcome.code == 0 || outcome.code == 1 || outcome.code == 2));
+        if (outcome.code != 0) CHECK_THAT(outcome.err, Contains("memory") || Contains("voxels"));
+        fs::remove_all(path() / "out");
+    }
+}
+
+TEST_CASE_METHOD(BadInput, "a typo in a model names its place, in a scene too", "[app]") {
+    write("typo.l", "lsystem: 1\nderivation length: 3\naxiom: A(1)\nA(length) --> F(lenght)A(length)\nendlsystem\n");
+    for (const char* command : {"derive typo.l", "check typo.l", "run typo.l"}) {
+        const Outcome outcome = run(command);
+        INFO(outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("typo.l:4:17") && Contains("lenght") && Contains("did you mean 'length'?"));
+    }
+    CHECK(run_scene("[[plant]]\nmodel = 'typo.l'\n").code == 1);
+}
+
+TEST_CASE_METHOD(BadInput, "growth without end stops within its memory and keeps its frames", "[app]") {
+    write("doubling.l", models::doubling);
+    const Outcome outcome = run("run doubling.l --quiet --memory 64M --output out");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("step ") && Contains("doubling.l:4"));
+    CHECK_THAT(exit_of("out"), Contains("failed: "));
+    const json record = json::parse(text_of(path() / "out" / "run.json"));
+    CHECK(frames_in("out") == record["steps_done"].get<std::size_t>() + 1);
+    CHECK(record["steps_done"] > 10);
+    CHECK(run("derive doubling.l --memory 64M").code == 2);
+}
+
+TEST_CASE_METHOD(BadInput, "0/0 in a model names file, line, module and step", "[app]") {
+    write("zero.l", models::zero_by_zero);
+    const Outcome outcome = run("run zero.l --quiet --output out");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("zero.l:4:") && Contains("zero"));
+    CHECK(frames_in("out") == 2);
+    CHECK_THAT(exit_of("out"), Contains("zero.l:4:"));
+}
+
+TEST_CASE_METHOD(BadInput, "a full disk ends the run with its reason and leaves whole frames", "[app]") {
+    write("doubling.l", models::doubling);
+    // Files of at most 32 blocks (16 or 32 KiB): the first frames fit, a later one does not.
+    const Outcome outcome = run("run doubling.l --quiet --steps 14 --output out", "ulimit -f 32;");
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("cannot write") && Contains("out/"));
+    const std::size_t frames = frames_in("out");
+    CHECK(frames >= 5);
+    CHECK(frames < 15);
+    CHECK_THAT(text_of(path() / "out" / "plants.pvd"), Contains("</VTKFile>"));
+}
+
+TEST_CASE_METHOD(BadInput, "an output folder that cannot be written is named", "[app]") {
+    fs::create_directories(path() / "sealed");
+    write("file", "no folder");
+    CHECK(run("run bush.l --quiet --output file/inside").code == 2);
+    CHECK_THAT(run("run bush.l --quiet --output file/inside").err, Contains("file/inside"));
+    if (geteuid() == 0) return;  // root writes everywhere
+    fs::permissions(path() / "sealed", fs::perms::owner_read | fs::perms::owner_exec);
+    const Outcome outcome = run("run bush.l --quiet --output sealed/out");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("sealed/out") && Contains("Permission denied"));
+}
+
+TEST_CASE_METHOD(BadInput, "a second run into one folder is refused, during the first and after it", "[app]") {
+    write("patient.l", models::patient);
+    Outcome second;
+    const Outcome first = run_until(
+        {"run", "patient.l", "--quiet", "--output", "out"}, [&] { return fs::exists(path() / "out/plants/0001.vtp"); },
+        [&](pid_t process) {
+            second = run("run bush.l --quiet --output out --overwrite");
+            kill(process, SIGINT);
+        });
+    CHECK(first.code == 130);
+    CHECK(second.code == 1);
+    CHECK_THAT(second.err, Contains("another run is writing into out"));
+    const Outcome third = run("run bush.l --quiet --output out");
+    CHECK(third.code == 1);
+    CHECK_THAT(third.err, Contains("--overwrite"));
+    CHECK(exit_of("out") == "interrupted");
+    CHECK(run("run bush.l --quiet --output out --overwrite").code == 0);
+    CHECK(frames_in("out") == 6);
+}
+
+TEST_CASE_METHOD(BadInput, "interrupting a run leaves a whole timeline", "[app]") {
+    write("patient.l", models::patient);
+    for (int signal : {SIGINT, SIGTERM}) {
+        const std::string folder = "out" + std::to_string(signal);
+        const Outcome outcome = run_until(
+            {"run", "patient.l", "--json", "--output", folder},
+            [&] { return fs::exists(path() / folder / "plants/0003.vtp"); },
+            [&](pid_t process) { kill(process, signal); });
+        CHECK(outcome.code == 130);
+        CHECK(json::parse(outcome.out)["exit"] == "interrupted");
+        CHECK(exit_of(folder) == "interrupted");
+        const std::size_t frames = frames_in(folder);
+        CHECK(frames == json::parse(outcome.out)["steps_done"].get<std::size_t>() + 1);
+        const std::string collection = text_of(path() / folder / "plants.pvd");
+        CHECK_THAT(collection, Contains("</VTKFile>"));
+        std::size_t named = 0;
+        for (std::size_t at = 0; (at = collection.find("<DataSet", at)) != std::string::npos; ++at) ++named;
+        CHECK(named == frames);
+        CHECK_THAT(run("info " + folder).out, Contains("ended: interrupted"));
+    }
+}
+
+TEST_CASE_METHOD(BadInput, "a run that is killed leaves a collection of whole frames", "[app]") {
+    write("patient.l", models::patient);
+    const Outcome outcome = run_until(
+        {"run", "patient.l", "--quiet", "--output", "out"}, [&] { return fs::exists(path() / "out/plants/0003.vtp"); },
+        [&](pid_t process) { kill(process, SIGKILL); });
+    CHECK(outcome.code == -SIGKILL);
+    CHECK(exit_of("out") == "running");
+    const std::string collection = text_of(path() / "out/plants.pvd");
+    CHECK_THAT(collection, Contains("plants/0002.vtp") && Contains("</VTKFile>"));
+}
+
+TEST_CASE_METHOD(BadInput, "with --json a failure is an object too", "[app]") {
+    const json failure = json::parse(run("run nowhere.toml --json").out);
+    CHECK(failure["exit"] == "failed");
+    CHECK(failure["code"] == 1);
+    CHECK_THAT(failure["message"].get<std::string>(), Contains("nowhere.toml"));
+    CHECK(json::parse(run("run bush.l --json --stpes 3").out)["code"] == 1);
+}

@@ -1,0 +1,141 @@
+// What the commands do when all is well.
+#include "catch.h"
+#include "program.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using nlohmann::json;
+
+namespace {
+
+std::size_t lines_in(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Workplace, "help teaches by example and never fails", "[app]") {
+    CHECK(run("--help").code == 0);
+    CHECK(run("--version").out == std::string(ESPALIER_VERSION) + "\n");
+    for (const char* command : {"run", "check", "derive", "info", "list"}) {
+        const Outcome outcome = run(std::string(command) + " --help");
+        CHECK(outcome.code == 0);
+        CHECK_THAT(outcome.out, Contains("Example") && Contains(std::string("espalier ") + command));
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "a model on its own runs, tells where its output is, and info reads it", "[app]") {
+    write("bush.l", models::bush);
+    const Outcome outcome = run("run bush.l --output there");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("5 of 5 steps") && Contains("there/"));
+    CHECK(std::filesystem::exists(path() / "there" / "plants.pvd"));
+
+    const Outcome info = run("info there");
+    CHECK(info.code == 0);
+    CHECK_THAT(info.out, Contains("ended: done; 5 of 5 steps") && Contains("frames: 6 of plants"));
+    const json summary = json::parse(run("info there --json").out);
+    CHECK(summary["exit"] == "done");
+    CHECK(summary["frames"] == 6);
+    CHECK(summary["last_step"].size() == 1);
+    CHECK(summary["last_step"][0]["step"] == "5");
+}
+
+TEST_CASE_METHOD(Workplace, "without --output the folder is named after scene and time", "[app]") {
+    write("bush.l", models::bush);
+    const json first = json::parse(run("run bush.l --json --quiet").out);
+    const json second = json::parse(run("run bush.l --json --quiet").out);
+    CHECK_THAT(first["output"].get<std::string>(), StartsWith("output/bush-20"));
+    CHECK(first["output"] != second["output"]);
+    CHECK(std::filesystem::exists(path() / first["output"].get<std::string>() / "run.json"));
+}
+
+TEST_CASE_METHOD(Workplace, "quiet is quiet, json is json, and a pipe gets about ten lines", "[app]") {
+    write("bush.l", models::bush);
+    write("patient.l", models::patient);
+    const Outcome quiet = run("run bush.l --quiet --output a");
+    CHECK(quiet.out.empty());
+    CHECK(quiet.err.empty());
+
+    const Outcome result = run("run bush.l --json --output b");
+    const json parsed = json::parse(result.out);
+    CHECK(parsed["exit"] == "done");
+    CHECK(parsed["steps_done"] == 5);
+    CHECK(parsed["modules"] > 100);
+
+    const Outcome piped = run("run patient.l --steps 300 --output c");
+    CHECK(lines_in(piped.err) == 10);
+    CHECK_THAT(piped.err, Contains("step 300/300"));
+    CHECK_THAT(piped.err, !Contains("\r"));
+}
+
+TEST_CASE_METHOD(Workplace, "derive prints the string, its counts and its modules", "[app]") {
+    write("tree.l",
+          "#define GROWTH 2\nlsystem: 1\nderivation length: 2\naxiom: A(1)\n"
+          "A(l) --> F(l)[+A(l*GROWTH)]A(l/2)\nendlsystem\n");
+    CHECK(run("derive tree.l --steps 0").out == "A(1)\n");
+    CHECK(run("derive tree.l --steps 1").out == "F(1)[+A(2)]A(0.5)\n");
+    CHECK(run("derive tree.l").out == "F(1)[+F(2)[+A(4)]A(1)]F(0.5)[+A(1)]A(0.25)\n");
+    CHECK(run("derive tree.l --steps 1 --define GROWTH=3").out == "F(1)[+A(3)]A(0.5)\n");
+    CHECK_THAT(run("derive tree.l --format counts").out,
+               Contains("F 3\n") && Contains("A 4\n") && Contains("total 16\n"));
+    const json string = json::parse(run("derive tree.l --steps 1 --format json").out);
+    CHECK(string["modules"] == 6);
+    CHECK(string["string"][0]["symbol"] == "F");
+    CHECK(string["string"][5]["parameters"][0] == 0.5);
+}
+
+TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, or leaves the last ones as cpfg does", "[app]") {
+    write("walk.l",
+          "lsystem: 1\nderivation length: 2\naxiom: F(1)?P(0,0,0)\n"
+          "?P(x,y,z) --> F(y)?P(9,9,9)\nendlsystem\n");
+    CHECK(run("derive walk.l").out == "F(1)F(1)F(2)?P(0,4,0)\n");
+    CHECK(run("derive walk.l --before-exchange").out == "F(1)F(1)F(2)?P(9,9,9)\n");
+    write("ask.l", "lsystem: 1\nderivation length: 1\naxiom: F(1)?E(5)\nF(x) --> F(x)F(x)\nendlsystem\n");
+    CHECK(run("derive ask.l").out == "F(1)F(1)?E(5)\n");
+}
+
+TEST_CASE_METHOD(Workplace, "check says what was read and warns of what looks wrong", "[app]") {
+    write("bush.l", models::bush);
+    const Outcome outcome = run("check bush.l");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("1 productions") && Contains("derivation length 5") && Contains("in parallel"));
+    write("counter.l", "lsystem: 1\nderivation length: 2\naxiom: A\nA : { n = n + 1; } 1 --> A\nB --> A\nendlsystem\n");
+    const Outcome warned = run("check counter.l");
+    CHECK(warned.code == 0);
+    CHECK_THAT(warned.out, Contains("counter.l:5") && Contains("warning") && Contains("derived in order"));
+    CHECK(json::parse(run("check counter.l --json").out)["warnings"].size() >= 1);
+}
+
+TEST_CASE_METHOD(Workplace, "checking a scene grows nothing and leaves nothing", "[app]") {
+    write("bush.l", models::bush);
+    write("scene.toml", "[[plant]]\nmodel = 'bush.l'\n[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\n");
+    const Outcome outcome = run("check scene.toml --set simulation.steps=3");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("1 plant, 3 steps, processes: light"));
+    CHECK_FALSE(std::filesystem::exists(path() / "output"));
+}
+
+TEST_CASE_METHOD(Workplace, "list documents what is registered", "[app]") {
+    CHECK_THAT(run("list").out, Contains("processes") && Contains("symbols") && Contains("recorders"));
+    CHECK_THAT(run("list processes").out, Contains("voxel-shade") && Contains("soil-water") && Contains("shape"));
+    CHECK_THAT(run("list processes voxel-shade").out, Contains("voxel"));
+    CHECK_THAT(run("list symbols").out, Contains("@o"));
+    CHECK_THAT(run("list scene").out, Contains("[[plant]]"));
+    CHECK(json::parse(run("list recorders --json").out).size() >= 3);
+    write("bush.l", models::bush);
+    std::filesystem::create_directories(path() / "models");
+    write("models/b.l", "/* A small bush\n   with two branches. */\nlsystem: 1\n");
+    CHECK_THAT(run("list models").out, Contains("A small bush"));
+}
+
+TEST_CASE_METHOD(Workplace, "the same seed gives the same string, another seed another", "[app]") {
+    write("chance.l",
+          "lsystem: 1\nseed: 1\nderivation length: 8\naxiom: A\nA --> F A : 1\nA --> F [+A] A : 1\nendlsystem\n");
+    CHECK(run("derive chance.l --seed 3").out == run("derive chance.l --seed 3").out);
+    CHECK(run("derive chance.l --seed 3").out != run("derive chance.l --seed 4").out);
+}

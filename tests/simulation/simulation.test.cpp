@@ -1,0 +1,170 @@
+#include "espalier/simulation/simulation.h"
+
+#include "catch.h"
+#include "temporary_folder.h"
+
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include <map>
+
+using namespace espalier;
+using Catch::Matchers::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const shaded_bush = R"(environment light;
+lsystem: 1
+seed: 3
+derivation length: 6
+axiom: ?light(1)A
+?light(q) < A : q > 0 --> F(0.5)[+(35)/(90)?light(1)A]?light(1)A : 2
+?light(q) < A : q > 0 --> F(0.7)/(137)?light(1)A : 1
+?light(q) --> ?light(1)
+endlsystem
+)";
+
+const char* const two_bushes = R"(
+[simulation]
+seed = 5
+[[plant]]
+model = 'bush.l'
+positions = [[0, 0, 0], [1, 0, 0]]
+[environment.light]
+process = 'voxel-shade'
+voxel = 0.25
+[timeline]
+fields = ['light']
+)";
+
+class Runs {
+public:
+    Runs() { folder_.write("bush.l", shaded_bush); }
+
+    Scene scene(const std::string& text = two_bushes) const {
+        return read_scene_text(text, "scene.toml", folder_.path());
+    }
+    Scene scene_with_model(const std::string& model) const {
+        folder_.write("plant.l", model);
+        return scene("[[plant]]\nmodel = 'plant.l'\n");
+    }
+    fs::path output(const std::string& name) const { return folder_.path() / name; }
+
+private:
+    TemporaryFolder folder_;
+};
+
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = text_of(entry.path());
+    }
+    return files;
+}
+
+nlohmann::json record_of(const fs::path& folder) {
+    return nlohmann::json::parse(text_of(folder / "run.json"));
+}
+
+std::size_t frames_in(const fs::path& folder) {
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "plants")) count += entry.path().extension() == ".vtp";
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Runs, "one thread and two write the same bytes", "[simulation]") {
+    for (int threads : {1, 2}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        run(scene(), {.output = output(std::to_string(threads))});
+    }
+    std::map<std::string, std::string> one = files_of(output("1")), two = files_of(output("2"));
+    for (const char* timed : {"run.json", "timings.csv"}) {
+        CHECK(one.erase(timed) == 1);
+        CHECK(two.erase(timed) == 1);
+    }
+    CHECK(one.size() > 20);
+    REQUIRE(one.size() == two.size());
+    for (const auto& [name, bytes] : one) {
+        INFO(name);
+        CHECK((two.count(name) == 1 && bytes == two[name]));
+    }
+}
+
+TEST_CASE_METHOD(Runs, "a run records what it takes to repeat it", "[simulation]") {
+    const RunResult result = run(scene(), {.output = output("run")});
+    CHECK(result.steps == 6);
+    CHECK_FALSE(result.interrupted);
+    const nlohmann::json record = record_of(output("run"));
+    CHECK(record["exit"] == "done");
+    CHECK(record["steps_done"] == 6);
+    CHECK(record["seed"] == 5);
+    CHECK(record["version"] == ESPALIER_VERSION);
+    CHECK(record["scene"]["text"] == two_bushes);
+    CHECK(record["parameters"]["environment"]["light"]["voxel"] == 0.25);
+    CHECK(record["parameters"]["simulation"]["steps"] == 6);
+    CHECK(record["plants"].size() == 2);
+    CHECK(frames_in(output("run")) == 7);
+    const std::string timings = text_of(output("run") / "timings.csv");
+    CHECK(std::count(timings.begin(), timings.end(), '\n') == 8);
+}
+
+TEST_CASE_METHOD(Runs, "an interrupted run keeps every frame so far and says so", "[simulation]") {
+    std::atomic<bool> interrupt{false};
+    RunOptions options;
+    options.output = output("run");
+    options.interrupt = &interrupt;
+    options.progress = [&](const Progress& progress) { interrupt = progress.step == 3; };
+    const RunResult result = run(scene(), options);
+    CHECK(result.interrupted);
+    CHECK(result.steps == 3);
+    CHECK(record_of(output("run"))["exit"] == "interrupted");
+    CHECK(record_of(output("run"))["steps_done"] == 3);
+    CHECK(frames_in(output("run")) == 4);
+    CHECK_THAT(text_of(output("run") / "plants.pvd"), Contains("0003.vtp") && Contains("</VTKFile>"));
+}
+
+TEST_CASE_METHOD(Runs, "an interrupt during the last step interrupts nothing", "[simulation]") {
+    std::atomic<bool> interrupt{false};
+    RunOptions options;
+    options.interrupt = &interrupt;
+    options.progress = [&](const Progress& progress) { interrupt = progress.step == 6; };
+    CHECK_FALSE(run(scene(), options).interrupted);
+}
+
+TEST_CASE_METHOD(Runs, "a failure in step k leaves frames 0 to k-1 whole, and the reason", "[simulation]") {
+    const Scene failing = scene_with_model(
+        "lsystem: 1\nderivation length: 5\naxiom: A(0)\nA(n) --> F(1 + 0 * (1 / (2 - n)))A(n + 1)\nendlsystem\n");
+    CHECK_THROWS_AS(run(failing, {.output = output("run")}), RunError);
+    const nlohmann::json record = record_of(output("run"));
+    CHECK_THAT(record["exit"].get<std::string>(), Contains("failed: ") && Contains("plant.l:4"));
+    CHECK(record["steps_done"] == 2);
+    CHECK(frames_in(output("run")) == 3);
+    CHECK_THAT(text_of(output("run") / "plants.pvd"), Contains("0002.vtp") && !Contains("0003.vtp"));
+}
+
+TEST_CASE_METHOD(Runs, "a model that stops is done before its steps are", "[simulation]") {
+    const Scene stopping = scene_with_model(
+        "lsystem: 1\nStartEach: { if (Q == 2) { stop(0); } }\nderivation length: 9\naxiom: F\nF --> FF\nendlsystem\n");
+    const RunResult result = run(stopping, {.output = output("run")});
+    CHECK(result.stopped);
+    CHECK_FALSE(result.interrupted);
+    CHECK(result.steps == 2);
+    CHECK(record_of(output("run"))["exit"] == "done");
+}
+
+TEST_CASE_METHOD(Runs, "a folder with a timeline is refused unless it may be overwritten", "[simulation]") {
+    run(scene(), {.output = output("run")});
+    CHECK_THROWS_AS(run(scene(), {.output = output("run")}), UserError);
+    CHECK(record_of(output("run"))["exit"] == "done");
+    CHECK_NOTHROW(run(scene(), {.output = output("run"), .overwrite = true}));
+}
+
+TEST_CASE_METHOD(Runs, "a mistake in the timeline's table leaves no folder behind", "[simulation]") {
+    const Scene mistaken = scene(std::string(two_bushes) + "evry = 2\n");
+    CHECK_THROWS_WITH(run(mistaken, {.output = output("run")}), Contains("did you mean 'every'?"));
+    CHECK_FALSE(fs::exists(output("run")));
+}

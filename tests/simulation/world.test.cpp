@@ -1,0 +1,137 @@
+#include "espalier/simulation/world.h"
+
+#include "catch.h"
+#include "temporary_folder.h"
+
+using namespace espalier;
+using Catch::Matchers::Contains;
+
+namespace {
+
+class Worlds {
+public:
+    Scene scene(const std::string& model, const std::string& rest = "", const std::string& plant = "") {
+        folder_.write("plant.l", model);
+        return read_scene_text("[[plant]]\nmodel = 'plant.l'\n" + plant + rest, "scene.toml", folder_.path());
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+std::string text(const World& world, std::size_t plant = 0) {
+    return to_text(world.string(plant), world.model(plant).alphabet);
+}
+
+void walk(World& world, int steps) {
+    world.start();
+    for (int i = 0; i < steps; ++i) world.step();
+}
+
+const char* const doubling = "lsystem: 1\nderivation length: 4\naxiom: A\nA --> AA\nendlsystem\n";
+const char* const stochastic =
+    "lsystem: 1\nseed: 1\nderivation length: 6\naxiom: A\n"
+    "A --> F A : 1\nA --> F [+A] A : 1\nA --> F [-A] A : 1\nendlsystem\n";
+
+}  // namespace
+
+TEST_CASE_METHOD(Worlds, "frame k is k derivations", "[simulation]") {
+    World world(scene(doubling));
+    world.start();
+    for (int step = 0; step <= 4; ++step) {
+        CHECK(world.frame().step == step);
+        CHECK(world.modules() == std::size_t(1) << step);
+        CHECK(world.frame().plants[0].string->size() == std::size_t(1) << step);
+        world.step();
+    }
+}
+
+TEST_CASE_METHOD(Worlds, "the axiom is exchanged before the first derivation", "[simulation]") {
+    World world(
+        scene("lsystem: 1\nderivation length: 1\naxiom: F(2)?P(0,0,0)\n?P(x,y,z) --> F(y)?P(0,0,0)\nendlsystem\n"));
+    world.start();
+    CHECK(text(world) == "F(2)?P(0,2,0)");
+    world.step();
+    CHECK(text(world) == "F(2)F(2)?P(0,4,0)");
+}
+
+TEST_CASE_METHOD(Worlds, "a plant stands where the scene puts it", "[simulation]") {
+    World world(scene("lsystem: 1\nderivation length: 0\naxiom: F(1)?P(0,0,0)\nendlsystem\n", "",
+                      "positions = [[3, 0, 0], [0, 0, -2]]\nheading = [1, 0, 0]\n"));
+    world.start();
+    CHECK(text(world, 0) == "F(1)?P(4,0,0)");
+    CHECK(text(world, 1) == "F(1)?P(1,0,-2)");
+}
+
+TEST_CASE_METHOD(Worlds, "plants of one stream are the same individual, of two streams are not", "[simulation]") {
+    World same(scene(stochastic, "[[plant]]\nmodel = 'plant.l'\nstream = 0\n"));
+    walk(same, 6);
+    CHECK(text(same, 0) == text(same, 1));
+    World different(scene(stochastic, "[[plant]]\nmodel = 'plant.l'\n"));
+    walk(different, 6);
+    CHECK(text(different, 0) != text(different, 1));
+}
+
+TEST_CASE_METHOD(Worlds, "a neighbour does not change what a plant draws", "[simulation]") {
+    World alone(scene(stochastic));
+    World together(scene(stochastic, "[[plant]]\nmodel = 'plant.l'\nposition = [1, 0, 0]\n"));
+    walk(alone, 6);
+    walk(together, 6);
+    CHECK(text(alone) == text(together));
+}
+
+TEST_CASE_METHOD(Worlds, "another seed grows another plant", "[simulation]") {
+    World one(scene(stochastic, "[simulation]\nseed = 1\n")), two(scene(stochastic, "[simulation]\nseed = 2\n"));
+    walk(one, 6);
+    walk(two, 6);
+    CHECK(text(one) != text(two));
+}
+
+TEST_CASE_METHOD(Worlds, "a model that calls stop() stops the world", "[simulation]") {
+    World world(
+        scene("lsystem: 1\nStartEach: { if (Q == 2) { stop(0); } }\nderivation length: 9\naxiom: A\nA --> AA\n"
+              "endlsystem\n"));
+    world.start();
+    CHECK_FALSE(world.stopped());
+    world.step();
+    CHECK_FALSE(world.stopped());
+    world.step();
+    CHECK(world.stopped());
+}
+
+TEST_CASE_METHOD(Worlds, "of several plants that fail the first is named, whoever failed first", "[simulation]") {
+    const char* const model =
+        "#define WHEN 99\nlsystem: 1\nderivation length: 3\naxiom: A(0)\n"
+        "A(n) --> A(1 / (WHEN - n - 1) * 0 + n + 1)\nendlsystem\n";
+    for (int i = 0; i < 10; ++i) {
+        World world(scene(model,
+                          "[[plant]]\nmodel = 'plant.l'\nname = 'second'\ndefine = { WHEN = 1 }\n"
+                          "[[plant]]\nmodel = 'plant.l'\nname = 'third'\ndefine = { WHEN = 1 }\n"));
+        world.start();
+        CHECK_THROWS_WITH(world.step(), Contains("plant 'second'") && Contains("plant.l:5"));
+    }
+}
+
+TEST_CASE_METHOD(Worlds, "strings that would outgrow the memory end the run and name the step", "[simulation]") {
+    World world(scene(doubling, "[simulation]\nsteps = 60\n"), 64 << 20);
+    world.start();
+    const auto grow = [&] {
+        while (world.steps_done() < 60) world.step();
+    };
+    CHECK_THROWS_AS(grow(), RunError);
+    CHECK(world.steps_done() > 15);
+    CHECK(world.steps_done() < 25);
+}
+
+TEST_CASE_METHOD(Worlds, "a process nobody defined, and one nobody answers for, are errors before step 0",
+                 "[simulation]") {
+    CHECK_THROWS_WITH(World(scene(doubling, "[environment.light]\nprocess = 'voxel-shde'\n")),
+                      Contains("voxel-shde") && Contains("did you mean 'voxel-shade'?"));
+    CHECK_THROWS_WITH(World(scene("environment lamp;\nlsystem: 1\naxiom: ?lamp(1)\n\nendlsystem\n")), Contains("lamp"));
+    CHECK_THROWS_WITH(World(scene("lsystem: 1\naxiom: ?E(1)\n\nendlsystem\n")), Contains("?E"));
+}
+
+TEST_CASE_METHOD(Worlds, "a parameter no process reads is refused with its place", "[simulation]") {
+    CHECK_THROWS_WITH(World(scene(doubling, "[environment.light]\nprocess = 'voxel-shade'\nvoxle = 0.5\n")),
+                      Contains("scene.toml:5:1: 'voxle' means nothing here (did you mean 'voxel'?)"));
+}
