@@ -19,6 +19,10 @@ using Defines = std::map<std::string, std::string>;
 struct ReadOptions {
     Defines defines;
     bool quirks = false;  ///< --cpfg-quirks
+    /// Names defined before the file is read, whether it mentions them or not (the functions of a function set).
+    Defines predefined = {};
+    /// Where warnings of the preprocessor go; none are kept if null.
+    std::vector<Diagnostic>* warnings = nullptr;
 };
 
 /// Reads a model file. Throws UserError with every mistake found (up to 20), each with file:line:column as the user

@@ -1,0 +1,27 @@
+// The functions of the language by name.
+#pragma once
+
+#include "espalier/lsystem/expression.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace espalier::language {
+
+struct FunctionEntry {
+    std::string_view name;
+    Function function;
+    int least;  ///< number of arguments
+    int most;
+    bool takes_text = false;
+    std::uint32_t index = 0;  ///< which edge of the view
+};
+
+inline constexpr int any_number = 1000;
+
+/// Null if there is no such function.
+const FunctionEntry* find_function(std::string_view name);
+const std::vector<std::string>& function_names();
+
+}  // namespace espalier::language

@@ -1,0 +1,440 @@
+#include "language/model_parser.h"
+
+#include "espalier/base/text.h"
+
+#include "language/constant.h"
+#include "language/expression_parser.h"
+#include "language/keywords.h"
+#include "language/names.h"
+#include "language/production_parser.h"
+#include "language/scanner.h"
+#include "language/symbols.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace espalier::language {
+namespace {
+
+class ModelParser {
+public:
+    ModelParser(const Preprocessed& source, const Sources& sources, Mistakes& mistakes, Model& model)
+        : in_(source.text),
+          names_(sources, mistakes, source.macro_names),
+          mistakes_(mistakes),
+          expressions_(in_, names_, mistakes),
+          productions_(in_, names_, mistakes, symbols_, expressions_),
+          model_(model) {
+        productions_.set_alphabet(model.alphabet);
+    }
+
+    void run() {
+        // Declarations before the first L-system are read with the names of none.
+        LSystem before;
+        names_.begin(before);
+        while (next_statement()) {
+            statement([&] { outside(); });
+        }
+        if (model_.systems.empty()) {
+            mistakes_.error(in_.here(), "there is no L-system here: 'lsystem: 1' ... 'endlsystem' is missing");
+        }
+    }
+
+private:
+    bool next_statement() {
+        in_.skip_lines();
+        return !in_.at_end_of_text();
+    }
+
+    // Runs one statement's reading; after a mistake goes on with the next statement.
+    template <class Reading>
+    void statement(Reading&& reading) {
+        const std::size_t start = in_.position();
+        try {
+            reading();
+        } catch (const SyntaxError& mistake) {
+            mistakes_.error(mistake);
+            expressions_.reset();
+            names_.set_constants_only(false);
+            in_.recover(start);
+        }
+    }
+
+    void end_of_statement(std::string_view what) {
+        in_.accept(";");
+        if (!in_.at_end()) in_.expected(fmt::format("the end of the line after {}", what));
+    }
+
+    void outside() {
+        if (declaration()) return;
+        if (!accept_lsystem()) {
+            throw SyntaxError{in_.here(),
+                              fmt::format("expected 'lsystem:', found {}", in_.found()) + nearest_keyword()};
+        }
+        in_.expect(":", "after 'lsystem'");
+        lsystem();
+    }
+
+    bool accept_lsystem() { return in_.accept_keyword("lsystem") || in_.accept_keyword("l-system"); }
+
+    // --- one L-system -------------------------------------------------------------------------------------------
+
+    void lsystem() {
+        model_.systems.emplace_back();
+        system_ = &model_.systems.back();
+        axiom_read_ = false;
+        names_.begin(*system_);
+        productions_.take_first_weight();
+        const Location begin = in_.here();
+        in_.skip();
+        const std::size_t label = in_.position();
+        in_.take(in_.end_of_line(label) - label);
+        system_->label = in_.text(label, in_.position());
+        while (!system_->label.empty() && is_blank(system_->label.back())) system_->label.pop_back();
+
+        rules_ = nullptr;
+        bool ended = false;
+        while (!ended && next_statement()) {
+            statement([&] { ended = line(); });
+        }
+        if (!ended) mistakes_.error(in_.here(), "the file ends inside an L-system: 'endlsystem' is missing");
+        if (!axiom_read_) mistakes_.error(begin, "this L-system has no axiom: 'axiom: ...' is missing");
+        names_.finish();
+    }
+
+    /// One line of an L-system; true at its end.
+    bool line() {
+        if (in_.accept_keyword("endlsystem")) {
+            end_of_statement("'endlsystem'");
+            return true;
+        }
+        if (in_.looking_at_keyword("lsystem") && names_an_item()) {
+            mistakes_.error(in_.here(), "another L-system begins inside this one: 'endlsystem' is missing before it");
+            return true;
+        }
+        if (in_.line_has_arrow(in_.position()) && !names_an_item()) {
+            production();
+        } else if (!section_line() && !header_item() && !declaration()) {
+            not_a_line();
+        }
+        return false;
+    }
+
+    // "axiom:", "Start: {": an arrow behind such a word does not make a production.
+    bool names_an_item() {
+        const auto is_here = [&](const std::string& keyword) {
+            const std::size_t length = keyword_length(in_.rest(), keyword);
+            const std::size_t after = length == 0 ? Scanner::npos : in_.rest().find_first_not_of(" \t", length);
+            return after != Scanner::npos && in_.rest()[after] == ':';
+        };
+        return std::any_of(header_keywords().begin(), header_keywords().end(), is_here);
+    }
+
+    void production() {
+        if (!axiom_read_) {
+            axiom_read_ = true;  // said once
+            mistakes_.error(in_.here(), "a production before the axiom: 'axiom: ...' is missing");
+        }
+        Production read = productions_.production();
+        const std::optional<Location> weight = productions_.take_first_weight();
+        const bool stochastic = system_->seed || (rules_ && rules_->seed);
+        if (weight && !stochastic) {
+            mistakes_.error(*weight, "a weight needs a 'seed: number' line in the header of the L-system");
+        }
+        (rules_ ? rules_->productions : system_->productions).push_back(std::move(read));
+    }
+
+    [[noreturn]] void not_a_line() {
+        const Location at = in_.here();
+        const std::string nearest = nearest_keyword();
+        if (!axiom_read_ || !nearest.empty()) {
+            throw SyntaxError{
+                at, fmt::format("expected an item of the header or 'axiom:', found {}", in_.found()) + nearest};
+        }
+        // Reads it as a production to say what keeps it from being one.
+        productions_.production();
+        throw SyntaxError{at,
+                          "this line is neither a production nor part of one; a line that begins with TAB continues "
+                          "the one before"};
+    }
+
+    // " (did you mean ...)" for the words this line begins with.
+    std::string nearest_keyword() {
+        std::vector<std::string> known(header_keywords().begin(), header_keywords().end());
+        known.insert(known.end(), section_keywords().begin(), section_keywords().end());
+        const std::string_view line = in_.rest().substr(0, in_.end_of_line(in_.position()) - in_.position());
+        const std::size_t end = std::min(line.find_first_of(":({"), line.size());
+        std::string words;
+        for (const char c : line.substr(0, end)) words += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        while (!words.empty() && is_blank(words.back())) words.pop_back();
+        if (const std::string whole = did_you_mean(words, known); !whole.empty() && words.size() > 2) return whole;
+        if (words.starts_with('#')) {
+            const std::vector<std::string> directives{"#define", "#undef", "#include", "#ifdef", "#ifndef", "#endif"};
+            return did_you_mean(words.substr(0, words.find(' ')), directives);
+        }
+        const std::string first = words.substr(0, words.find(' '));
+        return first.size() > 2 ? did_you_mean(first, known) : "";
+    }
+
+    // --- sections -----------------------------------------------------------------------------------------------
+
+    bool section_line() {
+        if (in_.accept_keyword("decomposition")) return begin_section(system_->decomposition, "decomposition");
+        if (in_.accept_keyword("homomorphism")) return begin_section(system_->homomorphism, "homomorphism");
+        if (!rules_) return false;
+        if (in_.accept_keyword("maximum depth")) {
+            rules_->maximum_depth = value_of("maximum depth");
+        } else if (in_.accept_keyword("seed")) {
+            rules_->seed = value_of("seed");
+        } else if (in_.accept_keyword("no warnings")) {
+            rules_->warnings = false;
+            end_of_statement("'no warnings'");
+        } else if (in_.accept_keyword("warnings")) {
+            rules_->warnings = true;
+            end_of_statement("'warnings'");
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    bool begin_section(RuleSet& rules, const char* name) {
+        if (rules.present) mistakes_.error(in_.here(), fmt::format("a second '{}' in one L-system", name));
+        rules.present = true;
+        rules_ = &rules;
+        in_.accept(":");
+        // "warnings" and "no warnings" may stand on the keyword's own line.
+        if (in_.accept_keyword("no warnings")) rules.warnings = false;
+        in_.accept_keyword("warnings");
+        end_of_statement(fmt::format("'{}'", name));
+        return true;
+    }
+
+    Expression value_of(std::string_view item) {
+        in_.expect(":", fmt::format("after '{}'", item));
+        Expression value = expressions_.expression();
+        end_of_statement(fmt::format("the value of '{}'", item));
+        return value;
+    }
+
+    // --- the header ---------------------------------------------------------------------------------------------
+
+    bool header_item() {
+        const Location at = in_.here();
+        if (in_.accept_keyword("axiom")) {
+            in_.expect(":", "after 'axiom'");
+            if (axiom_read_) throw SyntaxError{at, "a second axiom in one L-system"};
+            axiom_read_ = true;
+            system_->axiom = productions_.axiom();
+        } else if (in_.accept_keyword("ring")) {
+            system_->ring = true;
+            accept_lsystem();
+            end_of_statement("'ring lsystem'");
+        } else if (in_.accept_keyword("seed")) {
+            system_->seed = value_of("seed");
+        } else if (in_.accept_keyword("derivation length")) {
+            system_->derivation_length = value_of("derivation length");
+        } else if (in_.accept_keyword("ignore")) {
+            filter(LSystem::Filter::ignore, "ignore");
+        } else if (in_.accept_keyword("consider")) {
+            filter(LSystem::Filter::consider, "consider");
+        } else if (in_.accept_keyword("define")) {
+            in_.accept(":");
+            definitions();
+        } else {
+            return block_item();
+        }
+        return true;
+    }
+
+    bool block_item() {
+        const auto accept_block = [&](const char* keyword, Block& block) {
+            if (!in_.accept_keyword(keyword)) return false;
+            const Scanner::Inside inside(in_);
+            in_.accept(":");
+            block = expressions_.block();
+            return true;
+        };
+        const bool found = accept_block("start each", system_->start_each) || accept_block("start", system_->start) ||
+                           accept_block("end each", system_->end_each) || accept_block("end", system_->end);
+        if (found) end_of_statement("the block");
+        return found;
+    }
+
+    void filter(LSystem::Filter kind, std::string_view keyword) {
+        const Location at = in_.here();
+        in_.expect(":", fmt::format("after '{}'", keyword));
+        if (system_->filter != LSystem::Filter::none && system_->filter != kind) {
+            throw SyntaxError{at, "'ignore' and 'consider' exclude each other"};
+        }
+        system_->filter = kind;
+        const std::vector<SymbolId> symbols = productions_.symbol_list();
+        system_->filtered.insert(system_->filtered.end(), symbols.begin(), symbols.end());
+    }
+
+    // define: { array name[2][3] = {...}, other[4]; external name, name; }
+    void definitions() {
+        {
+            const Scanner::Inside inside(in_);
+            in_.expect("{", "after 'define:'");
+            while (!in_.accept("}")) {
+                const bool external = in_.accept_keyword("external");
+                const bool array = in_.accept_keyword("array");
+                if (!external && !array) in_.expected("'array' or 'external' in 'define'");
+                do {
+                    definition(external, array);
+                } while (in_.accept(","));
+                if (!in_.accept(";") && !in_.looking_at("}")) in_.expected("';' after the declaration");
+            }
+        }
+        end_of_statement("'define'");
+    }
+
+    void definition(bool external, bool array) {
+        in_.skip();
+        const Location at = in_.here();
+        const std::string name(in_.accept_name());
+        if (name.empty()) in_.expected("the name of a variable or an array");
+        if (!array && !in_.looking_at("[")) {
+            names_.add_external(name);
+            return;
+        }
+        if (names_.array(name)) mistakes_.error(at, fmt::format("array '{}' is declared a second time", name));
+        ArrayDeclaration declared;
+        declared.name = name;
+        declared.external = external;
+        declared.place = names_.place(at);
+        while (in_.accept("[")) {
+            declared.dimensions.push_back(expressions_.expression());
+            if (in_.looking_at(",")) throw SyntaxError{in_.here(), "each dimension has its own brackets: a[2][3]"};
+            in_.expect("]", "after the size of the array");
+        }
+        if (declared.dimensions.empty()) in_.expected(fmt::format("the size of array '{0}': {0}[size]", name));
+        if (in_.accept("=")) values(declared.values);
+        check_size(declared, at);
+        system_->arrays.push_back(std::move(declared));
+    }
+
+    // { 1, 2, 3 }, row by row in braces of their own or not.
+    void values(std::vector<Expression>& into) {
+        in_.expect("{", "before the values of the array");
+        if (++value_depth_ > 50) throw SyntaxError{in_.here(), "the values are nested more than 50 deep"};
+        if (!in_.accept("}")) {
+            do {
+                if (in_.looking_at("{")) {
+                    values(into);
+                } else {
+                    into.push_back(expressions_.expression());
+                }
+            } while (in_.accept(","));
+            in_.expect("}", "after the values of the array");
+        }
+        --value_depth_;
+    }
+
+    void check_size(const ArrayDeclaration& array, Location at) {
+        double elements = 1;
+        for (const Expression& dimension : array.dimensions) {
+            const std::optional<double> size = constant_value(dimension);
+            if (!size) return;
+            if (*size < 1) {
+                mistakes_.error(at, fmt::format("array '{}' has a dimension of size {}", array.name, *size));
+                return;
+            }
+            elements *= std::floor(*size);
+        }
+        if (static_cast<double>(array.values.size()) > elements) {
+            mistakes_.error(
+                at, fmt::format("array '{}' has {} elements but {} values", array.name, elements, array.values.size()));
+        }
+    }
+
+    // --- declarations -------------------------------------------------------------------------------------------
+
+    bool declaration() {
+        if (in_.accept_keyword("module")) {
+            do module_declaration();
+            while (in_.accept(","));
+            end_of_statement("the declaration");
+        } else if (in_.accept_keyword("environment")) {
+            do process_declaration();
+            while (in_.accept(","));
+            end_of_statement("the declaration");
+        } else if (in_.accept_keyword("const")) {
+            constant_declaration();
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    void module_declaration() {
+        in_.skip();
+        ModuleDeclaration declared;
+        declared.name = in_.accept_name();
+        if (declared.name.empty()) in_.expected("the name of a module");
+        if (in_.accept("(") && !in_.accept(")")) {
+            const Scanner::Inside inside(in_);
+            do {
+                declared.parameters.emplace_back(in_.accept_name());
+                if (declared.parameters.back().empty()) in_.expected("the name of a parameter");
+            } while (in_.accept(","));
+            in_.expect(")", fmt::format("after the parameters of '{}'", declared.name));
+        }
+        symbols_.declare(declared.name);
+        symbols_.declare_arity(declared.name, declared.parameters.size());
+        model_.modules.push_back(std::move(declared));
+    }
+
+    void process_declaration() {
+        in_.skip();
+        const Location at = in_.here();
+        const std::string name(in_.accept_name());
+        if (name.empty()) in_.expected("the name of a process of the environment");
+        if (name.size() == 1 && std::string_view("EPHLUQ").find(name) != std::string_view::npos) {
+            throw SyntaxError{at, fmt::format("'?{}' has a meaning of its own; give the process a longer name", name)};
+        }
+        symbols_.declare("?" + name);
+        if (std::find(model_.processes.begin(), model_.processes.end(), name) == model_.processes.end()) {
+            model_.processes.push_back(name);
+        }
+    }
+
+    void constant_declaration() {
+        in_.skip();
+        const Location at = in_.here();
+        const std::string name(in_.accept_name());
+        if (name.empty()) in_.expected("the name of a constant");
+        in_.expect("=", fmt::format("after 'const {}'", name));
+        names_.set_constants_only(true);
+        const Expression expression = expressions_.expression();
+        names_.set_constants_only(false);
+        const std::optional<double> value = constant_value(expression);
+        if (!value) throw SyntaxError{at, fmt::format("the constant '{}' has no value that is known now", name)};
+        names_.define_constant(name, *value, at);
+        end_of_statement("the constant");
+    }
+
+    Scanner in_;
+    Names names_;
+    Mistakes& mistakes_;
+    Symbols symbols_;
+    ExpressionParser expressions_;
+    ProductionParser productions_;
+    Model& model_;
+    LSystem* system_ = nullptr;
+    RuleSet* rules_ = nullptr;  // null among the productions proper
+    bool axiom_read_ = false;
+    int value_depth_ = 0;
+};
+
+}  // namespace
+
+void parse_model(const Preprocessed& source, const Sources& sources, Mistakes& mistakes, Model& model) {
+    ModelParser(source, sources, mistakes, model).run();
+}
+
+}  // namespace espalier::language

@@ -1,0 +1,171 @@
+#include "language/names.h"
+
+#include "espalier/base/text.h"
+
+#include "language/walk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace espalier::language {
+namespace {
+
+std::optional<double> mathematical_constant(std::string_view name) {
+    if (name == "pi") return std::numbers::pi;
+    if (name == "e") return std::numbers::e;
+    return std::nullopt;
+}
+
+}  // namespace
+
+void Names::begin(LSystem& system) {
+    system_ = &system;
+    ids_.clear();
+    variables_.clear();
+    system.globals.clear();
+    for (const char* predefined : {"Q", "Z"}) variables_[variable(predefined)].assigned = true;
+}
+
+std::uint32_t Names::variable(std::string_view name) {
+    const auto [found, is_new] = ids_.try_emplace(std::string(name), static_cast<std::uint32_t>(variables_.size()));
+    if (is_new) {
+        variables_.emplace_back();
+        system_->globals.emplace_back(name);
+    }
+    return found->second;
+}
+
+void Names::define_constant(std::string_view name, double value, Location at) {
+    if (!constants_.try_emplace(std::string(name), value).second) {
+        mistakes_.error(at, fmt::format("the constant '{}' is defined a second time", name));
+    }
+}
+
+void Names::add_external(std::string_view name) {
+    variables_[variable(name)].assigned = true;
+    system_->external_globals.emplace_back(name);
+}
+
+std::optional<std::uint32_t> Names::array(std::string_view name) const {
+    for (std::size_t i = 0; i < system_->arrays.size(); ++i) {
+        if (system_->arrays[i].name == name) return static_cast<std::uint32_t>(i);
+    }
+    return std::nullopt;
+}
+
+Expression Names::read(std::string_view name, Location at) {
+    Expression result;
+    result.place = place(at);
+    if (formals_) {
+        const auto formal = std::find(formals_->begin(), formals_->end(), name);
+        if (formal != formals_->end()) {
+            result.kind = Expression::Kind::formal;
+            result.index = static_cast<std::uint32_t>(formal - formals_->begin());
+            return result;
+        }
+    }
+    if (const auto constant = constants_.find(name); constant != constants_.end()) {
+        result.value = constant->second;
+        return result;
+    }
+    if (constants_only_) {
+        const std::optional<double> value = mathematical_constant(name);
+        if (!value) throw SyntaxError{at, fmt::format("'{}' is not a constant{}", name, suggestion(name))};
+        result.value = *value;
+        return result;
+    }
+    if (array(name)) throw SyntaxError{at, fmt::format("'{0}' is an array: write {0}[index]", name)};
+    result.kind = Expression::Kind::global;
+    result.index = variable(name);
+    Variable& read = variables_[result.index];
+    if (!read.read) {
+        read.read = at;
+        if (formals_) read.formals = *formals_;
+    }
+    return result;
+}
+
+Expression Names::assigned(std::string_view name, Location at) {
+    if (formals_ && std::find(formals_->begin(), formals_->end(), name) != formals_->end()) {
+        mistakes_.error(
+            at, fmt::format("'{}' is a parameter of this production and cannot be assigned ('==' compares)", name));
+    } else if (constants_.contains(name)) {
+        mistakes_.error(at, fmt::format("'{}' is a constant and cannot be assigned", name));
+    } else if (array(name)) {
+        throw SyntaxError{at, fmt::format("'{0}' is an array: write {0}[index] = value", name)};
+    }
+    Expression result;
+    result.kind = Expression::Kind::global;
+    result.index = variable(name);
+    result.place = place(at);
+    variables_[result.index].assigned = true;
+    return result;
+}
+
+std::vector<std::string> Names::known_names(const std::vector<std::string>* formals) const {
+    std::vector<std::string> known;
+    if (formals) known = *formals;
+    for (const auto& [name, value] : constants_) known.push_back(name);
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+        if (variables_[i].assigned) known.push_back(system_->globals[i]);
+    }
+    for (const ArrayDeclaration& array : system_->arrays) known.push_back(array.name);
+    known.insert(known.end(), macros_.begin(), macros_.end());
+    return known;
+}
+
+std::string Names::suggestion(std::string_view name) const {
+    return did_you_mean(name, known_names(formals_));
+}
+
+std::string Names::unknown(std::string_view name, const std::vector<std::string>* formals) const {
+    if (macros_.contains(std::string(name))) {
+        return fmt::format(
+            "macro '{}' is not expanded here: it is defined later, or takes arguments, or an apostrophe "
+            "stands before it on the line",
+            name);
+    }
+    return fmt::format("nothing is known of '{}': it is no parameter here and never assigned{}", name,
+                       did_you_mean(name, known_names(formals)));
+}
+
+void Names::finish() {
+    bool constants_used = false;
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+        const Variable& variable = variables_[i];
+        if (variable.assigned || !variable.read) continue;
+        if (mathematical_constant(system_->globals[i])) {
+            constants_used = true;
+        } else {
+            mistakes_.error(*variable.read, unknown(system_->globals[i], &variable.formals));
+        }
+    }
+    if (constants_used) put_in_constants();
+}
+
+// pi and e are variables where the model assigns them, numbers where it does not.
+void Names::put_in_constants() {
+    std::vector<std::optional<double>> values(variables_.size());
+    std::vector<std::uint32_t> new_index(variables_.size());
+    std::vector<std::string> kept;
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+        if (!variables_[i].assigned) values[i] = mathematical_constant(system_->globals[i]);
+        new_index[i] = static_cast<std::uint32_t>(kept.size());
+        if (!values[i]) kept.push_back(system_->globals[i]);
+    }
+    for_each_expression(*system_, [&](Expression& expression) {
+        if (expression.kind != Expression::Kind::global) return;
+        if (const std::optional<double> value = values[expression.index]) {
+            expression.kind = Expression::Kind::number;
+            expression.value = *value;
+            expression.index = 0;
+        } else {
+            expression.index = new_index[expression.index];
+        }
+    });
+    system_->globals = std::move(kept);
+}
+
+}  // namespace espalier::language

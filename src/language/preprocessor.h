@@ -1,0 +1,27 @@
+// The C preprocessor as models use it: comments, macros, conditions, included files, continued lines.
+#pragma once
+
+#include "espalier/language/reader.h"
+
+#include "language/source.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace espalier::language {
+
+struct Preprocessed {
+    MappedText text;
+    /// Every name the files define or ask for.
+    std::set<std::string> macro_names;
+};
+
+/// Preprocesses a file already added to `sources`; included files are added to it. Mistakes are collected.
+Preprocessed preprocess(Sources& sources, std::uint32_t file, const std::filesystem::path& folder,
+                        const ReadOptions& options, Mistakes& mistakes);
+
+/// The value of an #if expression whose macros are expanded; throws SyntaxError at `at`.
+long long condition_value(std::string_view text, Location at);
+
+}  // namespace espalier::language

@@ -1,0 +1,52 @@
+// Reads strings of modules and productions.
+#pragma once
+
+#include "espalier/lsystem/lsystem.h"
+
+#include "language/expression_parser.h"
+#include "language/names.h"
+#include "language/scanner.h"
+#include "language/symbols.h"
+
+#include <optional>
+
+namespace espalier::language {
+
+class ProductionParser {
+public:
+    ProductionParser(Scanner& in, Names& names, Mistakes& mistakes, Symbols& symbols, ExpressionParser& expressions)
+        : in_(in), names_(names), mistakes_(mistakes), symbols_(symbols), expressions_(expressions) {}
+
+    void set_alphabet(Alphabet& alphabet) { alphabet_ = &alphabet; }
+
+    /// left < strict > right : {before} condition {after} --> successor : weight
+    Production production();
+    /// Modules up to the end of the statement; brackets must match.
+    std::vector<ModuleTemplate> axiom();
+    /// The symbols of an ignore or consider list.
+    std::vector<SymbolId> symbol_list();
+    /// Weights that were read since the last call, for the L-system to allow or not.
+    std::optional<Location> take_first_weight();
+
+private:
+    void parts(Production& production);
+    void conditions(Production& production);
+    std::vector<ModulePattern> patterns(Production& production, bool right_context);
+    ModulePattern pattern(Production& production, bool right_context);
+    bool at_end_of_patterns();
+    void expect_arrow();
+    std::vector<ModuleTemplate> successor();
+    ModuleTemplate module();
+    std::string_view symbol();
+    LetterId letter(std::string_view symbol, std::size_t arity, Location at);
+
+    Scanner& in_;
+    Names& names_;
+    Mistakes& mistakes_;
+    Symbols& symbols_;
+    ExpressionParser& expressions_;
+    Alphabet* alphabet_ = nullptr;
+    std::optional<Location> first_weight_;
+};
+
+}  // namespace espalier::language
