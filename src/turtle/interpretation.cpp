@@ -8,9 +8,9 @@
 namespace espalier {
 
 /// Drives one walk. Modules that neither act nor have a picture cost one look-up.
-class Interpreter {
+class StringWalk {
 public:
-    Interpreter(const Model& model, const SymbolTable& symbols, const ModuleString& string,
+    StringWalk(const Model& model, const SymbolTable& symbols, const ModuleString& string,
                 const TurtleSettings& settings, const Derivation* derivation, std::uint32_t plant,
                 Interpretation& result)
         : model_(model),
@@ -133,7 +133,7 @@ void interpret(const Model& model, const SymbolTable& symbols, const ModuleStrin
                const TurtleSettings& settings, const Derivation* derivation, const InterpretOptions& options,
                Interpretation& result) {
     result.clear();
-    Interpreter(model, symbols, string, settings, derivation, options.plant, result).run();
+    StringWalk(model, symbols, string, settings, derivation, options.plant, result).run();
 }
 
 Interpretation interpret(const Model& model, const ModuleString& string, const TurtleSettings& settings,

@@ -57,7 +57,7 @@ public:
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
-    friend class Interpreter;
+    friend class StringWalk;
     struct OpenPolygon {
         std::size_t first;
         std::uint32_t module;

@@ -1,0 +1,63 @@
+#include "espalier/base/file.h"
+#include "espalier/turtle/symbol.h"
+
+#include "catch.h"
+
+#include <filesystem>
+#include <regex>
+#include <set>
+#include <string>
+
+using namespace espalier;
+
+namespace {
+
+/// The names of the symbols that a source file defines.
+std::set<std::string> defined_in(const std::filesystem::path& path) {
+    const std::string text = read_text(path);
+    const std::regex definition(R"re(const Symbol\s+\w+\s*\{\s*"((?:[^"\\]|\\.)+)")re");
+    std::set<std::string> names;
+    for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
+        const std::string name = (*match)[1];
+        names.insert(name == "\\\\" ? "\\" : name);
+    }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("every symbol in the open folder is registered, and nothing else", "[turtle]") {
+    std::set<std::string> defined, registered;
+    for (const auto& entry : std::filesystem::directory_iterator(ESPALIER_SOURCE_DIR "/src/turtle/symbols")) {
+        const std::set<std::string> names = defined_in(entry.path());
+        INFO(entry.path());
+        CHECK_FALSE(names.empty());
+        for (const std::string& name : names) {
+            INFO(name);
+            CHECK(defined.insert(name).second);  // defined once
+        }
+    }
+    for (const auto& [name, symbol] : symbols()) registered.insert(name);
+    CHECK(defined == registered);
+}
+
+TEST_CASE("every symbol says what it does, beginning with its name", "[turtle]") {
+    for (const auto& [name, symbol] : symbols()) {
+        INFO(name);
+        CHECK(symbol->name == name);
+        CHECK(symbol->action != nullptr);
+        const std::string shown = name.back() == '*' ? name.substr(0, name.size() - 1) : name;
+        CHECK(symbol->help.starts_with(shown));
+        CHECK(symbol->help.find(": ") != std::string::npos);
+    }
+}
+
+TEST_CASE("docs/turtle.md lists every symbol", "[turtle]") {
+    const std::string page = read_text(ESPALIER_SOURCE_DIR "/docs/turtle.md");
+    for (const auto& [name, symbol] : symbols()) {
+        std::string shown = name.back() == '*' ? name.substr(0, name.size() - 1) : name;
+        if (shown == "|") shown = "\\|";  // as a table's cell writes it
+        INFO(name);
+        CHECK(page.find("`" + shown) != std::string::npos);
+    }
+}
