@@ -22,14 +22,13 @@ struct Rows {
 };
 
 Rows rows_around(const WaterGrid& grid, WaterBrick& contents, std::size_t row) {
-    const std::size_t y = row % static_cast<std::size_t>(grid.size().y);
-    const std::size_t z = row / static_cast<std::size_t>(grid.size().y);
+    const int y = grid.y_of(row), z = grid.z_of(row);
     double* c = contents.data() + grid.row_begin(row);
     c[-1] = c[0];
     c[grid.size().x] = c[grid.size().x - 1];
-    const std::size_t slab = grid.stride() * static_cast<std::size_t>(grid.size().y);
-    return {c, y > 0 ? c - grid.stride() : c, y + 1 < static_cast<std::size_t>(grid.size().y) ? c + grid.stride() : c,
-            z > 0 ? c - slab : c, z + 1 < static_cast<std::size_t>(grid.size().z) ? c + slab : c};
+    const std::size_t slab = grid.stride() * grid.size().y;
+    return {c, y > 0 ? c - grid.stride() : c, y + 1 < grid.size().y ? c + grid.stride() : c, z > 0 ? c - slab : c,
+            z + 1 < grid.size().z ? c + slab : c};
 }
 
 struct Conductances {
@@ -38,11 +37,11 @@ struct Conductances {
 
 // In both loops below the terms of opposite faces stand in pairs, so that a mirrored field stays mirrored to the bit.
 
-void spread_plain(const Rows& rows, double* __restrict to, std::size_t n, const Conductances& k) {
+void spread_plain(const Rows& rows, double* __restrict to, int n, const Conductances& k) {
     const double* c = rows.c;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
         const double own = c[i];
-        const double x = k.x * ((c[static_cast<std::ptrdiff_t>(i) - 1] - own) + (c[i + 1] - own));
+        const double x = k.x * ((c[i - 1] - own) + (c[i + 1] - own));
         const double y = k.down * (rows.below[i] - own) + k.up * (rows.above[i] - own);
         const double z = k.z * ((rows.back[i] - own) + (rows.front[i] - own));
         to[i] = own + ((x + y) + z);
@@ -53,14 +52,13 @@ double open(std::uint8_t bits, int face) {
     return static_cast<double>(bits >> face & 1);
 }
 
-void spread_among_obstacles(const Rows& rows, const std::uint8_t* faces, double* __restrict to, std::size_t n,
+void spread_among_obstacles(const Rows& rows, const std::uint8_t* faces, double* __restrict to, int n,
                             const Conductances& k) {
     const double* c = rows.c;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
         const double own = c[i];
         const std::uint8_t f = faces[i];
-        const double x =
-            k.x * (open(f, 0) * (c[static_cast<std::ptrdiff_t>(i) - 1] - own) + open(f, 1) * (c[i + 1] - own));
+        const double x = k.x * (open(f, 0) * (c[i - 1] - own) + open(f, 1) * (c[i + 1] - own));
         const double y = k.down * open(f, 2) * (rows.below[i] - own) + k.up * open(f, 3) * (rows.above[i] - own);
         const double z = k.z * (open(f, 4) * (rows.back[i] - own) + open(f, 5) * (rows.front[i] - own));
         to[i] = own + ((x + y) + z);
@@ -96,7 +94,7 @@ WaterDiffusion::WaterDiffusion(const WaterGrid& grid, const WaterParameters& par
         y_.push_back(d.y / h2);
         z_.push_back(d.z / h2);
     }
-    const auto harmonic_mean = [](double a, double b) { return a > 0 && b > 0 ? 2 * a * (b / (a + b)) : 0; };
+    const auto harmonic_mean = [](double a, double b) { return a > 0 && b > 0 ? 2 * a * b / (a + b) : 0; };
     for (int y = 0; y < height; ++y) {
         down_.push_back(y > 0 ? harmonic_mean(y_[y], y_[y - 1]) : 0);
         up_.push_back(y + 1 < height ? harmonic_mean(y_[y], y_[y + 1]) : 0);
@@ -122,9 +120,9 @@ int WaterDiffusion::substeps(double dt) const {
 }
 
 double WaterDiffusion::sweep(const WaterFaces& faces, WaterBrick& from, WaterBrick& to, double dt) {
-    const auto n = static_cast<std::size_t>(grid_.size().x);
+    const int n = grid_.size().x;
     for_rows(grid_, [&](std::size_t row) {
-        const std::size_t y = row % static_cast<std::size_t>(grid_.size().y);
+        const int y = grid_.y_of(row);
         const Conductances k{x_[y] * dt, down_[y] * dt, up_[y] * dt, z_[y] * dt};
         const Rows rows = rows_around(grid_, from, row);
         double* out = to.data() + grid_.row_begin(row);
@@ -146,8 +144,7 @@ double WaterDiffusion::sweep(const WaterFaces& faces, WaterBrick& from, WaterBri
 double WaterDiffusion::cross_sides(const WaterFaces& faces, const double* c, double* to, std::size_t row,
                                    double dt) const {
     const glm::ivec3 size = grid_.size();
-    const int y = static_cast<int>(row % static_cast<std::size_t>(size.y));
-    const int z = static_cast<int>(row / static_cast<std::size_t>(size.y));
+    const int y = grid_.y_of(row), z = grid_.z_of(row);
     const std::uint8_t* bits = faces.row(grid_.row_begin(row));
     double inflow = 0;
     const auto cross = [&](int side, int first, int last, double k) {
@@ -172,8 +169,7 @@ double relaxation_sweep(const WaterGrid& grid, const WaterFaces& faces, double w
     const glm::ivec3 size = grid.size();
     std::vector<double> largest(grid.rows(), 0);
     for_rows(grid, [&](std::size_t row) {
-        const int y = static_cast<int>(row % static_cast<std::size_t>(size.y));
-        const int z = static_cast<int>(row / static_cast<std::size_t>(size.y));
+        const int y = grid.y_of(row), z = grid.z_of(row);
         const Rows rows = rows_around(grid, from, row);
         const std::uint8_t* bits = faces.row(grid.row_begin(row));
         double* out = to.data() + grid.row_begin(row);

@@ -40,8 +40,8 @@ double difference_along(const WaterGrid& grid, const WaterFaces& faces, const Wa
 bool is_clear(const WaterGrid& grid, const WaterSolids& solids, const glm::dvec3& from, const glm::dvec3& heading,
               double length) {
     if (!(length > 0)) return true;
-    return grid.contains(from) && grid.contains(from + length * heading) &&
-           !solids.blocks(from, heading, length, grid.voxel() / 16);
+    // The domain is convex; a tip above the soil may grow into it.
+    return grid.contains(from + length * heading) && !solids.blocks(from, heading, length, grid.voxel() / 16);
 }
 
 /// A unit vector across `heading`, as far as possible along the first of `candidates` that is not parallel to it.

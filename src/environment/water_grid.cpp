@@ -1,5 +1,7 @@
 #include "environment/water_grid.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,26 +95,27 @@ WaterFaces::WaterFaces(const WaterGrid& grid, const std::vector<std::uint8_t>& i
     const auto free_at = [&](int x, int y, int z) {
         // Sides of the domain are open here: what crosses them is the boundary condition's affair.
         if (!grid.has({x, y, z})) return true;
-        return is_free[(static_cast<std::size_t>(z) * size.y + y) * size.x + x] != 0;
+        return is_free[(std::size_t(z) * size.y + y) * size.x + x] != 0;
     };
-    for (int z = 0; z < size.z; ++z) {
-        for (int y = 0; y < size.y; ++y) {
-            std::uint8_t all = 127;
-            for (int x = 0; x < size.x; ++x) {
+    std::vector<std::size_t> free_in_row(grid.rows(), 0);
+    tbb::parallel_for(std::size_t{0}, grid.rows(), [&](std::size_t row) {
+        const int y = grid.y_of(row), z = grid.z_of(row);
+        std::uint8_t all = 127;
+        for (int x = 0; x < size.x; ++x) {
+            std::uint8_t bits = 0;
+            if (free_at(x, y, z)) {
                 const std::array<bool, 6> open = {free_at(x - 1, y, z), free_at(x + 1, y, z), free_at(x, y - 1, z),
                                                   free_at(x, y + 1, z), free_at(x, y, z - 1), free_at(x, y, z + 1)};
-                std::uint8_t bits = 0;
-                if (free_at(x, y, z)) {
-                    bits = free_bit;
-                    for (int face = 0; face < 6; ++face) bits |= static_cast<std::uint8_t>(open[face] << face);
-                    ++free_voxels_;
-                }
-                bits_[grid.cell({x, y, z})] = bits;
-                all &= bits;
+                bits = free_bit;
+                for (int face = 0; face < 6; ++face) bits |= static_cast<std::uint8_t>(open[face] << face);
+                ++free_in_row[row];
             }
-            plain_[static_cast<std::size_t>(z) * size.y + y] = all == 127;
+            bits_[grid.cell({x, y, z})] = bits;
+            all &= bits;
         }
-    }
+        plain_[row] = all == 127;
+    });
+    for (const std::size_t free : free_in_row) free_voxels_ += free;
 }
 
 }  // namespace espalier

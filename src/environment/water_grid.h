@@ -37,18 +37,16 @@ public:
     const glm::ivec3& size() const { return size_; }
     double voxel() const { return voxel_; }
     bool flat() const { return flat_; }
-    std::size_t voxels() const { return rows() * static_cast<std::size_t>(size_.x); }
-    std::size_t rows() const { return static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z); }
-    std::size_t stride() const { return static_cast<std::size_t>(size_.x) + 2; }
+    std::size_t voxels() const { return rows() * size_.x; }
+    std::size_t rows() const { return std::size_t(size_.y) * size_.z; }
+    std::size_t stride() const { return std::size_t(size_.x) + 2; }
     std::size_t cells() const { return rows() * stride(); }
 
+    int y_of(std::size_t row) const { return static_cast<int>(row % size_.y); }
+    int z_of(std::size_t row) const { return static_cast<int>(row / size_.y); }
     /// Where a row begins: the cell of its first voxel.
     std::size_t row_begin(std::size_t row) const { return row * stride() + 1; }
-    std::size_t cell(const glm::ivec3& v) const {
-        return row_begin(static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size_.y) +
-                         static_cast<std::size_t>(v.y)) +
-               static_cast<std::size_t>(v.x);
-    }
+    std::size_t cell(const glm::ivec3& v) const { return row_begin(std::size_t(v.z) * size_.y + v.y) + v.x; }
 
     glm::dvec3 lower() const;
     glm::dvec3 upper() const;

@@ -61,11 +61,9 @@ std::vector<std::uint8_t> WaterSolids::free_voxels(const WaterGrid& grid) const 
     const glm::ivec3 size = grid.size();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
         for (std::size_t row = range.begin(); row != range.end(); ++row) {
-            const int y = static_cast<int>(row % static_cast<std::size_t>(size.y));
-            const int z = static_cast<int>(row / static_cast<std::size_t>(size.y));
+            const int y = grid.y_of(row), z = grid.z_of(row);
             for (int x = 0; x < size.x; ++x) {
-                free[row * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x)] =
-                    clearance(grid.centre({x, y, z})) > 0;
+                free[row * size.x + x] = clearance(grid.centre({x, y, z})) > 0;
             }
         }
     });

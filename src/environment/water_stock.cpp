@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <istream>
+#include <iterator>
 #include <limits>
 #include <ostream>
 
@@ -17,12 +18,32 @@ void for_voxels(const WaterGrid& grid, Visit visit) {
     const glm::ivec3 size = grid.size();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
         for (std::size_t row = range.begin(); row != range.end(); ++row) {
-            const int y = static_cast<int>(row % static_cast<std::size_t>(size.y));
-            const int z = static_cast<int>(row / static_cast<std::size_t>(size.y));
-            for (int x = 0; x < size.x; ++x)
-                visit(grid.row_begin(row) + static_cast<std::size_t>(x), glm::ivec3(x, y, z));
+            const int y = grid.y_of(row), z = grid.z_of(row);
+            for (int x = 0; x < size.x; ++x) visit(grid.row_begin(row) + x, glm::ivec3(x, y, z));
         }
     });
+}
+
+std::vector<std::size_t> cells_inside(const WaterGrid& grid, const Shape& shape) {
+    glm::ivec3 first{0}, last = grid.size() - 1;
+    if (const std::optional<Box> bounds = shape.bounds()) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto voxel_at = [&](double x) {
+                return std::clamp((x - grid.lower()[axis]) / grid.voxel(), -2.0, grid.size()[axis] + 2.0);
+            };
+            first[axis] = std::max(first[axis], static_cast<int>(std::floor(voxel_at(bounds->lower[axis]))) - 1);
+            last[axis] = std::min(last[axis], static_cast<int>(std::ceil(voxel_at(bounds->upper[axis]))) + 1);
+        }
+    }
+    std::vector<std::size_t> cells;
+    for (int z = first.z; z <= last.z; ++z) {
+        for (int y = first.y; y <= last.y; ++y) {
+            for (int x = first.x; x <= last.x; ++x) {
+                if (shape.inside(grid.centre({x, y, z}))) cells.push_back(grid.cell({x, y, z}));
+            }
+        }
+    }
+    return cells;
 }
 
 double initial_content(const WaterParameters& parameters, const glm::dvec3& point) {
@@ -66,23 +87,15 @@ void WaterStock::paint() {
 }
 
 void WaterStock::find_sources() {
-    const glm::ivec3 size = grid_.size();
     sources_.clear();
     for (const WaterSource& source : parameters_.sources) {
-        sources_.push_back({source, {}});
-        bool inside_any = false;
-        for (int z = 0; z < size.z; ++z) {
-            for (int y = 0; y < size.y; ++y) {
-                for (int x = 0; x < size.x; ++x) {
-                    if (!source.shape->inside(grid_.centre({x, y, z}))) continue;
-                    inside_any = true;
-                    const std::size_t cell = grid_.cell({x, y, z});
-                    if (faces_.free(cell)) sources_.back().cells.push_back(cell);
-                }
-            }
-        }
-        if (!inside_any)
+        const std::vector<std::size_t> inside = cells_inside(grid_, *source.shape);
+        if (inside.empty()) {
             throw UserError(source.place, "this source holds no voxel's centre: make it larger or move it");
+        }
+        sources_.push_back({source, {}});
+        std::copy_if(inside.begin(), inside.end(), std::back_inserter(sources_.back().cells),
+                     [&](std::size_t cell) { return faces_.free(cell); });
     }
 }
 
@@ -91,7 +104,7 @@ void WaterStock::set_free(std::vector<std::uint8_t> free) {
     faces_ = WaterFaces(grid_, free_);
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
         const std::size_t begin = grid_.row_begin(row);
-        for (std::size_t cell = begin; cell < begin + static_cast<std::size_t>(grid_.size().x); ++cell) {
+        for (std::size_t cell = begin; cell < begin + grid_.size().x; ++cell) {
             if (faces_.free(cell)) continue;
             balance_.displaced += contents_[cell];
             contents_[cell] = 0;
@@ -158,21 +171,35 @@ std::vector<double> WaterStock::lend(std::span<const WaterWish> wishes) const {
 }
 
 void WaterStock::measure() {
-    balance_.minimum = std::numeric_limits<double>::infinity();
-    balance_.maximum = -balance_.minimum;
-    balance_.total = 0;
-    for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        const std::size_t begin = grid_.row_begin(row);
+    struct Figures {
         double sum = 0;
-        for (std::size_t cell = begin; cell < begin + static_cast<std::size_t>(grid_.size().x); ++cell) {
-            sum += contents_[cell];
-            if (!faces_.free(cell)) continue;
-            balance_.minimum = std::min(balance_.minimum, contents_[cell]);
-            balance_.maximum = std::max(balance_.maximum, contents_[cell]);
+        double minimum = std::numeric_limits<double>::infinity();
+        double maximum = -std::numeric_limits<double>::infinity();
+    };
+    std::vector<Figures> rows(grid_.rows());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.rows(), 64), [&](const auto& range) {
+        for (std::size_t row = range.begin(); row != range.end(); ++row) {
+            const std::size_t begin = grid_.row_begin(row);
+            Figures figures;
+            for (std::size_t cell = begin; cell < begin + grid_.size().x; ++cell) {
+                if (!faces_.free(cell)) continue;
+                figures.sum += contents_[cell];
+                figures.minimum = std::min(figures.minimum, contents_[cell]);
+                figures.maximum = std::max(figures.maximum, contents_[cell]);
+            }
+            rows[row] = figures;
         }
-        balance_.total += sum;
+    });
+    Figures all;
+    for (const Figures& row : rows) {
+        all.sum += row.sum;
+        all.minimum = std::min(all.minimum, row.minimum);
+        all.maximum = std::max(all.maximum, row.maximum);
     }
-    if (faces_.free_voxels() == 0) balance_.minimum = balance_.maximum = 0;
+    balance_.total = all.sum;
+    const bool any = faces_.free_voxels() > 0;
+    balance_.minimum = any ? all.minimum : 0;
+    balance_.maximum = any ? all.maximum : 0;
 }
 
 void WaterStock::save(std::ostream& out) const {
@@ -181,7 +208,7 @@ void WaterStock::save(std::ostream& out) const {
     out.write(reinterpret_cast<const char*>(&balance_), sizeof balance_);
     out.write(reinterpret_cast<const char*>(free_.data()), static_cast<std::streamsize>(free_.size()));
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        write_doubles(out, {contents_.data() + grid_.row_begin(row), static_cast<std::size_t>(size.x)});
+        write_doubles(out, {contents_.data() + grid_.row_begin(row), std::size_t(size.x)});
     }
 }
 
@@ -193,7 +220,7 @@ void WaterStock::restore(std::istream& in) {
     in.read(reinterpret_cast<char*>(free_.data()), static_cast<std::streamsize>(free_.size()));
     faces_ = WaterFaces(grid_, free_);
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
-        read_doubles(in, {contents_.data() + grid_.row_begin(row), static_cast<std::size_t>(size.x)});
+        read_doubles(in, {contents_.data() + grid_.row_begin(row), std::size_t(size.x)});
     }
     find_sources();
 }

@@ -54,7 +54,9 @@ public:
     }
 
     void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
-        if (solids_.look(fields)) {
+        const bool moved = solids_.look(fields);
+        if (moved || restored_) {
+            restored_ = false;
             stock_->set_free(solids_.free_voxels(grid_));
             field_.set_faces(stock_->faces());
         }
@@ -114,6 +116,7 @@ public:
         read_doubles(in, wish_);
         field_.set_faces(stock_->faces());
         field_.rewrite(stock_->contents());
+        restored_ = true;
     }
 
 private:
@@ -162,6 +165,7 @@ private:
     WaterDiffusion diffusion_;
     WaterField field_;
     std::optional<WaterStock> stock_;
+    bool restored_ = false;              ///< the solids looked at are older than the stock
     std::vector<double> uptake_, wish_;  ///< per plant, this step
 };
 
