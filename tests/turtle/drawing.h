@@ -5,8 +5,12 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 namespace espalier {
 
@@ -46,12 +50,12 @@ struct Drawing {
     }
     const PlantGeometry& geometry() { return draw().geometry; }
 
-    /// The turtle's pose at the end of the string.
+    /// The turtle's pose at the end of a string without queries.
     Pose pose() {
         Drawing asking = *this;
         asking.string.append(asking.model.alphabet.letter("?", 0));
         asking.string.append(asking.model.alphabet.letter("E", 1), std::array{0.0});
-        return asking.draw().queries.back().pose;
+        return asking.draw().queries.at(0).pose;
     }
 };
 
