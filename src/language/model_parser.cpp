@@ -107,30 +107,36 @@ private:
 
     /// One line of an L-system; true at its end.
     bool line() {
-        if (in_.accept_keyword("endlsystem")) {
-            end_of_statement("'endlsystem'");
-            return true;
+        if (begins_item()) {
+            if (in_.looking_at_keyword("lsystem")) {
+                mistakes_.error(in_.here(),
+                                "another L-system begins inside this one: 'endlsystem' is missing before it");
+                return true;
+            }
+            if (in_.accept_keyword("endlsystem")) {
+                end_of_statement("'endlsystem'");
+                return true;
+            }
+            if (section_line() || header_item() || declaration()) return false;
         }
-        if (in_.looking_at_keyword("lsystem") && names_an_item()) {
-            mistakes_.error(in_.here(), "another L-system begins inside this one: 'endlsystem' is missing before it");
-            return true;
-        }
-        if (in_.line_has_arrow(in_.position()) && !names_an_item()) {
-            production();
-        } else if (!section_line() && !header_item() && !declaration()) {
-            not_a_line();
-        }
+        if (!in_.statement_has_arrow()) not_a_line();
+        production();
         return false;
     }
 
-    // "axiom:", "Start: {": an arrow behind such a word does not make a production.
-    bool names_an_item() {
+    // A word such as "axiom" begins an item unless the line is plainly a production: "end --> F".
+    bool begins_item() {
         const auto is_here = [&](const std::string& keyword) {
             const std::size_t length = keyword_length(in_.rest(), keyword);
-            const std::size_t after = length == 0 ? Scanner::npos : in_.rest().find_first_not_of(" \t", length);
-            return after != Scanner::npos && in_.rest()[after] == ':';
+            if (length == 0) return false;
+            const std::size_t after = in_.rest().find_first_not_of(" \t", length);
+            const char next = after == Scanner::npos ? '\n' : in_.rest()[after];
+            return next == ':' || next == '{' || !in_.line_has_arrow(in_.position());
         };
-        return std::any_of(header_keywords().begin(), header_keywords().end(), is_here);
+        const auto header = header_keywords();
+        const auto section = section_keywords();
+        return std::any_of(header.begin(), header.end(), is_here) ||
+               std::any_of(section.begin(), section.end(), is_here);
     }
 
     void production() {

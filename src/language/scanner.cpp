@@ -111,6 +111,16 @@ bool Scanner::line_has_arrow(std::size_t position) const {
     return line.find("-->") != npos || line.find("-o>") != npos;
 }
 
+bool Scanner::statement_has_arrow() {
+    int braces = 0;
+    for (std::size_t i = position_; i < text_.size(); ++i) {
+        if (arrow_at(i) > 0) return true;
+        braces += text_[i] == '{' ? 1 : text_[i] == '}' ? -1 : 0;
+        if (text_[i] == '\n' && braces <= 0 && !continues(i)) return false;
+    }
+    return false;
+}
+
 bool Scanner::begins_statement(std::size_t line) const {
     return line_has_arrow(line) || begins_with_keyword(text(after_blanks(line), end_of_line(line)));
 }

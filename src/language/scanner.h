@@ -69,6 +69,8 @@ public:
     void recover(std::size_t start);
     std::size_t end_of_line(std::size_t position) const;
     bool line_has_arrow(std::size_t position) const;
+    /// Whether an arrow stands between here and the end of the statement.
+    bool statement_has_arrow();
     static constexpr std::size_t npos = std::string_view::npos;
 
 private:

@@ -1,0 +1,320 @@
+// What is legal in a model and yet probably not meant.
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+#include "espalier/language/reader.h"
+
+#include "language/constant.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace espalier {
+namespace {
+
+using language::constant_value;
+
+class Review {
+public:
+    Review(const Model& model, const std::vector<std::string>& turtle_symbols)
+        : model_(model), turtle_symbols_(turtle_symbols) {}
+
+    std::vector<Diagnostic> run() {
+        for (const LSystem& system : model_.systems) collect(system);
+        for (const LSystem& system : model_.systems) {
+            for (const RuleSet* rules : {&system.decomposition, &system.homomorphism})
+                review(rules->productions, false);
+            review(system.productions, system.seed.has_value());
+            review_filter(system);
+            review_homomorphism(system.homomorphism);
+            review_modules(system.axiom);
+        }
+        review_processes();
+        std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+            return std::tie(a.place.file, a.place.line, a.place.column) <
+                   std::tie(b.place.file, b.place.line, b.place.column);
+        });
+        return std::move(found_);
+    }
+
+private:
+    template <class Visit>
+    static void for_each_production(const LSystem& system, Visit&& visit) {
+        for (const Production& production : system.productions) visit(production);
+        for (const Production& production : system.decomposition.productions) visit(production);
+        for (const Production& production : system.homomorphism.productions) visit(production);
+    }
+
+    void collect(const LSystem& system) {
+        for (const ModuleTemplate& module : system.axiom) produced_.insert(module.letter);
+        for_each_production(system, [&](const Production& production) {
+            for (const ModuleTemplate& module : production.successor) produced_.insert(module.letter);
+            for (const auto* part : {&production.left, &production.strict, &production.right}) {
+                for (const ModulePattern& pattern : *part) {
+                    if (!pattern.skip_branch) mentioned_.insert(model_.alphabet.symbol_of(pattern.letter));
+                }
+            }
+        });
+        mentioned_.insert(system.filtered.begin(), system.filtered.end());
+    }
+
+    // --- productions --------------------------------------------------------------------------------------------
+
+    void review(const std::vector<Production>& productions, bool stochastic) {
+        unconditional_.clear();
+        for (const Production& production : productions) {
+            review_applicability(production);
+            if (!stochastic) review_shadow(production);
+            review_brackets(production.successor);
+            review_modules(production.successor);
+        }
+        if (stochastic) review_weights(productions);
+    }
+
+    void review_applicability(const Production& production) {
+        for (const auto* part : {&production.strict, &production.left, &production.right}) {
+            for (const ModulePattern& pattern : *part) {
+                if (pattern.skip_branch || produced_.contains(pattern.letter)) continue;
+                warn(pattern.place, fmt::format("this production can never apply: nobody produces {}{}",
+                                                described(pattern.letter), other_arities(pattern.letter)));
+                return;
+            }
+        }
+        if (!production.condition) return;
+        const std::optional<double> value = constant_value(*production.condition);
+        if (value == 0) warn(production.condition->place, "this production can never apply: its condition is always 0");
+    }
+
+    void review_shadow(const Production& late) {
+        const auto takes_all = [&](const Production* early) {
+            return early->strict.size() <= late.strict.size() &&
+                   std::equal(early->strict.begin(), early->strict.end(), late.strict.begin(),
+                              [](const auto& a, const auto& b) { return a.letter == b.letter; });
+        };
+        std::vector<const Production*>& unconditional = unconditional_[late.strict.front().letter];
+        const auto early = std::find_if(unconditional.begin(), unconditional.end(), takes_all);
+        if (early != unconditional.end()) {
+            warn(late.place, fmt::format("this production can never apply: the one in {} takes all its modules",
+                                         to_string((*early)->place)));
+        } else if (late.left.empty() && late.right.empty() && !late.condition) {
+            unconditional.push_back(&late);
+        }
+    }
+
+    void review_weights(const std::vector<Production>& productions) {
+        std::map<std::vector<LetterId>, std::pair<const Production*, bool>> by_predecessor;
+        for (const Production& production : productions) {
+            std::vector<LetterId> letters;
+            for (const ModulePattern& pattern : production.strict) letters.push_back(pattern.letter);
+            auto& [first, any] = by_predecessor.try_emplace(letters, &production, false).first->second;
+            any = any || !production.weight || constant_value(*production.weight) != 0;
+        }
+        for (const auto& [letters, entry] : by_predecessor) {
+            if (!entry.second) {
+                warn(entry.first->place,
+                     fmt::format("all productions of {} have weight 0", described(letters.front())));
+            }
+        }
+    }
+
+    void review_brackets(const std::vector<ModuleTemplate>& modules) {
+        std::vector<const ModuleTemplate*> open;
+        for (const ModuleTemplate& module : modules) {
+            if (module.letter == Alphabet::open_bracket) open.push_back(&module);
+            if (module.letter != Alphabet::close_bracket) continue;
+            if (open.empty()) {
+                warn(module.place, "this ']' closes no branch of this successor");
+                return;
+            }
+            open.pop_back();
+        }
+        if (!open.empty()) warn(open.back()->place, "this branch is not closed in this successor: ']' is missing");
+    }
+
+    // --- modules ------------------------------------------------------------------------------------------------
+
+    void review_modules(const std::vector<ModuleTemplate>& modules) {
+        for (std::size_t i = 0; i < modules.size(); ++i) {
+            const LetterId letter = modules[i].letter;
+            const std::string& symbol = model_.alphabet.name(letter);
+            if (symbol == "?" && model_.alphabet.arity(letter) == 0) {
+                review_question(modules, i);
+                ++i;  // the letter of ?E, ?P, ... belongs to it
+            } else if (symbol == "~") {
+                ++i;  // the name of a surface
+            } else if (const std::size_t length = turtle_symbol_length(modules, i); length > 0) {
+                i += length - 1;
+            } else if (!turtle_symbols_.empty() && !is_known(symbol) && reported_.insert(letter).second) {
+                warn(modules[i].place, fmt::format("nobody takes notice of {}: no production names it, the turtle does "
+                                                   "not know it",
+                                                   described(letter)));
+            }
+        }
+    }
+
+    // How many modules from `i` on spell a symbol of the turtle, such as @o or @Gs; the longest counts.
+    std::size_t turtle_symbol_length(const std::vector<ModuleTemplate>& modules, std::size_t i) const {
+        std::string word;
+        std::size_t longest = 0;
+        for (std::size_t k = i; k < std::min(modules.size(), i + 4); ++k) {
+            word += model_.alphabet.name(modules[k].letter);
+            const bool known = std::find(turtle_symbols_.begin(), turtle_symbols_.end(), word) != turtle_symbols_.end();
+            if (known) longest = k - i + 1;
+        }
+        return longest;
+    }
+
+    bool is_known(const std::string& symbol) const {
+        if (mentioned_.contains(*model_.alphabet.find_symbol(symbol)) || symbol.front() == '?') return true;
+        if (symbol == "[" || symbol == "]" || symbol == "%") return true;
+        return std::find(turtle_symbols_.begin(), turtle_symbols_.end(), symbol) != turtle_symbols_.end();
+    }
+
+    // `?` asks the environment (?E), the turtle (?P ?H ?L ?U ?Q), or a process the model declares.
+    void review_question(const std::vector<ModuleTemplate>& modules, std::size_t i) {
+        std::string asked;
+        for (std::size_t k = i + 1; k < modules.size(); ++k) {
+            const std::string& symbol = model_.alphabet.name(modules[k].letter);
+            const bool letter = symbol.size() == 1 && ((symbol[0] >= 'a' && symbol[0] <= 'z') ||
+                                                       (symbol[0] >= 'A' && symbol[0] <= 'Z') || symbol[0] == '_');
+            if (!letter) break;
+            asked += symbol;
+            if (model_.alphabet.arity(modules[k].letter) > 0) break;
+        }
+        if (!asked.empty() && std::string_view("EPHLUQ").find(asked.front()) != std::string_view::npos) return;
+        if (asked.empty()) {
+            warn(modules[i].place, "this question names nobody who could answer");
+        } else {
+            warn(modules[i].place, fmt::format("nobody answers '?{0}': declare 'environment {0};'{1}", asked,
+                                               did_you_mean(asked, model_.processes)));
+        }
+    }
+
+    void review_processes() {
+        for (const std::string& name : model_.processes) {
+            const std::optional<SymbolId> symbol = model_.alphabet.find_symbol("?" + name);
+            const bool asked = symbol && std::any_of(produced_.begin(), produced_.end(), [&](LetterId letter) {
+                                   return model_.alphabet.symbol_of(letter) == *symbol;
+                               });
+            if (!asked) warn({}, fmt::format("'environment {0};' is declared, but no module '?{0}' asks it", name));
+        }
+    }
+
+    // --- L-systems ----------------------------------------------------------------------------------------------
+
+    void review_filter(const LSystem& system) {
+        if (system.filter != LSystem::Filter::consider) return;
+        const auto considered = [&](LetterId letter) {
+            return std::find(system.filtered.begin(), system.filtered.end(), model_.alphabet.symbol_of(letter)) !=
+                   system.filtered.end();
+        };
+        if (considered(Alphabet::open_bracket) && considered(Alphabet::close_bracket)) return;
+        const Production* first = nullptr;
+        for_each_production(system, [&](const Production& production) {
+            if (!first && !production.right.empty()) first = &production;
+        });
+        if (first) {
+            warn(first->place,
+                 "'consider' does not name the brackets, so that this right context looks into branches as if "
+                 "they were the axis: write 'consider: ...[]'");
+        }
+    }
+
+    void review_homomorphism(const RuleSet& rules) {
+        if (!rules.maximum_depth) return;  // depth 1: nothing is replaced twice
+        const std::optional<double> depth = constant_value(*rules.maximum_depth);
+        if (depth && *depth <= 1) return;
+        std::map<LetterId, std::set<LetterId>> pictures;
+        for (const Production& production : rules.productions) {
+            for (const ModuleTemplate& module : production.successor) {
+                pictures[production.strict.front().letter].insert(module.letter);
+            }
+        }
+        for (const Production& production : rules.productions) {
+            if (!reaches_itself(pictures, production.strict.front().letter)) continue;
+            warn(production.place, fmt::format("the picture of {} contains itself; it ends at the maximum depth only",
+                                               described(production.strict.front().letter)));
+            return;
+        }
+    }
+
+    static bool reaches_itself(const std::map<LetterId, std::set<LetterId>>& pictures, LetterId start) {
+        std::set<LetterId> seen;
+        std::vector<LetterId> waiting{start};
+        while (!waiting.empty()) {
+            const auto next = pictures.find(waiting.back());
+            waiting.pop_back();
+            if (next == pictures.end()) continue;
+            for (const LetterId letter : next->second) {
+                if (letter == start) return true;
+                if (seen.insert(letter).second) waiting.push_back(letter);
+            }
+        }
+        return false;
+    }
+
+    // --- words --------------------------------------------------------------------------------------------------
+
+    static std::string with_parameters(int arity) {
+        if (arity == 0) return "without parameters";
+        return fmt::format("with {} parameter{}", arity, arity == 1 ? "" : "s");
+    }
+
+    std::string described(LetterId letter) const {
+        const int arity = model_.alphabet.arity(letter);
+        const std::string& name = model_.alphabet.name(letter);
+        return arity == 0 ? fmt::format("'{}'", name) : fmt::format("'{}' {}", name, with_parameters(arity));
+    }
+
+    std::string other_arities(LetterId letter) const {
+        for (const LetterId other : produced_) {
+            if (model_.alphabet.symbol_of(other) == model_.alphabet.symbol_of(letter)) {
+                return fmt::format(" (only {})", with_parameters(model_.alphabet.arity(other)));
+            }
+        }
+        return "";
+    }
+
+    void warn(const Place& place, std::string message) {
+        found_.push_back({Diagnostic::Severity::warning, place, std::move(message), source_line(place)});
+    }
+
+    std::string source_line(const Place& place) {
+        if (!place.known()) return "";
+        if (!files_.contains(place.file)) {
+            std::vector<std::string> lines;
+            // A model that was read from text has no file to show a line of.
+            if (std::error_code code; std::filesystem::is_regular_file(place.file, code)) {
+                const std::string text = read_text(place.file);
+                for (std::size_t start = 0; start < text.size();) {
+                    const std::size_t end = std::min(text.find('\n', start), text.size());
+                    lines.push_back(text.substr(start, end - start));
+                    start = end + 1;
+                }
+            }
+            files_[place.file] = std::move(lines);
+        }
+        const std::vector<std::string>& lines = files_[place.file];
+        const auto line = static_cast<std::size_t>(place.line);
+        return line >= 1 && line <= lines.size() ? lines[line - 1] : "";
+    }
+
+    const Model& model_;
+    const std::vector<std::string>& turtle_symbols_;
+    std::set<LetterId> produced_;
+    std::set<SymbolId> mentioned_;
+    std::set<LetterId> reported_;
+    std::map<LetterId, std::vector<const Production*>> unconditional_;  // of the rule set at hand
+    std::map<std::string, std::vector<std::string>> files_;
+    std::vector<Diagnostic> found_;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols) {
+    return Review(model, turtle_symbols).run();
+}
+
+}  // namespace espalier
