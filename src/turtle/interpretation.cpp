@@ -11,8 +11,8 @@ namespace espalier {
 class StringWalk {
 public:
     StringWalk(const Model& model, const SymbolTable& symbols, const ModuleString& string,
-                const TurtleSettings& settings, const Derivation* derivation, std::uint32_t plant,
-                Interpretation& result)
+               const TurtleSettings& settings, const Derivation* derivation, std::uint32_t plant,
+               Interpretation& result)
         : model_(model),
           symbols_(symbols),
           string_(string),

@@ -122,4 +122,15 @@ void apply_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<con
     if (roll != 0) roll_left(pose, Rotation(-roll));
 }
 
+void apply_older_tropism(Pose& pose, const glm::dvec3& direction, double elasticity) {
+    const auto bend = [&](glm::dvec3& side) {
+        Rotation by;
+        by.sine = std::clamp(elasticity * glm::dot(direction, side), -1.0, 1.0);
+        by.cosine = std::sqrt(1 - by.sine * by.sine);
+        rotate_pair(pose.heading, side, by);
+    };
+    bend(pose.up);
+    bend(pose.left);
+}
+
 }  // namespace espalier

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -41,12 +41,14 @@ Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings&
       geometry_(result.geometry),
       queries_(result.queries),
       plant_(plant),
-      default_rotation_(settings_.angle) {
+      default_rotation_(settings_.angle),
+      older_tropism_(glm::normalize(settings_.tropism_direction)) {
     turtle.pose = settings.pose;
     turtle.width = turtle.node_width = settings.line_width;
     turtle.scale = settings.scale;
     turtle.colour = settings.colour;
     turtle.back_colour = settings.back_colour;
+    turtle.elasticity = settings.initial_elasticity;
     for (const Tropism& tropism : settings.tropisms) elasticities.push_back(tropism.elasticity);
     known_rotations_.fill({0, Rotation()});
 }
@@ -55,6 +57,7 @@ void Walk::move(double distance, bool draws, bool records_vertex) {
     if (!elasticities.empty()) apply_tropisms(turtle.pose, settings.tropisms, elasticities);
     const glm::dvec3 base = turtle.pose.position;
     turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
+    if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
     if (!finite(turtle.pose.position)) fail("the turtle's position is not a number any more");
     if (records_vertex) record_vertex();
     if (!draws) {

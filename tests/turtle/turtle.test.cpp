@@ -216,3 +216,21 @@ TEST_CASE("elasticities are set, changed by a step or an amount, and restored af
     CHECK(bend("[@Ts(2,0.4)]") == Approx(0.1));
     CHECK(bend("@Ts(3,0.4)@Ts(0,0.4)@Ti(-1)@Ti") == Approx(0.1));
 }
+
+TEST_CASE("the older tropism bends after each step as cpfg does", "[turtle]") {
+    // Numbers printed by cpfg 6.6 for this string.
+    Drawing drawing("+(70)/(25)F(2)F_f_(0.5)Gg");
+    drawing.settings.tropism_direction = {0.2, 1, -0.4};
+    drawing.settings.initial_elasticity = 0.3;
+    drawing.settings.elasticity_increment = -0.1;
+    const Pose pose = drawing.pose();
+    CHECK(glm::length(pose.heading - glm::dvec3(-0.00909, 0.938693, -0.344634)) < 5e-6);
+    CHECK(glm::length(pose.position - glm::dvec3(-3.98917, 3.79516, -0.853556)) < 1e-5);
+    CHECK(frame_error(pose) < 1e-14);
+}
+
+TEST_CASE("a branch gives the older elasticity back", "[turtle]") {
+    Drawing drawing("+(90)[_(0.4)F]?E(1)F?E(1)");
+    const std::vector<Query>& queries = drawing.draw().queries;
+    CHECK(queries.at(0).pose.heading == queries.at(1).pose.heading);
+}

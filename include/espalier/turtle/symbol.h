@@ -86,7 +86,8 @@ private:
     std::vector<double> elasticity_stack_;
     std::vector<OpenPolygon> open_polygons_;
     std::vector<glm::dvec3> open_vertices_;
-    Rotation default_rotation_;
+    const Rotation default_rotation_;
+    const glm::dvec3 older_tropism_;
     std::array<KnownRotation, 16> known_rotations_;  // angles repeat; sines are dear
 };
 

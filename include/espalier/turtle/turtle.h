@@ -33,6 +33,10 @@ struct TurtleSettings {
     double scale_multiplier = 1;
     bool past_cut = true;  ///< draw what follows `%`
     std::vector<Tropism> tropisms;
+    // cpfg's older scheme: one tropism that acts after every step, its elasticity changed by `_`.
+    glm::dvec3 tropism_direction{0, 1, 0};  ///< of any length but 0
+    double initial_elasticity = 0;
+    double elasticity_increment = 0;
 };
 
 /// What `[` saves and `]` restores, but for the elasticities, which the walk keeps on a stack of their own.
@@ -46,6 +50,7 @@ struct TurtleState {
     std::uint16_t order = 0;  ///< depth of branching, at most 65535
     bool on_axis = false;     ///< the axis has an internode that ends here
     double node_width = 1;    ///< width at the end of that internode
+    double elasticity = 0;    ///< of the older tropism
 };
 
 /// The cosine and sine of an angle in radians. Quarter turns are exact, so that right angles stay right.
@@ -66,5 +71,7 @@ void level(Pose& pose);                          ///< @v: left horizontal
 void head_towards(Pose& pose, const glm::dvec3& heading);
 /// Bends and rolls as before every segment; one elasticity per tropism.
 void apply_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities);
+/// Bends after a step, by the older scheme; `direction` is a unit vector.
+void apply_older_tropism(Pose& pose, const glm::dvec3& direction, double elasticity);
 
 }  // namespace espalier

@@ -31,5 +31,14 @@ const Symbol more_shortly{
         increase(walk, parameters, 1);
     }};
 
+const Symbol older{"_",
+                   {0, 1},
+                   "_(elasticity): set the elasticity of the older tropism; without parameter, add its increment",
+                   [](Walk& walk, std::span<const double> parameters) {
+                       double& elasticity = walk.turtle.elasticity;
+                       elasticity =
+                           parameters.empty() ? elasticity + walk.settings.elasticity_increment : parameters[0];
+                   }};
+
 }  // namespace
 }  // namespace espalier
