@@ -1,0 +1,431 @@
+#include "compiled_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+constexpr double most_elements = 1e9;
+constexpr double deepest = 1e6;
+
+Plan plan_of(const CompiledProduction& production) {
+    Plan plan;
+    std::copy_n(production.letters.begin(), std::min(production.letters.size(), letter_block), plan.block.begin());
+    plan.letters = production.letters.data();
+    plan.length = static_cast<std::uint32_t>(production.length);
+    plan.parameters = static_cast<std::uint32_t>(production.parameters);
+    plan.arity = production.strict[0].arity;
+    plan.lanes = production.lanes.data();
+    plan.production = &production;
+    const bool simple = production.affine && production.after.empty();
+    plan.kind = production.parameters == 0 && production.after.empty() ? Plan::Kind::bare
+                : simple                                               ? Plan::Kind::lanes
+                                                                       : Plan::Kind::program;
+    return plan;
+}
+
+Plans make_plans(const CompiledModel& model) {
+    const CompiledRules& rules = model.rules;
+    const Alphabet& alphabet = model.source->alphabet;
+    Plans plans;
+    for (const CompiledProduction& production : rules.productions) plans.productions.push_back(plan_of(production));
+    for (std::size_t l = 0; l < alphabet.size(); ++l) {
+        const auto letter = static_cast<LetterId>(l);
+        Plan copy;
+        copy.block[0] = letter;
+        copy.letters = nullptr;
+        copy.length = 1;
+        copy.arity = static_cast<std::uint16_t>(alphabet.arity(letter));
+        copy.parameters = copy.arity;
+        copy.kind = copy.arity == 0 ? Plan::Kind::bare : Plan::Kind::copy;
+        plans.copies.push_back(copy);
+        plans.of_letter.push_back(rules.always[l] >= 0 ? plans.productions[rules.always[l]] : copy);
+        if (rules.has(letter) && rules.always[l] < 0) plans.of_letter.back().kind = Plan::Kind::choose;
+        plans.all_known &= plans.of_letter.back().kind != Plan::Kind::choose;
+    }
+    return plans;
+}
+
+/// Compiles one L-system of a model.
+class ModelCompiler {
+public:
+    explicit ModelCompiler(std::shared_ptr<const Model> model)
+        : model_(std::move(model)),
+          system_(model_->main()),
+          programs_(system_, model_->quirks),
+          compiled_(std::make_shared<CompiledModel>()) {
+        compiled_->source = model_;
+    }
+
+    std::shared_ptr<const CompiledModel> compile();
+
+private:
+    void compile_arrays();
+    void compile_blocks();
+    CompiledRules compile_rules(const std::vector<Production>& productions, bool stochastic, bool single);
+    void compile_depth(const RuleSet& source, CompiledRules& rules);
+    CompiledProduction compile_production(const Production& production);
+    std::vector<CompiledPattern> patterns(const std::vector<ModulePattern>& source);
+    void descend(CompiledProduction& production) const;
+    void find_lanes(CompiledProduction& production) const;
+    std::optional<Lane> lane(const Expression& expression, const CompiledPattern& strict) const;
+    std::optional<Lane> sum_lane(const Expression& expression, const CompiledPattern& strict) const;
+    void index(CompiledRules& rules) const;
+    std::int32_t always(const CompiledRules& rules, LetterId letter) const;
+    void place_registers();
+    void place_registers(CompiledRules& rules);
+    void find_ignored();
+    bool writes_cut() const;
+
+    std::shared_ptr<const Model> model_;
+    const LSystem& system_;
+    ProgramCompiler programs_;
+    std::shared_ptr<CompiledModel> compiled_;
+};
+
+std::shared_ptr<const CompiledModel> ModelCompiler::compile() {
+    compile_arrays();
+    compile_blocks();
+    compiled_->rules = compile_rules(system_.productions, system_.seed.has_value(), false);
+    const auto weighted = [](const RuleSet& rules) {
+        return std::any_of(rules.productions.begin(), rules.productions.end(),
+                           [](const Production& production) { return production.weight.has_value(); });
+    };
+    compiled_->decomposition = compile_rules(system_.decomposition.productions, weighted(system_.decomposition), true);
+    compile_depth(system_.decomposition, compiled_->decomposition);
+    compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism), true);
+    compile_depth(system_.homomorphism, compiled_->homomorphism);
+    compiled_->plans = make_plans(*compiled_);
+    compiled_->ring = system_.ring;
+    compiled_->may_cut = writes_cut() && !compiled_->rules.has(Alphabet::cut);
+    find_ignored();
+    place_registers();
+    return compiled_;
+}
+
+void ModelCompiler::compile_arrays() {
+    for (const ArrayDeclaration& declared : system_.arrays) {
+        CompiledArray array{declared.name, {}, {}};
+        double elements = 1;
+        for (const Expression& dimension : declared.dimensions) {
+            const std::optional<double> size = programs_.fold(dimension);
+            if (!size || !(std::trunc(*size) >= 1)) {
+                throw UserError(
+                    dimension.place,
+                    fmt::format("a dimension of array '{}' must be a constant of at least 1", declared.name));
+            }
+            array.dimensions.push_back(static_cast<std::size_t>(std::min(*size, 2 * most_elements)));
+            elements *= std::trunc(*size);
+        }
+        if (!(elements <= most_elements)) {
+            throw UserError(declared.place, fmt::format("array '{}' has {:g} elements; {:g} is the most", declared.name,
+                                                        elements, most_elements));
+        }
+        if (static_cast<double>(declared.values.size()) > elements) {
+            throw UserError(declared.place, fmt::format("array '{}' has {:g} elements, but {} values are given",
+                                                        declared.name, elements, declared.values.size()));
+        }
+        array.values.assign(static_cast<std::size_t>(elements), 0);
+        for (std::size_t k = 0; k < declared.values.size(); ++k) {
+            const std::optional<double> value = programs_.fold(declared.values[k]);
+            if (!value) throw UserError(declared.values[k].place, "an array's initial values must be constants");
+            array.values[k] = *value;
+        }
+        compiled_->arrays.push_back(std::move(array));
+    }
+}
+
+void ModelCompiler::compile_blocks() {
+    compiled_->start = programs_.block(system_.start);
+    compiled_->start_each = programs_.block(system_.start_each);
+    compiled_->end_each = programs_.block(system_.end_each);
+    compiled_->end = programs_.block(system_.end);
+    compiled_->axiom = programs_.arguments(system_.axiom);
+    for (const ModuleTemplate& module : system_.axiom) compiled_->axiom_letters.push_back(module.letter);
+    if (system_.derivation_length) compiled_->length = programs_.value(*system_.derivation_length);
+    if (system_.seed) compiled_->seed = programs_.value(*system_.seed);
+}
+
+CompiledRules ModelCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic, bool single) {
+    CompiledRules rules;
+    rules.stochastic = stochastic;
+    for (const Production& production : productions) {
+        if (production.strict.empty()) throw UserError(production.place, "a production needs a strict predecessor");
+        if (single && production.strict.size() > 1) {
+            throw UserError(production.place, "decomposition and homomorphism replace one module at a time");
+        }
+        rules.productions.push_back(compile_production(production));
+        const CompiledProduction& compiled = rules.productions.back();
+        for (const Program* program :
+             {&compiled.before, &compiled.condition, &compiled.after, &compiled.successor, &compiled.weight}) {
+            rules.effects |= program->effects;
+        }
+        rules.uses_context |= !compiled.context_free();
+        const auto binds = [](const CompiledPattern& pattern) { return pattern.arity > 0; };
+        rules.binds_context |= std::any_of(compiled.left.begin(), compiled.left.end(), binds) ||
+                               std::any_of(compiled.right.begin(), compiled.right.end(), binds);
+        rules.several_strict |= compiled.strict.size() > 1;
+    }
+    index(rules);
+    return rules;
+}
+
+void ModelCompiler::compile_depth(const RuleSet& source, CompiledRules& rules) {
+    rules.warnings = source.warnings;
+    if (source.maximum_depth) {
+        const std::optional<double> depth = programs_.fold(*source.maximum_depth);
+        if (!depth || !(*depth >= 0 && *depth <= deepest)) {
+            throw UserError(source.maximum_depth->place, "the maximum depth must be a constant from 0 to 1e6");
+        }
+        rules.maximum_depth = static_cast<std::size_t>(*depth);
+        rules.explicit_depth = true;
+    }
+    if (source.seed) {
+        const std::optional<double> seed = programs_.fold(*source.seed);
+        if (!seed) throw UserError(source.seed->place, "the seed must be a constant");
+        rules.salt = std::bit_cast<std::uint64_t>(*seed);
+    }
+}
+
+std::vector<CompiledPattern> ModelCompiler::patterns(const std::vector<ModulePattern>& source) {
+    std::vector<CompiledPattern> compiled;
+    for (const ModulePattern& pattern : source) {
+        const int arity = pattern.skip_branch ? 0 : model_->alphabet.arity(pattern.letter);
+        compiled.push_back(
+            {pattern.letter, static_cast<std::uint16_t>(arity), pattern.first_formal, pattern.skip_branch});
+        compiled_->formals = std::max(compiled_->formals, pattern.first_formal + static_cast<std::uint32_t>(arity));
+    }
+    return compiled;
+}
+
+CompiledProduction ModelCompiler::compile_production(const Production& production) {
+    CompiledProduction compiled;
+    compiled.source = &production;
+    compiled.left = patterns(production.left);
+    std::reverse(compiled.left.begin(), compiled.left.end());
+    compiled.strict = patterns(production.strict);
+    compiled.right = patterns(production.right);
+    compiled_->formals = std::max(compiled_->formals, static_cast<std::uint32_t>(production.formals.size()));
+    compiled.before = programs_.block(production.before);
+    compiled.after = programs_.block(production.after);
+    if (production.condition) {
+        const std::optional<double> known = programs_.fold(*production.condition);
+        compiled.has_condition = !known || *known == 0;
+        compiled.condition = programs_.value(*production.condition);
+    }
+    compiled.has_weight = production.weight.has_value();
+    if (production.weight) compiled.weight = programs_.value(*production.weight);
+    compiled.successor = programs_.arguments(production.successor);
+    compiled.length = production.successor.size();
+    compiled.letters.assign((compiled.length + letter_block - 1) / letter_block * letter_block, Alphabet::open_bracket);
+    for (std::size_t k = 0; k < compiled.length; ++k) {
+        compiled.letters[k] = production.successor[k].letter;
+        compiled.arities.push_back(static_cast<std::uint16_t>(production.successor[k].arguments.size()));
+        compiled.parameters += compiled.arities.back();
+    }
+    compiled.tests_draw =
+        compiled.before.effects.draws || compiled.condition.effects.draws || compiled.weight.effects.draws;
+    descend(compiled);
+    find_lanes(compiled);
+    return compiled;
+}
+
+// Each strict module in turn hands its identity to the first successor module of its symbol that nobody has claimed.
+void ModelCompiler::descend(CompiledProduction& production) const {
+    production.descents.resize(production.length);
+    for (std::uint32_t s = 0; s < production.strict.size(); ++s) {
+        const SymbolId symbol = model_->alphabet.symbol_of(production.strict[s].letter);
+        for (std::size_t k = 0; k < production.length; ++k) {
+            Descent& descent = production.descents[k];
+            if (descent.heir_of != Descent::born || model_->alphabet.symbol_of(production.letters[k]) != symbol)
+                continue;
+            descent.heir_of = s;
+            break;
+        }
+    }
+    std::uint32_t place = 0;
+    for (Descent& descent : production.descents) {
+        if (descent.heir_of == Descent::born) descent.place = place++;
+    }
+}
+
+/// True if the expression or block reads a formal of one of the patterns.
+bool reads_formals_of(const Expression& expression, const std::vector<CompiledPattern>& patterns) {
+    if (expression.kind == Expression::Kind::formal) {
+        return std::any_of(patterns.begin(), patterns.end(), [&](const CompiledPattern& pattern) {
+            return expression.index >= pattern.first_formal && expression.index < pattern.first_formal + pattern.arity;
+        });
+    }
+    return std::any_of(expression.operands.begin(), expression.operands.end(),
+                       [&](const Expression& operand) { return reads_formals_of(operand, patterns); });
+}
+
+bool reads_formals_of(const Block& block, const std::vector<CompiledPattern>& patterns) {
+    return std::any_of(block.begin(), block.end(), [&](const Statement& statement) {
+        const auto expression_reads = [&](const std::optional<Expression>& expression) {
+            return expression && reads_formals_of(*expression, patterns);
+        };
+        const auto body_reads = [&](const Block& body) { return reads_formals_of(body, patterns); };
+        return std::any_of(statement.expressions.begin(), statement.expressions.end(), expression_reads) ||
+               std::any_of(statement.bodies.begin(), statement.bodies.end(), body_reads);
+    });
+}
+
+void ModelCompiler::find_lanes(CompiledProduction& production) const {
+    production.affine = production.strict.size() == 1;
+    for (const auto* context : {&production.left, &production.right}) {
+        production.reads_context |= reads_formals_of(production.source->after, *context);
+    }
+    for (const ModuleTemplate& module : production.source->successor) {
+        for (const Expression& argument : module.arguments) {
+            production.reads_context |=
+                reads_formals_of(argument, production.left) || reads_formals_of(argument, production.right);
+            const std::optional<Lane> found = lane(argument, production.strict[0]);
+            if (!found)
+                production.affine = false;
+            else
+                production.lanes.push_back(*found);
+        }
+    }
+    if (!production.affine) production.lanes.clear();
+}
+
+// Only forms that a multiplication followed by an addition computes with the very same rounding.
+// Adding -0.0 changes no number, not even -0.0.
+std::optional<Lane> ModelCompiler::lane(const Expression& expression, const CompiledPattern& strict) const {
+    if (const std::optional<double> constant = programs_.fold(expression)) {
+        if (!std::isfinite(*constant)) return std::nullopt;
+        return Lane{0, 0, *constant};
+    }
+    if (expression.kind == Expression::Kind::formal) {
+        if (expression.index < strict.first_formal || expression.index >= strict.first_formal + strict.arity) {
+            return std::nullopt;
+        }
+        return Lane{expression.index - strict.first_formal, 1, -0.0};
+    }
+    if (expression.kind != Expression::Kind::apply) return std::nullopt;
+    if (expression.op == Operator::add || expression.op == Operator::subtract) return sum_lane(expression, strict);
+    if (expression.op != Operator::multiply) return std::nullopt;
+    for (const int side : {0, 1}) {
+        const std::optional<double> factor = programs_.fold(expression.operands[side]);
+        const Expression& other = expression.operands[1 - side];
+        if (!factor || other.kind != Expression::Kind::formal) continue;
+        std::optional<Lane> scaled = lane(other, strict);
+        if (scaled) scaled->scale = *factor;
+        return scaled;
+    }
+    return std::nullopt;
+}
+
+// l * m + c, c + l * m, l * m - c and c - l, where c is not 0.
+std::optional<Lane> ModelCompiler::sum_lane(const Expression& expression, const CompiledPattern& strict) const {
+    const bool subtracts = expression.op == Operator::subtract;
+    for (const int side : {0, 1}) {
+        const std::optional<double> constant = programs_.fold(expression.operands[side]);
+        const Expression& other = expression.operands[1 - side];
+        const bool nested = other.kind == Expression::Kind::apply && other.op != Operator::multiply;
+        if (!constant || *constant == 0 || nested) continue;
+        std::optional<Lane> shifted = lane(other, strict);
+        if (!shifted) continue;
+        if (subtracts && side == 0) shifted->scale = -shifted->scale;
+        shifted->offset = subtracts && side == 1 ? -*constant : *constant;
+        return shifted;
+    }
+    return std::nullopt;
+}
+
+void ModelCompiler::index(CompiledRules& rules) const {
+    const std::size_t letters = model_->alphabet.size();
+    rules.first.assign(letters + 1, 0);
+    for (const CompiledProduction& production : rules.productions) ++rules.first[production.strict[0].letter + 1];
+    for (std::size_t l = 0; l < letters; ++l) rules.first[l + 1] += rules.first[l];
+    rules.candidates.resize(rules.productions.size());
+    std::vector<std::uint32_t> next(rules.first.begin(), rules.first.end() - 1);
+    for (std::uint32_t p = 0; p < rules.productions.size(); ++p) {
+        rules.candidates[next[rules.productions[p].strict[0].letter]++] = p;
+    }
+    rules.always.resize(letters);
+    for (std::size_t l = 0; l < letters; ++l) rules.always[l] = always(rules, static_cast<LetterId>(l));
+}
+
+std::int32_t ModelCompiler::always(const CompiledRules& rules, LetterId letter) const {
+    if (!rules.has(letter)) return -1;
+    if (rules.first[letter + 1] - rules.first[letter] >= no_letter) {
+        throw UserError(fmt::format("'{}' has more than {} productions", model_->alphabet.name(letter), no_letter - 1));
+    }
+    const std::uint32_t candidate = rules.candidates[rules.first[letter]];
+    const CompiledProduction& production = rules.productions[candidate];
+    const bool alone = rules.first[letter + 1] - rules.first[letter] == 1;
+    const bool unconditional = production.context_free() && production.strict.size() == 1 &&
+                               production.before.empty() && production.after.empty() && !production.has_condition &&
+                               !production.has_weight;
+    return unconditional && (alone || !rules.stochastic) ? static_cast<std::int32_t>(candidate) : -1;
+}
+
+void ModelCompiler::find_ignored() {
+    const Alphabet& alphabet = model_->alphabet;
+    std::vector<bool> listed(alphabet.symbol_count());
+    for (const SymbolId symbol : system_.filtered) listed[symbol] = true;
+    compiled_->ignored.assign(alphabet.size(), 0);
+    if (system_.filter == LSystem::Filter::none) return;
+    for (std::size_t l = 0; l < alphabet.size(); ++l) {
+        const bool named = listed[alphabet.symbol_of(static_cast<LetterId>(l))];
+        compiled_->ignored[l] = named == (system_.filter == LSystem::Filter::ignore);
+    }
+}
+
+bool ModelCompiler::writes_cut() const {
+    const auto cuts = [](const std::vector<ModuleTemplate>& modules) {
+        return std::any_of(modules.begin(), modules.end(),
+                           [](const ModuleTemplate& module) { return module.letter == Alphabet::cut; });
+    };
+    const auto successor_cuts = [&](const Production& production) { return cuts(production.successor); };
+    const auto any = [&](const std::vector<Production>& rules) {
+        return std::any_of(rules.begin(), rules.end(), successor_cuts);
+    };
+    return cuts(system_.axiom) || any(system_.productions) || any(system_.decomposition.productions);
+}
+
+void ModelCompiler::place_registers(CompiledRules& rules) {
+    for (CompiledProduction& production : rules.productions) {
+        for (Program* program : {&production.before, &production.condition, &production.after, &production.successor,
+                                 &production.weight}) {
+            programs_.place_registers(*program, compiled_->formals);
+        }
+    }
+}
+
+void ModelCompiler::place_registers() {
+    place_registers(compiled_->rules);
+    place_registers(compiled_->decomposition);
+    place_registers(compiled_->homomorphism);
+    for (Program* program : {&compiled_->start, &compiled_->start_each, &compiled_->end_each, &compiled_->end,
+                             &compiled_->axiom, &compiled_->length, &compiled_->seed}) {
+        programs_.place_registers(*program, compiled_->formals);
+    }
+    compiled_->constants = programs_.constants();
+    compiled_->registers = programs_.register_count(compiled_->formals);
+}
+
+}  // namespace
+
+std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model) {
+    return ModelCompiler(std::move(model)).compile();
+}
+
+const Model& source_of(const CompiledModel& compiled) {
+    return *compiled.source;
+}
+
+bool has_order(const CompiledModel& compiled) {
+    return compiled.ordered();
+}
+
+bool draws_random_numbers(const CompiledModel& compiled) {
+    return compiled.draws();
+}
+
+}  // namespace espalier

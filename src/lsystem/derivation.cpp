@@ -1,0 +1,208 @@
+#include "derivation_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+namespace espalier {
+
+Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given)
+    : model(std::move(compiled)),
+      settings(std::move(given)),
+      lineage(settings.lineage || model->draws()),
+      block_machine(model->machine()),
+      machines([this] {
+          Machine machine = model->machine();
+          machine.attach(&variables, &services, Stream::derivation);
+          return machine;
+      }) {
+    if (!settings.print) settings.print = [](const std::string& text) { std::fputs(text.c_str(), stderr); };
+    services.print = settings.print;
+    services.seed = settings.seed;
+    services.plant = settings.plant;
+    block_machine.attach(&variables, &services, Stream::blocks);
+    reset();
+    if (!model->length.empty()) {
+        double steps = 0;
+        in_block("the derivation length", [&] { steps = block_machine.evaluate(model->length); });
+        if (!(steps >= 0 && steps <= 1e9)) {
+            throw RunError(fmt::format("{}: a derivation length of {:g} is out of range", model->source->name, steps));
+        }
+        length = static_cast<int>(steps);
+    }
+    variables.globals[1] = length;
+}
+
+void Derivation::State::reset() {
+    variables.globals.assign(std::max<std::size_t>(2, model->source->main().globals.size()), 0);
+    variables.arrays.clear();
+    for (const CompiledArray& array : model->arrays) variables.arrays.push_back(array.values);
+    variables.globals[1] = length;
+    step = 0;
+    services.stopped = false;
+    services.salt = 0;
+    block_draws = RandomDraws(key(Stream::blocks), 0, 0);
+    if (model->seed.empty()) return;
+    double seed = 0;
+    in_block("the seed", [&] { seed = block_machine.evaluate(model->seed); });
+    services.salt = std::bit_cast<std::uint64_t>(seed);
+    block_draws = RandomDraws(key(Stream::blocks), 0, 0);
+}
+
+void Derivation::State::in_block(const char* name, const std::function<void()>& work) {
+    block_machine.draw_with(block_draws);
+    try {
+        work();
+    } catch (const EvaluationError& error) {
+        throw RunError(fmt::format("{}{}{}, in {} at step {}", to_string(error.place), error.place.known() ? ": " : "",
+                                   error.what(), name, step));
+    }
+    block_draws = block_machine.draws();
+}
+
+void Derivation::State::run_block(const Program& block, const char* name) {
+    if (block.empty()) return;
+    in_block(name, [&] { block_machine.run(block); });
+    length = static_cast<int>(variables.globals[1]);
+}
+
+void Derivation::State::evaluate_axiom(ModuleString& string) {
+    const CompiledModel& compiled = *model;
+    std::size_t parameters = compiled.axiom.results.size();
+    const std::size_t bytes = bytes_needed(compiled.axiom_letters.size(), parameters, lineage);
+    if (bytes > settings.memory) {
+        throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, settings.memory));
+    }
+    resize(string, compiled.axiom_letters.size(), parameters, lineage);
+    std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
+    const std::vector<ModuleTemplate>& modules = compiled.source->main().axiom;
+    in_block("the axiom", [&] {
+        block_machine.run(compiled.axiom);
+        std::size_t k = 0;
+        for (const ModuleTemplate& module : modules) {
+            for (const Expression& argument : module.arguments) {
+                const double value = block_machine.value(compiled.axiom.results[k]);
+                if (!std::isfinite(value)) {
+                    throw EvaluationError(
+                        argument.place,
+                        fmt::format("a parameter of {} is {:g}", compiled.source->alphabet.name(module.letter), value));
+                }
+                string.parameters[k++] = value;
+            }
+        }
+    });
+    if (!lineage) return;
+    const Identity root = mix(0x6573'7061'6c69'6572, settings.plant);
+    for (std::size_t i = 0; i < string.size(); ++i) {
+        string.identities[i] = born(root, 0, static_cast<std::uint32_t>(i));
+        string.parents[i] = 0;
+        string.births[i] = 0;
+    }
+}
+
+// `%` deletes everything from itself to the end of its branch, or of the string.
+void Derivation::State::find_kept(const ModuleString& from) {
+    scratch.kept.clear();
+    std::size_t begin = 0;
+    const LetterId* const letters = from.letters.data();
+    const LetterId* const end = letters + from.size();
+    if (model->may_cut) {
+        const LetterId* at = std::find(letters, end, Alphabet::cut);
+        if (at != end) link_branches(from, scratch.links);
+        while (at != end) {
+            const auto cut = static_cast<std::size_t>(at - letters);
+            const std::uint32_t open = scratch.links.partner[cut];
+            const std::uint32_t close = open == BranchLinks::none ? BranchLinks::none : scratch.links.partner[open];
+            const std::size_t stop = close == BranchLinks::none ? from.size() : close;
+            if (cut > begin) scratch.kept.emplace_back(begin, cut);
+            begin = stop;
+            at = std::find(letters + stop, end, Alphabet::cut);
+        }
+    }
+    if (begin < from.size()) scratch.kept.emplace_back(begin, from.size());
+}
+
+StepInput Derivation::State::prepare(const ModuleString& from) {
+    if (lineage && from.identities.size() != from.size()) {
+        throw RunError("the string has no identities: derive from a string that start() or step() made");
+    }
+    if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
+    find_kept(from);
+    StringView view{&from, nullptr, nullptr};
+    if (model->rules.uses_context || model->decomposition.uses_context) {
+        link_branches(from, scratch.links);
+        view.partner = scratch.links.partner.data();
+    }
+    if (model->rules.binds_context || model->decomposition.binds_context) {
+        scratch.offsets.resize(from.size());
+        const auto arities = model->source->alphabet.arities();
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            scratch.offsets[i] = at;
+            at += arities[from.letters[i]];
+        }
+        if (at != from.parameters.size()) throw RunError("the string's parameters do not fit its modules");
+        view.offsets = scratch.offsets.data();
+    }
+    return {*model, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch.kept};
+}
+
+void Derivation::State::warn_of_depth() {
+    if (!depth_limit || warned_of_depth || !model->decomposition.warnings || !model->decomposition.explicit_depth)
+        return;
+    warned_of_depth = true;
+    settings.print(fmt::format("{}: warning: decomposition stopped at its maximum depth of {} in step {}\n",
+                               model->source->name, model->decomposition.maximum_depth, step));
+}
+
+Derivation::Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings)
+    : state_(std::make_unique<State>(std::move(model), std::move(settings))) {}
+
+Derivation::~Derivation() = default;
+Derivation::Derivation(Derivation&&) noexcept = default;
+Derivation& Derivation::operator=(Derivation&&) noexcept = default;
+
+void Derivation::start(ModuleString& string) {
+    state_->reset();
+    state_->run_block(state_->model->start, "the Start block");
+    state_->evaluate_axiom(string);
+}
+
+void Derivation::step(const ModuleString& from, ModuleString& to) {
+    State& state = *state_;
+    const CompiledModel& model = *state.model;
+    state.variables.globals[0] = ++state.step;
+    state.run_block(model.start_each, "the StartEach block");
+    const StepInput input = state.prepare(from);
+    if (model.ordered() || model.rules.several_strict || !model.decomposition.empty()) {
+        rewrite_in_one_pass(input, state.scratch, state.machines, state.services, to, state.depth_limit);
+        state.length = static_cast<int>(state.variables.globals[1]);
+        state.warn_of_depth();
+    } else {
+        rewrite_in_two_passes(input, state.scratch, state.machines, to);
+    }
+    state.run_block(model.end_each, "the EndEach block");
+    if (steps_done() == length()) state.run_block(model.end, "the End block");
+}
+
+int Derivation::steps_done() const {
+    return static_cast<int>(state_->step);
+}
+
+int Derivation::length() const {
+    return state_->length;
+}
+
+void Derivation::set_length(int steps) {
+    state_->length = steps;
+    state_->variables.globals[1] = steps;
+}
+
+bool Derivation::stopped() const {
+    return state_->services.stopped;
+}
+
+}  // namespace espalier

@@ -1,0 +1,44 @@
+// What operators and functions of the language mean. Angles in degrees.
+#pragma once
+
+#include "espalier/base/random.h"
+#include "espalier/lsystem/expression.h"
+
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace espalier {
+
+/// An expression that has no value, before anybody knows which module it belongs to.
+struct EvaluationError : std::runtime_error {
+    EvaluationError(const Place& where, const std::string& message) : std::runtime_error(message), place(where) {}
+    Place place;
+};
+
+/// Fewest and most arguments; most = -1: any number.
+struct Arguments {
+    int fewest = 0;
+    int most = 0;
+};
+
+const char* name_of(Function function);
+Arguments arguments_of(Function function);
+/// A function of its arguments alone, so that it may be folded.
+bool is_pure(Function function);
+bool draws(Function function);
+
+/// The value of an operator other than / and %, which may fail, and && and ||, which may not evaluate both sides.
+double apply(Operator op, double a, double b);
+/// a / b and a % b; `quirks`: division by 0 divides by 1. Throws EvaluationError.
+double divide(double a, double b, bool quirks, const Place& place);
+double remainder(double a, double b, bool quirks, const Place& place);
+/// A pure function.
+double call(Function function, std::span<const double> values, bool quirks);
+/// ran, nran, bran, biran. Throws EvaluationError for arguments they are not defined for.
+double draw(Function function, std::span<const double> values, RandomDraws& draws, const Place& place);
+
+/// Gradient noise in [-1, 1], 0 at whole coordinates (Perlin 2002's interpolant over hashed gradients).
+double gradient_noise(double x, double y, double z);
+
+}  // namespace espalier

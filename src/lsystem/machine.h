@@ -1,0 +1,78 @@
+// Runs compiled programs: one machine per thread, no memory taken while it runs.
+#pragma once
+
+#include "espalier/base/random.h"
+
+#include "functions.h"
+#include "program.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct CompiledArray {
+    std::string name;
+    std::vector<std::size_t> dimensions;
+    std::vector<double> values;  ///< all of them, as declared
+};
+
+/// A plant's memory: globals (0 = current step, 1 = derivation length) and arrays.
+struct Variables {
+    std::vector<double> globals;
+    std::vector<std::vector<double>> arrays;
+};
+
+/// What programs may ask of the derivation they run in.
+struct Services {
+    std::function<void(const std::string&)> print;
+    std::uint64_t seed = 0;
+    std::uint32_t plant = 0;
+    std::uint64_t salt = 0;  ///< what srand() or `seed:` last said
+    bool stopped = false;
+};
+
+class Machine {
+public:
+    Machine(const std::vector<double>& constants, std::size_t registers, const std::vector<CompiledArray>& arrays,
+            bool quirks);
+
+    /// Binds the variables and services that programs see from now on.
+    void attach(Variables* variables, Services* services, Stream stream) {
+        variables_ = variables;
+        services_ = services;
+        stream_ = stream;
+    }
+    void draw_with(const RandomDraws& draws) { draws_ = draws; }
+    const RandomDraws& draws() const { return draws_; }
+    /// True once after a program called srand: its stream goes on until the module is done.
+    bool reseeded() const { return reseeded_; }
+    void forget_reseeding() { reseeded_ = false; }
+
+    double* formals() { return registers_.data() + first_formal_; }
+    double value(std::uint32_t index) const { return registers_[index]; }
+    /// Throws EvaluationError.
+    void run(const Program& program);
+    double evaluate(const Program& program) {
+        run(program);
+        return registers_[program.results[0]];
+    }
+
+private:
+    double call(const Instruction& instruction, const Place& place);
+    double* element(const Instruction& instruction, const Place& place);
+    void print(const PrintCall& call);
+
+    std::vector<double> registers_;
+    std::size_t first_formal_;
+    const std::vector<CompiledArray>& arrays_;
+    bool quirks_;
+    Variables* variables_ = nullptr;
+    Services* services_ = nullptr;
+    Stream stream_ = Stream::blocks;
+    RandomDraws draws_{RandomKey(), 0, 0};
+    bool reseeded_ = false;
+};
+
+}  // namespace espalier

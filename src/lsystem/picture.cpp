@@ -1,0 +1,61 @@
+// Homomorphism: the picture of a module, for interpretation. Looking never changes growth.
+#include "derivation_state.h"
+
+namespace espalier {
+namespace {
+
+/// Expands the module at `site` with the painter; false if no production applies.
+bool paint(Painter& painter, const CompiledRules& rules, const Site& site, std::uint32_t step, ModuleString& picture) {
+    const CompiledProduction* production = painter.matcher.choose(rules, site);
+    if (!production) return false;
+    const Lineage lineage{site.drawer, 0, 0};
+    painter.matcher.begin_successor(*production, site);
+    painter.stack.clear();
+    painter.expansion.push_successor(*production, &lineage, step, 1, painter.stack);
+    painter.expansion.run(painter.stack, site, step, [&](const ModuleStack::Entry& entry, const double* values) {
+        picture.append(entry.letter, {values, entry.arity});
+    });
+    return true;
+}
+
+}  // namespace
+
+bool Derivation::has_homomorphism() const {
+    return !state_->model->homomorphism.empty();
+}
+
+bool Derivation::may_have_picture(LetterId letter) const {
+    return state_->model->homomorphism.has(letter) && state_->model->homomorphism.maximum_depth > 0;
+}
+
+bool Derivation::picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
+                         std::size_t module, std::size_t parameters_at, ModuleString& picture) const {
+    if (!may_have_picture(string.letters[module])) return false;
+    State& state = *state_;
+    const CompiledModel& model = *state.model;
+    const CompiledRules& rules = model.homomorphism;
+    std::unique_ptr<Painter>& painter = state.painters.local();
+    if (!painter) painter = std::make_unique<Painter>(model);
+    painter->matcher.view({&string, links.partner.data(), offsets ? offsets->data() : nullptr});
+    painter->matcher.set_draws(RandomKey(state.settings.seed, state.settings.plant, Stream::homomorphism,
+                                         rules.salt.value_or(state.services.salt)),
+                               state.step);
+    const double* values = string.parameters.data() + parameters_at;
+    const Identity identity = string.has_lineage() ? string.identities[module] : mix(module);
+    const Site site{module, parameters_at, string.letters[module], values, identity, 1};
+    try {
+        if (!rules.effects.assigns && !rules.effects.ordered) {
+            painter->machine.attach(&state.variables, &state.services, Stream::homomorphism);
+            return paint(*painter, rules, site, state.step, picture);
+        }
+        // What its blocks assign, seed or stop holds for this picture only.
+        Variables variables = state.variables;
+        Services services = state.services;
+        painter->machine.attach(&variables, &services, Stream::homomorphism);
+        return paint(*painter, rules, site, state.step, picture);
+    } catch (const EvaluationError& error) {
+        throw RunError(describe(error, model.source->alphabet, site.letter, values, state.step));
+    }
+}
+
+}  // namespace espalier

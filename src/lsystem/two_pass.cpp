@@ -1,0 +1,231 @@
+// Match and measure, prefix sum, write. Every chunk of the old string knows where its part of the new one begins.
+#include "rewriting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace espalier {
+namespace {
+
+constexpr LetterId copied = no_letter;  // the choice for a module that no production replaces
+constexpr std::size_t copied_at_once = 4;
+
+/// Rewrites chunks of one string into another whose columns have their final size.
+class TwoPasses {
+public:
+    TwoPasses(const StepInput& input, Scratch& scratch)
+        : input_(input), model_(input.model), plans_(input.model.plans), scratch_(scratch) {}
+
+    void measure(Chunk& chunk, Machine& machine) const;
+    void place(ModuleString& to);
+    void write(Chunk& chunk, Machine& machine) const;
+
+private:
+    void measure_known(Chunk& chunk) const;
+    Site site(std::size_t module, const double* values) const;
+    const Plan& plan(std::size_t module) const;
+    template <bool Lineage>
+    void write(Chunk& chunk, Machine& machine) const;
+    void write_values(const Plan& plan, const Site& site, Matcher& matcher, Machine& machine, double* out) const;
+    void write_lineage(const Plan& plan, std::size_t module, std::size_t out) const;
+    std::vector<std::uint64_t> count_uses() const;
+
+    const StepInput& input_;
+    const CompiledModel& model_;
+    const Plans& plans_;
+    Scratch& scratch_;
+    ModuleString* to_ = nullptr;
+};
+
+Site TwoPasses::site(std::size_t module, const double* values) const {
+    const auto at = static_cast<std::size_t>(values - input_.from.parameters.data());
+    return {module, at, input_.from.letters[module], values, input_.lineage ? input_.from.identities[module] : 0, 1};
+}
+
+/// The plan of a module whose production has been chosen.
+inline const Plan& TwoPasses::plan(std::size_t module) const {
+    const LetterId letter = input_.from.letters[module];
+    const Plan& known = plans_.of_letter[letter];
+    if (known.kind != Plan::Kind::choose) return known;
+    const LetterId choice = scratch_.choices[module];
+    if (choice == copied) return plans_.copies[letter];
+    return plans_.productions[model_.rules.candidates[model_.rules.first[letter] + choice]];
+}
+
+void TwoPasses::measure_known(Chunk& chunk) const {
+    std::size_t modules = 0, parameters = 0;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        const Plan& plan = plans_.of_letter[input_.from.letters[i]];
+        modules += plan.length;
+        parameters += plan.parameters;
+    }
+    chunk.out_end = modules;
+    chunk.out_parameters_end = parameters;
+}
+
+void TwoPasses::measure(Chunk& chunk, Machine& machine) const {
+    if (plans_.all_known) return measure_known(chunk);
+    Matcher matcher(model_, input_.view, machine);
+    matcher.set_draws(input_.key, input_.step);
+    const double* values = input_.from.parameters.data() + chunk.parameters_at;
+    std::size_t modules = 0, parameters = 0, i = chunk.begin;
+    try {
+        for (; i < chunk.end; ++i) {
+            const LetterId letter = input_.from.letters[i];
+            const Plan* plan = &plans_.of_letter[letter];
+            const std::uint16_t arity = plan->arity;
+            if (plan->kind == Plan::Kind::choose) {
+                const CompiledProduction* chosen = matcher.choose(model_.rules, site(i, values));
+                if (chosen) {
+                    const auto index = static_cast<std::uint32_t>(chosen - model_.rules.productions.data());
+                    const auto first = model_.rules.candidates.begin() + model_.rules.first[letter];
+                    scratch_.choices[i] = static_cast<LetterId>(
+                        std::lower_bound(first, model_.rules.candidates.begin() + model_.rules.first[letter + 1],
+                                         index) -
+                        first);
+                    plan = &plans_.productions[index];
+                } else {
+                    scratch_.choices[i] = copied;
+                    plan = &plans_.copies[letter];
+                }
+            }
+            modules += plan->length;
+            parameters += plan->parameters;
+            values += arity;
+        }
+    } catch (const EvaluationError& error) {
+        throw RunError(describe(error, model_.source->alphabet, input_.from.letters[i], values, input_.step));
+    }
+    chunk.out_end = modules;
+    chunk.out_parameters_end = parameters;
+}
+
+void TwoPasses::place(ModuleString& to) {
+    std::size_t modules = 0, parameters = 0;
+    for (Chunk& chunk : scratch_.chunks) {
+        chunk.out = modules;
+        chunk.out_parameters = parameters;
+        modules += chunk.out_end;
+        parameters += chunk.out_parameters_end;
+        chunk.out_end = modules;
+        chunk.out_parameters_end = parameters;
+    }
+    const std::size_t bytes = input_.from.bytes() + bytes_needed(modules, parameters, input_.lineage);
+    if (bytes > input_.memory || modules >= BranchLinks::none) refuse_memory(input_, modules, bytes, count_uses());
+    resize(to, modules, parameters, input_.lineage);
+    to_ = &to;
+}
+
+std::vector<std::uint64_t> TwoPasses::count_uses() const {
+    std::vector<std::uint64_t> uses(model_.rules.productions.size());
+    for (const Chunk& chunk : scratch_.chunks) {
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+            const Plan& used = plan(i);
+            if (used.production) ++uses[static_cast<std::size_t>(used.production - model_.rules.productions.data())];
+        }
+    }
+    return uses;
+}
+
+void TwoPasses::write_values(const Plan& plan, const Site& site, Matcher& matcher, Machine& machine,
+                             double* out) const {
+    const CompiledProduction& production = *plan.production;
+    matcher.bind(production, site);
+    matcher.begin_successor(production, site);
+    if (!production.after.empty()) machine.run(production.after);
+    machine.run(production.successor);
+    for (std::size_t k = 0; k < production.parameters; ++k) out[k] = machine.value(production.successor.results[k]);
+    require_finite(production, out);
+}
+
+void TwoPasses::write_lineage(const Plan& plan, std::size_t module, std::size_t out) const {
+    const ModuleString& from = input_.from;
+    const Identity identity = from.identities[module];
+    for (std::size_t k = 0; k < plan.length; ++k, ++out) {
+        const bool heir = !plan.production || plan.production->descents[k].heir_of != Descent::born;
+        to_->identities[out] = heir ? identity : born(identity, input_.step, plan.production->descents[k].place);
+        to_->parents[out] = heir ? from.parents[module] : identity;
+        to_->births[out] = heir ? from.births[module] : input_.step;
+    }
+}
+
+/// Writes lanes; false if a value is not finite.
+inline bool write_lanes(const Plan& plan, const double* values, double* out) {
+    static constexpr double none = 0;
+    const double* source = plan.arity > 0 ? values : &none;
+    bool finite = true;
+    for (std::uint32_t k = 0; k < plan.parameters; ++k) {
+        const Lane& lane = plan.lanes[k];
+        const double value = source[lane.source] * lane.scale + lane.offset;
+        out[k] = value;
+        finite &= value - value == 0;
+    }
+    return finite;
+}
+
+template <bool Lineage>
+void TwoPasses::write(Chunk& chunk, Machine& machine) const {
+    Matcher matcher(model_, input_.view, machine);
+    matcher.set_draws(input_.key, input_.step);
+    LetterId* out = to_->letters.data() + chunk.out;
+    LetterId* const out_end = to_->letters.data() + chunk.out_end;
+    double* out_values = to_->parameters.data() + chunk.out_parameters;
+    double* const out_values_end = to_->parameters.data() + chunk.out_parameters_end;
+    const double* values = input_.from.parameters.data() + chunk.parameters_at;
+    const double* const values_end = input_.from.parameters.data() + input_.from.parameters.size();
+    std::size_t i = chunk.begin;
+    try {
+        for (; i < chunk.end; ++i) {
+            const Plan& used = plan(i);
+            // A whole block is copied whatever its length: the next module overwrites what is too much.
+            if (out_end - out >= static_cast<std::ptrdiff_t>(letter_block)) {
+                std::memcpy(out, used.block.data(), sizeof used.block);
+                if (used.length > letter_block) {
+                    std::memcpy(out + letter_block, used.letters + letter_block,
+                                (used.length - letter_block) * sizeof(LetterId));
+                }
+            } else {
+                std::memcpy(out, used.block.data(), used.length * sizeof(LetterId));
+            }
+            if (used.kind == Plan::Kind::copy) {
+                const bool room = used.arity <= copied_at_once &&
+                                  values_end - values >= static_cast<std::ptrdiff_t>(copied_at_once) &&
+                                  out_values_end - out_values >= static_cast<std::ptrdiff_t>(copied_at_once);
+                if (room)
+                    std::memcpy(out_values, values, copied_at_once * sizeof(double));
+                else
+                    std::memcpy(out_values, values, used.arity * sizeof(double));
+            } else if (used.kind != Plan::Kind::bare &&
+                       (used.kind == Plan::Kind::program || !write_lanes(used, values, out_values))) {
+                write_values(used, site(i, values), matcher, machine, out_values);
+            }
+            if constexpr (Lineage) write_lineage(used, i, static_cast<std::size_t>(out - to_->letters.data()));
+            out += used.length;
+            out_values += used.parameters;
+            values += used.arity;
+        }
+    } catch (const EvaluationError& error) {
+        throw RunError(describe(error, model_.source->alphabet, input_.from.letters[i], values, input_.step));
+    }
+}
+
+void TwoPasses::write(Chunk& chunk, Machine& machine) const {
+    if (input_.lineage)
+        write<true>(chunk, machine);
+    else
+        write<false>(chunk, machine);
+}
+
+}  // namespace
+
+void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
+    make_chunks(input, scratch);
+    if (!input.model.plans.all_known) scratch.choices.resize(input.from.size());
+    TwoPasses passes(input, scratch);
+    for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) { passes.measure(chunk, machine); });
+    passes.place(to);
+    for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) { passes.write(chunk, machine); });
+}
+
+}  // namespace espalier
