@@ -14,6 +14,24 @@ openvdb::Coord coord(const glm::ivec3& voxel) {
     return {voxel.x, voxel.y, voxel.z};
 }
 
+// Values and their mask as plain memory: a call per voxel would take longer than the shade itself.
+template <class Value>
+void fill(Leaf& leaf, std::span<const Shade> sums, const Value& value) {
+    float* const values = leaf.buffer().data();
+    Leaf::NodeMaskType active;
+    for (openvdb::Index word = 0; word < Leaf::NodeMaskType::WORD_COUNT; ++word) {
+        std::uint64_t bits = 0;
+        for (openvdb::Index bit = 0; bit < 64; ++bit) {
+            const openvdb::Index voxel = 64 * word + bit;
+            if (sums[voxel] == 0) continue;
+            values[voxel] = static_cast<float>(value(sums[voxel]));
+            bits |= std::uint64_t(1) << bit;
+        }
+        active.getWord<openvdb::Index64>(word) = bits;
+    }
+    leaf.setValueMask(active);
+}
+
 template <class Value>
 std::shared_ptr<const FieldGrid> grid_of(const ShadeField& field, double voxel, const std::string& name,
                                          const VoxelBox& box, const Value& value) {
@@ -21,10 +39,7 @@ std::shared_ptr<const FieldGrid> grid_of(const ShadeField& field, double voxel, 
     std::vector<std::unique_ptr<Leaf>> leaves(field.bricks());
     tbb::parallel_for(std::size_t(0), leaves.size(), [&](std::size_t brick) {
         leaves[brick] = std::make_unique<Leaf>(coord(field.origin(brick)), background);
-        const std::span<const Shade> sums = field.sums(brick);
-        for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
-            if (sums[i] != 0) leaves[brick]->setValueOn(i, static_cast<float>(value(sums[i])));
-        }
+        fill(*leaves[brick], field.sums(brick), value);
     });
     auto result = std::make_shared<FieldGrid>();
     result->grid = openvdb::FloatGrid::create(background);
