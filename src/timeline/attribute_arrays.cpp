@@ -36,7 +36,7 @@ AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std
         const Alphabet& alphabet = plant_frame.model->alphabet;
         Plant plant{&plant_frame, &symbols.of(*plant_frame.model), {}, {}, plant_frame.string->has_lineage()};
         if (!chosen.empty()) plant.offsets = parameter_offsets(*plant_frame.string, alphabet);
-        for (const ChosenParameter& parameter : chosen) plant.slots.push_back(parameter_slots(parameter, alphabet));
+        for (const ChosenParameter& parameter : chosen) plant.slots.emplace_back(parameter, alphabet);
         plants_.push_back(std::move(plant));
     }
 }
@@ -69,7 +69,7 @@ void AttributeArrays::add_parameters(vtkFieldData& data, const Column<Owner>& ow
         add_array<vtkDoubleArray>(data, chosen_[k].name.c_str(), owners, [&](const Owner& owner) {
             const Plant& plant = plants_[owner.plant];
             const ModuleString& string = *plant.frame->string;
-            const int slot = plant.slots[k][string.letters[owner.module]];
+            const int slot = plant.slots[k].find(string, owner.module);
             if (slot < 0) return std::numeric_limits<double>::quiet_NaN();
             return string.parameters[plant.offsets[owner.module] + static_cast<std::size_t>(slot)];
         });

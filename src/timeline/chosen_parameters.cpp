@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -50,15 +51,38 @@ std::vector<std::string> symbols_of(std::span<const PlantFrame> plants) {
     return {names.begin(), names.end()};
 }
 
+// The modules that make up a symbol: a declared name is one, other symbols are a module per character.
+struct SymbolLetters {
+    std::vector<LetterId> preceding;
+    std::vector<LetterId> last;  ///< one per arity; empty if the model does not know the symbol
+};
+
+SymbolLetters letters_of(const std::string& symbol, const Alphabet& alphabet) {
+    SymbolLetters letters;
+    std::string last = symbol;
+    if (!alphabet.find_symbol(symbol)) {
+        std::vector<std::string> characters = code_points(symbol);
+        last = characters.back();
+        characters.pop_back();
+        for (const std::string& character : characters) {
+            const std::optional<LetterId> letter = alphabet.find(character, 0);
+            if (!letter) return {};
+            letters.preceding.push_back(*letter);
+        }
+    }
+    for (std::size_t i = 0; i < alphabet.size(); ++i) {
+        if (alphabet.name(static_cast<LetterId>(i)) == last) letters.last.push_back(static_cast<LetterId>(i));
+    }
+    return letters;
+}
+
 // The most parameters a symbol has in any model; nothing if no model knows it.
 std::optional<int> most_parameters(const std::string& symbol, std::span<const PlantFrame> plants) {
     std::optional<int> most;
     for (const PlantFrame& plant : plants) {
         const Alphabet& alphabet = plant.model->alphabet;
-        for (std::size_t i = 0; i < alphabet.size(); ++i) {
-            const auto letter = static_cast<LetterId>(i);
-            if (alphabet.name(letter) == symbol) most = std::max(most.value_or(0), alphabet.arity(letter));
-        }
+        const SymbolLetters letters = letters_of(symbol, alphabet);
+        for (const LetterId letter : letters.last) most = std::max(most.value_or(0), alphabet.arity(letter));
     }
     return most;
 }
@@ -89,15 +113,20 @@ void require_known(std::span<const ChosenParameter> chosen, std::span<const Plan
     }
 }
 
-std::vector<int> parameter_slots(const ChosenParameter& chosen, const Alphabet& alphabet) {
-    std::vector<int> slots(alphabet.size(), -1);
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-        const auto letter = static_cast<LetterId>(i);
-        if (alphabet.name(letter) == chosen.symbol && alphabet.arity(letter) >= chosen.number) {
-            slots[i] = chosen.number - 1;
-        }
+ParameterSlots::ParameterSlots(const ChosenParameter& chosen, const Alphabet& alphabet)
+    : slot_(chosen.number - 1), carries_(alphabet.size(), 0) {
+    SymbolLetters letters = letters_of(chosen.symbol, alphabet);
+    preceding_ = std::move(letters.preceding);
+    for (const LetterId letter : letters.last) {
+        if (alphabet.arity(letter) < chosen.number) continue;
+        carries_[letter] = 1;
     }
-    return slots;
+}
+
+int ParameterSlots::find(const ModuleString& string, std::size_t module) const {
+    if (!carries_[string.letters[module]] || module < preceding_.size()) return -1;
+    const auto before = string.letters.begin() + static_cast<std::ptrdiff_t>(module - preceding_.size());
+    return std::equal(preceding_.begin(), preceding_.end(), before) ? slot_ : -1;
 }
 
 }  // namespace espalier

@@ -4,7 +4,6 @@
 #include "espalier/base/settings.h"
 #include "espalier/timeline/frame.h"
 
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +26,19 @@ std::vector<ChosenParameter> read_chosen_parameters(const Settings& table);
 /// Throws UserError for a symbol none of the plants' models has, or a number it has no parameter for.
 void require_known(std::span<const ChosenParameter> chosen, std::span<const PlantFrame> plants);
 
-/// Where in its module's parameters a letter keeps the chosen one, -1 if it has none; indexed by letter.
-std::vector<int> parameter_slots(const ChosenParameter& chosen, const Alphabet& alphabet);
+/// Where the modules of one model keep a chosen parameter. Only the last module of a symbol of several characters, as
+/// `?E` or `@o`, has parameters; those before it are modules of their own.
+class ParameterSlots {
+public:
+    ParameterSlots(const ChosenParameter& chosen, const Alphabet& alphabet);
+
+    /// Place among the module's parameters, counted from 0; -1 if the module has no such parameter.
+    int find(const ModuleString& string, std::size_t module) const;
+
+private:
+    int slot_;
+    std::vector<char> carries_;        ///< by letter
+    std::vector<LetterId> preceding_;  ///< the symbol's modules before the one that carries
+};
 
 }  // namespace espalier

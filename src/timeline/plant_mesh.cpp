@@ -105,9 +105,10 @@ void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
     }
 }
 
-void add_queries(PlantMesh& mesh, const PlantFrame& frame, std::span<const char> asked, std::uint32_t plant) {
-    for (const Query& query : frame.interpretation->queries) {
-        if (!asked[frame.string->letters[query.module]]) continue;
+void add_queries(PlantMesh& mesh, const std::vector<Query>& queries, const std::function<bool(const Query&)>& wanted,
+                 std::uint32_t plant) {
+    for (const Query& query : queries) {
+        if (!wanted(query)) continue;
         const Owner owner{plant, query.module, 0, 0, Kind::query};
         mesh.vertices.connectivity.push_back(mesh.add_point(query.pose.position, query.width / 2, owner));
         mesh.vertices.close(owner);

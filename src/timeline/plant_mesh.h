@@ -5,7 +5,8 @@
 #include "espalier/timeline/frame.h"
 
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <vector>
 
 namespace espalier {
 
@@ -49,7 +50,8 @@ struct PlantMesh {
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
-/// The queries of some letters, as vertices: letter i is asked for if asked[i].
-void add_queries(PlantMesh& mesh, const PlantFrame& frame, std::span<const char> asked, std::uint32_t plant);
+/// The queries that are `wanted`, as vertices.
+void add_queries(PlantMesh& mesh, const std::vector<Query>& queries, const std::function<bool(const Query&)>& wanted,
+                 std::uint32_t plant);
 
 }  // namespace espalier

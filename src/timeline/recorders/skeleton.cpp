@@ -23,6 +23,8 @@
 #include <vtkPolyData.h>
 #include <vtkTypeInt32Array.h>
 
+#include <algorithm>
+
 namespace espalier {
 namespace {
 
@@ -58,21 +60,23 @@ private:
         mesh_.clear();
         for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
             const PlantFrame& plant = frame.plants[i];
-            add_queries(mesh_, plant, asked_letters(plant.model->alphabet), i);
+            add_asked_queries(plant, i);
             add_axes(mesh_, plant.interpretation->geometry, i);
             add_polygons(mesh_, plant.interpretation->geometry, i);
             add_organs(mesh_, plant.interpretation->geometry, i);
         }
     }
 
-    std::vector<char> asked_letters(const Alphabet& alphabet) const {
-        std::vector<char> asked(alphabet.size(), 0);
+    void add_asked_queries(const PlantFrame& plant, std::uint32_t index) {
+        std::vector<ParameterSlots> slots;
         for (const ChosenParameter& parameter : chosen_) {
-            if (!parameter.of_query()) continue;
-            const std::vector<int> slots = parameter_slots(parameter, alphabet);
-            for (std::size_t i = 0; i < slots.size(); ++i) asked[i] |= slots[i] >= 0;
+            if (parameter.of_query()) slots.emplace_back(parameter, plant.model->alphabet);
         }
-        return asked;
+        const auto wanted = [&](const Query& query) {
+            return std::any_of(slots.begin(), slots.end(),
+                               [&](const ParameterSlots& slot) { return slot.find(*plant.string, query.module) >= 0; });
+        };
+        if (!slots.empty()) add_queries(mesh_, plant.interpretation->queries, wanted, index);
     }
 
     vtkSmartPointer<vtkPolyData> poly_data(const Frame& frame) {

@@ -1,0 +1,257 @@
+#include "espalier/base/error.h"
+
+#include "catch.h"
+#include "timeline/collections.h"
+#include "timeline/frames.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkPointData.h>
+#include <vtkStringArray.h>
+
+#include <cmath>
+
+using namespace espalier;
+
+namespace {
+
+vtkSmartPointer<vtkPolyData> recorded(const RunFolder& folder, const HandmadePlant& plant,
+                                      const std::string& toml = "") {
+    Timeline timeline(folder.path, timeline_table(toml), 3);
+    record(timeline, 3, {&plant});
+    return read_vtp(folder.path / "plants/0003.vtp");
+}
+
+std::vector<double> values(vtkFieldData* data, const char* name) {
+    vtkDataArray* array = data->GetArray(name);
+    REQUIRE(array);
+    std::vector<double> result;
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) result.push_back(array->GetTuple1(i));
+    return result;
+}
+
+// "name:type:components" of every array: what must not change from frame to frame.
+std::vector<std::string> layout(vtkPolyData* data) {
+    std::vector<std::string> names;
+    for (vtkFieldData* arrays : {static_cast<vtkFieldData*>(data->GetPointData()),
+                                 static_cast<vtkFieldData*>(data->GetCellData()), data->GetFieldData()}) {
+        for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
+            vtkAbstractArray* array = arrays->GetAbstractArray(i);
+            names.push_back(std::string(array->GetName()) + ":" + array->GetDataTypeAsString() + ":" +
+                            std::to_string(array->GetNumberOfComponents()));
+        }
+        names.emplace_back("|");
+    }
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("an axis is one line, and a side axis begins at its own base", "[timeline]") {
+    const RunFolder folder;
+    const auto data = recorded(folder, branched_plant());
+    REQUIRE(data->GetNumberOfLines() == 2);
+    REQUIRE(data->GetNumberOfPoints() == 5);
+    CHECK(values(data->GetCellData(), "identity") == std::vector<double>{1, 2});
+    CHECK(values(data->GetCellData(), "order") == std::vector<double>{0, 1});
+    CHECK(values(data->GetCellData(), "colour") == std::vector<double>{7, 8});
+    CHECK(values(data->GetCellData(), "kind") == std::vector<double>{1, 1});
+    CHECK(data->GetCell(0)->GetNumberOfPoints() == 3);
+    CHECK(data->GetCell(1)->GetNumberOfPoints() == 2);
+    CHECK(data->GetCell(1)->GetPoints()->GetPoint(0)[1] == 1);
+}
+
+TEST_CASE("a point belongs to the internode that ends there, an axis's first to the one that begins", "[timeline]") {
+    const RunFolder folder;
+    const auto data = recorded(folder, branched_plant());
+    CHECK(values(data->GetPointData(), "identity") == std::vector<double>{1, 1, 3, 2, 2});
+    CHECK(values(data->GetPointData(), "parent") == std::vector<double>{0, 0, 1, 1, 1});
+    CHECK(values(data->GetPointData(), "birth") == std::vector<double>{0, 0, 2, 1, 1});
+    const std::vector<double> radii = values(data->GetPointData(), "radius");
+    CHECK(radii[0] == Approx(0.1));
+    CHECK(radii[1] == Approx(0.05));
+    CHECK(radii[3] == Approx(0.1));
+}
+
+TEST_CASE("identities keep all of their 64 bits", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant;
+    const Identity identity = 0xFEDCBA9876543211u;
+    plant.add_internode(identity, identity - 1, 0, 0, 0, {0, 0, 0}, {0, 1, 0}, 1);
+    const auto data = recorded(folder, plant);
+    const auto first = [](vtkDataArray* array) {
+        REQUIRE(array->GetDataTypeSize() == 8);
+        return *static_cast<const Identity*>(array->GetVoidPointer(0));
+    };
+    CHECK(first(data->GetCellData()->GetArray("identity")) == identity);
+    CHECK(first(data->GetPointData()->GetArray("parent")) == identity - 1);
+}
+
+TEST_CASE("chosen parameters become arrays, NaN where a module has none", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant = branched_plant();
+    plant.add_organ(Organ::Shape::disc, 5, 0.5);
+    const auto data = recorded(folder, plant, "parameters = { vigour = 'F.2', light = '?E.1', diameter = '@o.1' }");
+    const std::vector<double> vigour = values(data->GetPointData(), "vigour");
+    CHECK(vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("vigour")));
+    // The asked query comes first, then the axes, then the disc.
+    REQUIRE(vigour.size() == 1 + 5 + 16);
+    CHECK(std::isnan(vigour[0]));
+    CHECK(std::vector<double>(vigour.begin() + 1, vigour.begin() + 6) ==
+          std::vector<double>{0.5, 0.5, 0.75, 0.25, 0.25});
+    CHECK(std::isnan(vigour[6]));
+    CHECK(values(data->GetPointData(), "diameter").back() == 0.5);
+    CHECK(std::isnan(values(data->GetPointData(), "diameter")[1]));
+}
+
+TEST_CASE("a query that is asked for is a vertex with its answer", "[timeline]") {
+    const RunFolder folder;
+    const auto data = recorded(folder, branched_plant(), "parameters = { light = '?E.1' }");
+    REQUIRE(data->GetNumberOfVerts() == 1);
+    CHECK(values(data->GetCellData(), "kind") == std::vector<double>{0, 1, 1});
+    CHECK(values(data->GetCellData(), "identity") == std::vector<double>{4, 1, 2});
+    CHECK(data->GetPoint(0)[1] == 3);
+    CHECK(values(data->GetPointData(), "light")[0] == 0.125);
+}
+
+TEST_CASE("symbols are numbers into the names that the file carries", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant = branched_plant();
+    plant.add_triangle(6);
+    const auto data = recorded(folder, plant);
+    auto* names = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("symbol_names"));
+    REQUIRE(names);
+    const std::vector<double> symbols = values(data->GetCellData(), "symbol");
+    CHECK(names->GetValue(static_cast<vtkIdType>(symbols[0])) == "F");
+    CHECK(names->GetValue(static_cast<vtkIdType>(symbols[2])) == "P");
+}
+
+TEST_CASE("polygons and organs are polygons, a circle is a line", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant;
+    plant.add_triangle(1);
+    plant.add_organ(Organ::Shape::disc, 2, 2);
+    plant.add_organ(Organ::Shape::circle, 3, 2);
+    const auto data = recorded(folder, plant);
+    CHECK(data->GetNumberOfPolys() == 2);
+    CHECK(data->GetNumberOfLines() == 1);
+    CHECK(values(data->GetCellData(), "kind") == std::vector<double>{3, 2, 3});
+    CHECK(values(data->GetCellData(), "identity") == std::vector<double>{3, 1, 2});
+}
+
+TEST_CASE("a sphere is a closed surface of its diameter", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant;
+    Pose pose;
+    pose.position = {1, 2, 3};
+    plant.add_organ(Organ::Shape::sphere, 2, 3, pose);
+    const auto data = recorded(folder, plant);
+    CHECK(data->GetNumberOfPoints() == 42);
+    CHECK(data->GetNumberOfPolys() == 48);
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        const double* point = data->GetPoint(i);
+        CHECK(glm::distance(pose.position, glm::dvec3(point[0], point[1], point[2])) == Approx(1.5));
+    }
+    // Every edge of a closed surface is walked once in each direction (which Euler's formula alone would not tell).
+    std::map<std::pair<vtkIdType, vtkIdType>, int> edges;
+    for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i) {
+        vtkCell* cell = data->GetCell(i);
+        for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k) {
+            ++edges[{cell->GetPointId(k), cell->GetPointId((k + 1) % cell->GetNumberOfPoints())}];
+        }
+    }
+    for (const auto& [edge, count] : edges) {
+        CHECK(count == 1);
+        CHECK(edges.count({edge.second, edge.first}) == 1);
+    }
+    CHECK(42 - static_cast<int>(edges.size()) / 2 + 48 == 2);
+}
+
+TEST_CASE("a line breaks where the turtle moved without drawing", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant;
+    plant.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, {0, 1, 0}, 1);
+    plant.add_internode(2, 0, 0, 0, 0, {0, 2, 0}, {0, 3, 0}, 1);
+    const auto data = recorded(folder, plant);
+    CHECK(data->GetNumberOfLines() == 2);
+    CHECK(data->GetNumberOfPoints() == 4);
+}
+
+TEST_CASE("arrays are the same in every frame, whatever lives in it", "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table("parameters = { vigour = 'F.2', light = '?E.1' }"), 4);
+    const HandmadePlant full = branched_plant();
+    HandmadePlant organ, empty;
+    organ.add_organ(Organ::Shape::sphere, 1, 1);
+    record(timeline, 0, {&full});
+    record(timeline, 1, {&empty});
+    record(timeline, 2, {&organ});
+    record(timeline, 3, {&full, &full});
+    record(timeline, 4, {});
+    const auto first = read_vtp(folder.path / "plants/0000.vtp");
+    const std::vector<vtkIdType> cells{3, 0, 48, 6, 0};
+    for (int step = 0; step < 5; ++step) {
+        INFO("step " << step);
+        const auto data = read_vtp(folder.path / ("plants/000" + std::to_string(step) + ".vtp"));
+        CHECK(data->GetNumberOfCells() == cells[static_cast<std::size_t>(step)]);
+        CHECK(layout(data) == layout(first));
+        CHECK(values(data->GetFieldData(), "TimeValue") == std::vector<double>{0.5 * step});
+    }
+}
+
+TEST_CASE("plants.pvd lists a file that exists for every frame, after every frame", "[timeline]") {
+    const RunFolder folder;
+    const HandmadePlant plant = branched_plant();
+    Timeline timeline(folder.path, timeline_table(), 2);
+    for (int step = 0; step < 3; ++step) {
+        record(timeline, step, {&plant});
+        const std::vector<DataSetEntry> entries = read_collection(folder.path / "plants.pvd");
+        REQUIRE(entries.size() == static_cast<std::size_t>(step) + 1);
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            CHECK(entries[i].time == 0.5 * static_cast<double>(i));
+            CHECK(std::filesystem::exists(folder.path / entries[i].file));
+        }
+    }
+}
+
+TEST_CASE("a chosen parameter that no model has is the user's mistake, with its place", "[timeline]") {
+    const HandmadePlant plant = branched_plant();
+    const auto message = [&](const std::string& toml) {
+        const RunFolder folder;
+        Timeline timeline(folder.path, timeline_table(toml), 1);
+        try {
+            record(timeline, 0, {&plant});
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    CHECK(message("parameters = { vigour = 'G.1' }").find("scene.toml:1:") == 0);
+    CHECK(message("parameters = { vigour = 'G.1' }").find("no model of this scene has a module 'G'") !=
+          std::string::npos);
+    CHECK(message("parameters = { vigour = 'F.3' }").find("has no parameter number 3") != std::string::npos);
+    CHECK(message("parameters = { vigour = '~o.1' }").find("no model") != std::string::npos);
+    CHECK(message("parameters = { vigour = 'F.2' }") == "no error");
+}
+
+TEST_CASE("text that names no parameter is refused before the run", "[timeline]") {
+    for (const char* text : {"F", "F.", ".", ".1", "F.0", "F.x", "F.1x", "F.-1", "", "F.99999999999"}) {
+        INFO(text);
+        const RunFolder folder;
+        const Settings table = timeline_table("parameters = { vigour = '" + std::string(text) + "' }");
+        CHECK_THROWS_AS(Timeline(folder.path, table, 1), UserError);
+    }
+    const RunFolder folder;
+    CHECK_THROWS_AS(Timeline(folder.path, timeline_table("parameters = { identity = 'F.1' }"), 1), UserError);
+}
+
+TEST_CASE("a plant without lineage is recorded with identities of 0", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant = branched_plant();
+    plant.string.identities.clear();
+    plant.string.parents.clear();
+    plant.string.births.clear();
+    const auto data = recorded(folder, plant, "lifespans = false");
+    CHECK(values(data->GetCellData(), "identity") == std::vector<double>{0, 0});
+}

@@ -1,0 +1,186 @@
+#include "espalier/timeline/timeline.h"
+
+#include "espalier/base/error.h"
+#include "espalier/environment/openvdb_grid.h"
+
+#include "catch.h"
+#include "timeline/collections.h"
+#include "timeline/frames.h"
+#include "timeline/small_disk.h"
+
+#include <set>
+
+using namespace espalier;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string error_text(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void write_file_at(const fs::path& path, const std::string& text) {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+}
+
+}  // namespace
+
+TEST_CASE("every file in recorders/ is registered, and explains itself", "[timeline]") {
+    std::set<std::string> files, registered;
+    for (const auto& item : fs::directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / "src/timeline/recorders")) {
+        files.insert(item.path().stem().string());
+    }
+    for (const auto& [name, entry] : RecorderRegistry::entries()) {
+        registered.insert(name);
+        CHECK(!entry.description.summary.empty());
+        CHECK(!entry.description.help.empty());
+    }
+    CHECK(files == registered);
+}
+
+TEST_CASE("two timelines into one folder are refused", "[timeline]") {
+    const RunFolder folder;
+    const Timeline first(folder.path, timeline_table(), 1);
+    CHECK_THROWS_AS(Timeline(folder.path, timeline_table(), 1), UserError);
+}
+
+TEST_CASE("a folder that holds a timeline is refused unless it may be overwritten", "[timeline]") {
+    const RunFolder folder;
+    const HandmadePlant plant = branched_plant();
+    {
+        Timeline timeline(folder.path, timeline_table(), 5);
+        for (int step = 0; step < 6; ++step) record(timeline, step, {&plant});
+        timeline.finish();
+        timeline.write_run("{}");
+    }
+    write_file_at(folder.path / "plants/notes.txt", "mine");
+    CHECK_THROWS_AS(Timeline(folder.path, timeline_table(), 1), UserError);
+    CHECK(read_collection(folder.path / "plants.pvd").size() == 6);
+    {
+        Timeline timeline(folder.path, timeline_table(), 1, /*overwrite=*/true);
+        record(timeline, 0, {&plant});
+    }
+    CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
+    CHECK_FALSE(fs::exists(folder.path / "plants/0005.vtp"));
+    CHECK_FALSE(fs::exists(folder.path / "lifespans.vtp"));
+    CHECK_FALSE(fs::exists(folder.path / "run.json"));
+    CHECK(fs::exists(folder.path / "plants/notes.txt"));
+}
+
+TEST_CASE("overwriting with settings that mean nothing leaves the old timeline alone", "[timeline]") {
+    const RunFolder folder;
+    const HandmadePlant plant = branched_plant();
+    {
+        Timeline timeline(folder.path, timeline_table(), 0);
+        record(timeline, 0, {&plant});
+    }
+    CHECK_THROWS_AS(Timeline(folder.path, timeline_table("skeletons = true"), 1, true), UserError);
+    CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
+}
+
+TEST_CASE("a setting that means nothing is offered the nearest name", "[timeline]") {
+    const RunFolder folder;
+    try {
+        Timeline(folder.path, timeline_table("skeletn = true"), 1);
+        FAIL("no error");
+    } catch (const UserError& error) {
+        CHECK(std::string(error.what()).find("skeleton") != std::string::npos);
+    }
+    CHECK_THROWS_AS(Timeline(folder.path, timeline_table("every = 0"), 1), UserError);
+}
+
+TEST_CASE("what is not asked for is not written", "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table("skeleton = false\nstatistics = false\nlifespans = false"), 0);
+    const HandmadePlant plant = branched_plant();
+    record(timeline, 0, {&plant});
+    timeline.finish();
+    for (const auto& item : fs::directory_iterator(folder.path)) CHECK(item.path().filename() == ".lock");
+}
+
+TEST_CASE("the same frames give the same bytes", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant = branched_plant();
+    plant.add_triangle(8);
+    plant.add_organ(Organ::Shape::sphere, 9, 0.5);
+    for (const char* name : {"a", "b"}) {
+        Timeline timeline(folder.path / name, timeline_table("parameters = { light = '?E.1' }"), 1);
+        record(timeline, 0, {&plant});
+        record(timeline, 1, {&plant, &plant});
+        timeline.finish();
+    }
+    for (const char* file : {"plants/0000.vtp", "plants/0001.vtp", "plants.pvd", "lifespans.vtp", "statistics.csv"}) {
+        INFO(file);
+        REQUIRE(!bytes_of(folder.path / "a" / file).empty());
+        CHECK(bytes_of(folder.path / "a" / file) == bytes_of(folder.path / "b" / file));
+    }
+}
+
+TEST_CASE("on a full disk the timeline ends with a clear message and stays whole up to then", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant large;
+    for (int i = 0; i < 2000; ++i) {
+        large.add_internode(Identity(7919 * i), 0, 1, std::uint32_t(i), 0, {i * 0.37, 0, 0}, {0, i * 0.11, 0}, i);
+    }
+    const HandmadePlant small = branched_plant();
+    Timeline timeline(folder.path, timeline_table(), 2);
+    record(timeline, 0, {&small});
+    const std::string statistics = bytes_of(folder.path / "statistics.csv");
+    {
+        const SmallDisk disk(8000);
+        const std::string message = error_text([&] { record(timeline, 1, {&large}); });
+        CHECK(message.find("cannot write") == 0);
+        CHECK(message.find("0001.vtp") != std::string::npos);
+    }
+    CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
+    CHECK(read_vtp(folder.path / "plants/0000.vtp")->GetNumberOfLines() == 2);
+    CHECK(std::distance(fs::directory_iterator(folder.path / "plants"), fs::directory_iterator()) == 1);
+    CHECK(bytes_of(folder.path / "statistics.csv") == statistics);
+}
+
+TEST_CASE("a field that does not fit on the disk leaves no half file", "[timeline]") {
+    const RunFolder folder;
+    initialize_openvdb();
+    auto made = std::make_shared<FieldGrid>();
+    made->grid = openvdb::FloatGrid::create(0);
+    auto accessor = made->grid->getAccessor();
+    for (int i = 0; i < 5000; ++i) accessor.setValue({i % 17, i / 17 % 17, i / 289}, std::sin(float(i)));
+    made->box = made->grid->evalActiveVoxelBoundingBox();
+    Fields fields;
+    fields.provide({"light", "1", "light", made, true});
+    for (const char* format : {"vti", "vdb"}) {
+        Timeline timeline(
+            folder.path / format,
+            timeline_table("skeleton = false\nfields = ['light']\nfield_files = ['" + std::string(format) + "']"), 0);
+        const SmallDisk disk(4000);
+        CHECK(error_text([&] { record(timeline, 0, {}, fields); }).find("cannot write") == 0);
+        CHECK(fs::is_empty(folder.path / format / "fields/light"));
+        CHECK_FALSE(fs::exists(folder.path / format / "fields.pvd"));
+    }
+}
+
+TEST_CASE("a folder that cannot be made or written is a failure with the reason", "[timeline]") {
+    const RunFolder folder;
+    write_file_at(folder.path / "file", "");
+    CHECK_THROWS_AS(Timeline(folder.path / "file" / "run", timeline_table(), 0), RunError);
+    Timeline timeline(folder.path / "run", timeline_table(), 0);
+    write_file_at(folder.path / "run/plants", "a file where a folder should be");
+    const HandmadePlant plant = branched_plant();
+    CHECK(error_text([&] { record(timeline, 0, {&plant}); }).find("cannot make the folder") == 0);
+}
+
+TEST_CASE("every recorder finishes although another fails", "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table(), 0);
+    const HandmadePlant plant = branched_plant();
+    record(timeline, 0, {&plant});
+    fs::create_directories(folder.path / "lifespans.vtp/in the way");
+    CHECK(error_text([&] { timeline.finish(); }).find("lifespans.vtp") != std::string::npos);
+    CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
+}
