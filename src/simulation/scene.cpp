@@ -18,8 +18,9 @@ Box read_domain(const Settings& table) {
     const Box domain{table.vector("lower"), table.vector("upper")};
     table.reject_unread();
     for (int axis = 0; axis < 3; ++axis) {
-        if (domain.lower[axis] < domain.upper[axis]) continue;
-        throw UserError(table.place(), "'lower' of the domain must be less than 'upper' along every axis");
+        const bool flat = axis == 2 && domain.lower.z == domain.upper.z;  // a two-dimensional world
+        if (domain.lower[axis] < domain.upper[axis] || flat) continue;
+        throw UserError(table.place(), "'lower' of the domain must be less than 'upper' (along z it may be equal)");
     }
     return domain;
 }
