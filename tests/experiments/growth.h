@@ -1,0 +1,70 @@
+// Shared by the tests of models and experiments: grow a model alone, count its modules, run a scene.
+#pragma once
+
+#include "espalier/language/reader.h"
+#include "espalier/lsystem/derivation.h"
+#include "espalier/simulation/world.h"
+#include "espalier/turtle/interpretation.h"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace espalier {
+
+inline std::filesystem::path source_path(const std::string& relative) {
+    return std::filesystem::path(ESPALIER_SOURCE_DIR) / relative;
+}
+
+/// A plant without surroundings: only the turtle answers its queries.
+struct LonePlant {
+    std::shared_ptr<const Model> model;
+    Derivation derivation;
+    TurtleSettings turtle;
+    ModuleString string;
+    Interpretation interpretation;
+
+    explicit LonePlant(const std::string& file, Defines defines = {}, std::uint64_t seed = 0)
+        : model(read_model(source_path(file), {std::move(defines), false})),
+          derivation(compile(model), {.seed = seed, .lineage = true}) {
+        derivation.start(string);
+        look();
+    }
+
+    void grow(int steps) {
+        for (int i = 0; i < steps; ++i) {
+            ModuleString next;
+            derivation.step(string, next);
+            string = std::move(next);
+            look();
+        }
+    }
+
+    /// Modules of each symbol.
+    std::map<std::string, int> counts() const {
+        std::map<std::string, int> counts;
+        for (LetterId letter : string.letters) ++counts[model->alphabet.name(letter)];
+        return counts;
+    }
+
+    std::string text() const { return to_text(string, model->alphabet); }
+
+private:
+    void look() {
+        interpretation = interpret(*model, string, turtle, &derivation);
+        for (const Query& query : interpretation.queries) {
+            answer_from_turtle(query, Answer(string.parameters.data() + query.parameters_at, query.parameters.size()));
+        }
+    }
+};
+
+/// A scene grown to its end (or for `steps`), without a timeline.
+inline World grown(const std::string& file, SceneOptions options = {}) {
+    const Scene scene = read_scene(source_path(file), options);
+    World world(scene);
+    world.start();
+    for (int step = 0; step < scene.steps && !world.stopped(); ++step) world.step();
+    return world;
+}
+
+}  // namespace espalier
