@@ -339,7 +339,7 @@ Expression ExpressionParser::call(std::string_view name, Location at) {
             result.operands.push_back(is_address ? address() : argument(entry->takes_text));
             highest = std::max(highest, height_);
         } while (in_.accept(","));
-        in_.expect(")", fmt::format("after the arguments of '{}'", name));
+        if (!in_.accept(")")) in_.expected(fmt::format("')' after the arguments of '{}'", name));
     }
     const int given = static_cast<int>(result.operands.size());
     if (given < entry->least || given > entry->most) {

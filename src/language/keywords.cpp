@@ -1,5 +1,7 @@
 #include "language/keywords.h"
 
+#include "espalier/base/text.h"
+
 #include "language/characters.h"
 
 #include <algorithm>
@@ -45,6 +47,15 @@ std::span<const std::string> section_keywords() {
 bool begins_with_keyword(std::string_view line) {
     const auto begins = [&](const std::string& keyword) { return keyword_length(line, keyword) > 0; };
     return std::any_of(header.begin(), header.end(), begins) || std::any_of(section.begin(), section.end(), begins);
+}
+
+bool resembles_keyword(std::string_view line) {
+    if (begins_with_keyword(line)) return true;
+    std::string words(line.substr(0, line.find(':')));
+    while (!words.empty() && is_blank(words.back())) words.pop_back();
+    const auto is_letter = [](char c) { return is_name_start(c) || is_blank(c); };
+    if (words.size() < 4 || words.size() > 30 || !std::all_of(words.begin(), words.end(), is_letter)) return false;
+    return !nearest_name(words, header).empty() || !nearest_name(words, section).empty();
 }
 
 }  // namespace espalier::language

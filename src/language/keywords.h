@@ -16,5 +16,7 @@ std::span<const std::string> header_keywords();
 std::span<const std::string> section_keywords();
 /// Whether a line is one of the language's own rather than a production or the rest of one.
 bool begins_with_keyword(std::string_view line);
+/// The same for a line that was probably meant to be one: words only, near a keyword.
+bool resembles_keyword(std::string_view line);
 
 }  // namespace espalier::language

@@ -60,6 +60,7 @@ private:
             expressions_.reset();
             names_.set_constants_only(false);
             in_.recover(start);
+            names_.note_skipped(in_.text(start, in_.position()));
         }
     }
 

@@ -2,6 +2,7 @@
 
 #include "espalier/base/text.h"
 
+#include "language/characters.h"
 #include "language/walk.h"
 
 #include <fmt/format.h>
@@ -102,6 +103,19 @@ Expression Names::assigned(std::string_view name, Location at) {
     result.place = place(at);
     variables_[result.index].assigned = true;
     return result;
+}
+
+void Names::note_skipped(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t end = i;
+        while (end < text.size() && is_name_part(text[end])) ++end;
+        const std::size_t next = std::min(text.find_first_not_of(" \t\n", end), text.size());
+        const std::string_view sign = text.substr(next, 2);
+        const bool compound = sign.size() == 2 && sign[1] == '=' && std::string_view("+-*/").find(sign[0]) != sign.npos;
+        const bool assigns = (sign.starts_with('=') && sign != "==") || compound || sign == "++" || sign == "--";
+        if (end > i && assigns) variables_[variable(text.substr(i, end - i))].assigned = true;
+        i = std::max(end, i + 1);
+    }
 }
 
 std::vector<std::string> Names::known_names(const std::vector<std::string>* formals) const {

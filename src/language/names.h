@@ -36,6 +36,8 @@ public:
     Expression read(std::string_view name, Location at);
     /// A variable to be assigned. Reports names that cannot be.
     Expression assigned(std::string_view name, Location at);
+    /// Counts the names that a skipped piece of text assigns as assigned, so that one mistake does not beget others.
+    void note_skipped(std::string_view text);
     std::optional<std::uint32_t> array(std::string_view name) const;
     std::size_t dimensions(std::uint32_t array) const { return system_->arrays[array].dimensions.size(); }
     /// " (did you mean 'x'?)" among everything that may be read here.

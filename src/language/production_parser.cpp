@@ -97,7 +97,7 @@ ModulePattern ProductionParser::pattern(Production& production, bool right_conte
             }
             production.formals.push_back(formal);
         } while (in_.accept(","));
-        in_.expect(")", fmt::format("after the parameters of '{}'", name));
+        if (!in_.accept(")")) in_.expected(fmt::format("')' after the parameters of '{}'", name));
     }
     const std::size_t arity = production.formals.size() - result.first_formal;
     result.skip_branch = right_context && name == "=" && arity == 0;
@@ -145,7 +145,7 @@ ModuleTemplate ProductionParser::module() {
         do {
             result.arguments.push_back(expressions_.argument(true));
         } while (in_.accept(","));
-        in_.expect(")", fmt::format("after the parameters of '{}'", name));
+        if (!in_.accept(")")) in_.expected(fmt::format("')' after the parameters of '{}'", name));
     }
     result.letter = letter(name, result.arguments.size(), at);
     return result;

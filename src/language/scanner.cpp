@@ -18,7 +18,7 @@ void Scanner::skip() {
 
 void Scanner::skip_lines() {
     while (position_ < text_.size() && (is_blank(text_[position_]) || text_[position_] == '\n')) ++position_;
-    last_end_ = position_;
+    last_end_ = statement_ = position_;
 }
 
 bool Scanner::at_end() {
@@ -126,6 +126,7 @@ bool Scanner::begins_statement(std::size_t line) const {
 }
 
 bool Scanner::continues(std::size_t newline) {
+    if (newline >= joined_from_ && newline < joined_to_) return true;
     if (newline != decided_newline_) {
         decided_newline_ = newline;
         decision_ = decide_continuation(newline);
@@ -134,21 +135,40 @@ bool Scanner::continues(std::size_t newline) {
 }
 
 // Only the first rule is the reference's; the others read what it rejects and what can mean nothing else.
-bool Scanner::decide_continuation(std::size_t newline) const {
+bool Scanner::decide_continuation(std::size_t newline) {
     std::size_t line = newline + 1;
     if (line >= text_.size()) return false;
     if (text_[line] == '\t') return true;
     const std::size_t first = after_blanks(line);
-    if (first < text_.size() && text_[first] != '\n') {
-        if (first == line) return false;
-        std::size_t before = newline;
-        while (before > 0 && is_blank(text_[before - 1])) --before;
-        const auto joins = [](char c) { return c == ':' || c == '<' || c == '>'; };
-        return joins(text_[first]) || arrow_at(first) > 0 || (before > 0 && joins(text_[before - 1]));
-    }
+    if (first < text_.size() && text_[first] != '\n') return first != line && !indented_statement(newline, first);
     // Blank lines and lines of comment do not end a statement that a line beginning with TAB goes on with.
     while (line < text_.size() && after_blanks(line) == end_of_line(line)) line = end_of_line(line) + 1;
-    return line < text_.size() && text_[line] == '\t' && (!begins_statement(line) || arrow_at(after_blanks(line)) > 0);
+    const bool joined =
+        line < text_.size() && text_[line] == '\t' && (!begins_statement(line) || arrow_at(after_blanks(line)) > 0);
+    if (joined) joined_from_ = newline, joined_to_ = line;
+    return joined;
+}
+
+// Whether the line indented by blanks after `newline` is a statement of its own.
+bool Scanner::indented_statement(std::size_t newline, std::size_t first) {
+    const auto joins = [](char c) { return c == ':' || c == '<' || c == '>'; };
+    std::size_t before = newline;
+    while (before > 0 && is_blank(text_[before - 1])) --before;
+    if (joins(text_[first]) || arrow_at(first) > 0 || (before > 0 && joins(text_[before - 1]))) return false;
+    const std::size_t end = end_of_line(first);
+    if (resembles_keyword(text(first, end))) return true;
+    if (arrow_is_missing(newline)) return false;
+    return line_has_arrow(first) || arrow_at(after_blanks(end + 1)) > 0;
+}
+
+// Whether the statement at hand is a production whose arrow does not stand before `position`.
+bool Scanner::arrow_is_missing(std::size_t position) {
+    if (arrow_searched_ < statement_) {
+        arrow_searched_ = statement_;
+        arrow_seen_ = begins_with_keyword(text_.substr(statement_));
+    }
+    for (; !arrow_seen_ && arrow_searched_ < position; ++arrow_searched_) arrow_seen_ = arrow_at(arrow_searched_) > 0;
+    return !arrow_seen_;
 }
 
 void Scanner::recover(std::size_t start) {

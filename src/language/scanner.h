@@ -75,7 +75,9 @@ public:
 
 private:
     bool continues(std::size_t newline);
-    bool decide_continuation(std::size_t newline) const;
+    bool decide_continuation(std::size_t newline);
+    bool indented_statement(std::size_t newline, std::size_t first);
+    bool arrow_is_missing(std::size_t position);
     bool begins_statement(std::size_t line) const;
     std::size_t arrow_at(std::size_t position) const;
     std::size_t after_blanks(std::size_t position) const;
@@ -84,9 +86,14 @@ private:
     std::string_view text_;
     std::size_t position_ = 0;
     std::size_t last_end_ = 0;
+    std::size_t statement_ = 0;  // where the statement at hand begins
+    std::size_t arrow_searched_ = 0;
+    bool arrow_seen_ = true;
     int inside_ = 0;
     std::size_t decided_newline_ = npos;
     bool decision_ = false;
+    std::size_t joined_from_ = 0;  // newlines of a statement that goes on behind blank lines
+    std::size_t joined_to_ = 0;
 };
 
 }  // namespace espalier::language

@@ -19,6 +19,7 @@ Block ExpressionParser::block() {
     Block result;
     while (!in_.accept("}")) {
         if (in_.at_end_of_text()) throw SyntaxError{begin, "this block is never closed: '}' is missing"};
+        const std::size_t start = in_.position();
         try {
             statement(result);
         } catch (const SyntaxError& mistake) {
@@ -26,6 +27,7 @@ Block ExpressionParser::block() {
             ends_at_arrow_ = false;
             loops_ = loops;
             recover_in_block();
+            names_.note_skipped(in_.text(start, in_.position()));
         }
     }
     ends_at_arrow_ = ends_at_arrow;
