@@ -29,18 +29,25 @@ std::string parameters_text(const std::pair<int, int>& arity) {
     return fmt::format("{} to {} parameters", arity.first, arity.second);
 }
 
-/// Every module a model may put into its string, with the place where it says so.
+/// Calls visit(module, is_unnamed) for every communication module a model may put into its string. `?E(...)` is two
+/// modules, of which the second carries the parameters; `?light(...)` is one.
 template <class Visit>
-void visit_written_modules(const Model& model, const Visit& visit) {
-    const auto visit_successors = [&](const std::vector<Production>& productions) {
-        for (const Production& production : productions) {
-            for (const ModuleTemplate& module : production.successor) visit(module);
+void visit_written_queries(const Model& model, const Visit& visit) {
+    const auto visit_modules = [&](const std::vector<ModuleTemplate>& modules) {
+        for (std::size_t i = 0; i < modules.size(); ++i) {
+            const std::string& symbol = model.alphabet.name(modules[i].letter);
+            const bool follows_mark = i > 0 && model.alphabet.name(modules[i - 1].letter) == "?";
+            if (follows_mark && symbol == "E") visit(modules[i], true);
+            if (symbol.size() > 1 && symbol[0] == '?') visit(modules[i], false);
         }
     };
+    const auto visit_productions = [&](const std::vector<Production>& productions) {
+        for (const Production& production : productions) visit_modules(production.successor);
+    };
     for (const LSystem& system : model.systems) {
-        for (const ModuleTemplate& module : system.axiom) visit(module);
-        visit_successors(system.productions);
-        visit_successors(system.decomposition.productions);
+        visit_modules(system.axiom);
+        visit_productions(system.productions);
+        visit_productions(system.decomposition.productions);
     }
 }
 
@@ -85,23 +92,21 @@ void Environment::require_answers(const Model& model, const std::string& plant_n
                         "that name{}; {}",
                         plant_name, model.name, name, did_you_mean(name, names_), listed(names_)));
     }
-    visit_written_modules(model, [&](const ModuleTemplate& module) {
-        const std::string& symbol = model.alphabet.name(module.letter);
-        if (symbol.size() < 2 || symbol[0] != '?') return;
-        const bool unnamed = symbol == "?E";
-        const std::optional<std::size_t> process = unnamed ? default_ : find(symbol.substr(1));
-        if (unnamed && !process) {
+    visit_written_queries(model, [&](const ModuleTemplate& module, bool is_unnamed) {
+        if (is_unnamed && !default_) {
             throw UserError(module.place, fmt::format("plant '{}': model {} asks ?E, but the scene has no default "
                                                       "process; {}",
                                                       plant_name, model.name, listed(names_)));
         }
-        if (!process) return;  // ?P ?H ?L ?U ?Q
+        const std::string& symbol = model.alphabet.name(module.letter);
+        const std::optional<std::size_t> process = is_unnamed ? default_ : find(symbol.substr(1));
+        if (!process) return;  // a name the model did not declare is no query
         const int given = model.alphabet.arity(module.letter);
         if (given >= arities_[*process].first && given <= arities_[*process].second) return;
         throw UserError(module.place,
                         fmt::format("plant '{}': model {} gives {} {}, but process '{}' ({}) takes {}", plant_name,
-                                    model.name, symbol, parameters_text({given, given}), names_[*process],
-                                    kinds_[*process], parameters_text(arities_[*process])));
+                                    model.name, is_unnamed ? "?E" : symbol, parameters_text({given, given}),
+                                    names_[*process], kinds_[*process], parameters_text(arities_[*process])));
     });
 }
 

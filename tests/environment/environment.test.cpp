@@ -49,7 +49,7 @@ TEST_CASE("a model that asks ?E where no process is default is refused with its 
     Model model;
     model.systems.emplace_back();
     Production production;
-    production.successor.push_back(module_of(model, "?E", 1));
+    production.successor = {module_of(model, "?", 0), module_of(model, "E", 1)};
     model.systems[0].productions.push_back(production);
     CHECK(lacks(message_of([&] { environment.require_answers(model, "oak"); }), {"tree.l:7:3"}) == "");
     environment.set_default("light");
@@ -61,7 +61,7 @@ TEST_CASE("a query written with a number of parameters its process does not take
     Model model;
     model.processes = {"light"};
     model.systems.emplace_back();
-    model.systems[0].axiom = {module_of(model, "?light", 4), module_of(model, "?P", 3)};
+    model.systems[0].axiom = {module_of(model, "?light", 4), module_of(model, "E", 0)};
     CHECK_NOTHROW(environment.require_answers(model, "oak"));
     model.systems[0].axiom.push_back(module_of(model, "?light", 0));
     CHECK(lacks(message_of([&] { environment.require_answers(model, "oak"); }),

@@ -42,7 +42,7 @@ public:
             query.module = static_cast<std::uint32_t>(string.size());
             query.parameters_at = string.parameters.size();
             query.pose.position = asked.position;
-            const std::string symbol = asked.process.empty() ? "?E" : "?" + asked.process;
+            const std::string symbol = asked.process.empty() ? "E" : "?" + asked.process;
             string.append(model_.alphabet.letter(symbol, static_cast<int>(asked.parameters.size())), asked.parameters);
             interpretations_.back().queries.push_back(query);
         }
