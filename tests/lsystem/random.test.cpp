@@ -1,0 +1,154 @@
+#include "catch.h"
+#include "lsystem/model_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+DerivationSettings with_lineage(std::uint64_t seed = 1, std::uint32_t plant = 0) {
+    return {seed, plant, true, std::size_t(-1), {}};
+}
+
+}  // namespace
+
+TEST_CASE("productions are chosen with the frequency of their weights", "[lsystem]") {
+    ModelBuilder model;
+    model.system().seed = number(1);
+    model.system().axiom = model.word("A");
+    model.rule("A", "AA");
+    ModelBuilder chooser;
+    chooser.system().seed = number(1);
+    constexpr std::size_t n = 100'000;
+    chooser.system().axiom = chooser.word(std::string(n, 'F'));
+    const double weights[] = {33, 33, 34};  // weights are normalised by their sum
+    const char* names[] = {"a", "b", "c"};
+    for (int k = 0; k < 3; ++k) chooser.rule("F", names[k]).weight = number(weights[k]);
+    const std::string text = text_after(chooser, 1);
+    double chi_square = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double expected = n * weights[k] / 100;
+        const double difference = static_cast<double>(std::count(text.begin(), text.end(), names[k][0])) - expected;
+        chi_square += difference * difference / expected;
+    }
+    CHECK(chi_square < 9.21);  // p > 0.01 with 2 degrees of freedom
+    CHECK(text_after(chooser, 1) == text);
+}
+
+TEST_CASE("a production of weight 0 is never chosen, and none if all are", "[lsystem]") {
+    ModelBuilder model;
+    model.system().seed = number(1);
+    model.system().axiom = model.word(std::string(1000, 'F') + "G");
+    model.rule("F", "a").weight = number(0);
+    model.rule("F", "b").weight = number(0.1);
+    model.rule("G", "a").weight = number(0);
+    CHECK(text_after(model, 1) == std::string(1000, 'b') + "G");
+    model.rule("G", "c").weight = number(-1);
+    CHECK_THROWS_AS(text_after(model, 1), RunError);
+}
+
+TEST_CASE("a module's draws do not depend on its neighbours", "[lsystem]") {
+    const auto angle = [](int extra) {
+        ModelBuilder model;
+        model.system().axiom = {model.module("A", {}), model.module("B", {})};
+        std::vector<ModuleTemplate> successor = {model.module("A", {})};
+        for (int k = 0; k < extra; ++k) successor.push_back(model.module("C", {call(Function::ran, {number(1)})}));
+        model.rule({{"A", 0}}, successor);
+        model.rule({{"B", 0}}, {model.module("B", {}), model.module("D", {call(Function::ran, {number(1)})})});
+        Derivation derivation(model.compiled(), with_lineage());
+        const ModuleString string = grow(derivation, 3);
+        return std::vector<double>(string.parameters.end() - 3, string.parameters.end());
+    };
+    CHECK(angle(0) == angle(5));
+}
+
+TEST_CASE("the seed, the plant and srand change what is drawn", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("A", {})};
+    model.rule({{"A", 0}}, {model.module("D", {call(Function::ran, {number(1)})})});
+    const std::string text = text_after(model, 1, with_lineage(1));
+    CHECK(text_after(model, 1, with_lineage(1)) == text);
+    CHECK(text_after(model, 1, with_lineage(2)) != text);
+    CHECK(text_after(model, 1, with_lineage(1, 1)) != text);
+    model.system().start = {run(call(Function::srand, {number(5)}))};
+    CHECK(text_after(model, 1, with_lineage(1)) != text);
+}
+
+TEST_CASE("srand in a production begins the sequence anew", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("A", {}), model.module("A", {})};
+    Production& rule = model.rule({{"A", 0}}, {model.module("D", {call(Function::ran, {number(1)})})});
+    rule.before = {run(call(Function::srand, {number(5)}))};
+    Derivation derivation(model.compiled(), with_lineage());
+    const ModuleString string = grow(derivation, 1);
+    CHECK(string.parameters[0] == string.parameters[1]);
+}
+
+TEST_CASE("a rewritten module lives on in the first module of its symbol", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("A");
+    model.rule("A", "F[A]A");
+    Derivation derivation(model.compiled(), with_lineage());
+    ModuleString axiom, first, second;
+    derivation.start(axiom);
+    derivation.step(axiom, first);   // F[A]A
+    derivation.step(first, second);  // F[F[A]A]F[A]A
+    CHECK(first.identities[2] == axiom.identities[0]);
+    CHECK(first.births[2] == 0);
+    CHECK(first.parents[2] == 0);
+    for (const std::size_t child : {0, 1, 3, 4}) {
+        CHECK(first.parents[child] == axiom.identities[0]);
+        CHECK(first.births[child] == 1);
+    }
+    CHECK(second.identities[0] == first.identities[0]);  // F is copied
+    CHECK(second.identities[4] == first.identities[2]);  // F[ F[A ...: the inner A
+    CHECK(second.parents[2] == first.identities[2]);
+    CHECK(second.births[2] == 2);
+    const std::set<Identity> distinct(second.identities.begin(), second.identities.end());
+    CHECK(distinct.size() == second.size());
+}
+
+TEST_CASE("each strict module hands its identity to a module of its own symbol", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("AB");
+    model.add(model.make({}, ModelBuilder::patterns("AB"), {}, model.word("BCAB")));
+    Derivation derivation(model.compiled(), with_lineage());
+    ModuleString axiom, next;
+    derivation.start(axiom);
+    derivation.step(axiom, next);
+    CHECK(next.identities[0] == axiom.identities[1]);
+    CHECK(next.identities[2] == axiom.identities[0]);
+    CHECK(next.parents[1] == axiom.identities[0]);
+    CHECK(next.parents[3] == axiom.identities[0]);
+    CHECK(next.identities[1] != next.identities[3]);
+}
+
+TEST_CASE("identities of two plants of one model differ, of one plant with two seeds do not", "[lsystem]") {
+    const auto identities = [](std::uint64_t seed, std::uint32_t plant) {
+        ModelBuilder model;
+        model.system().axiom = model.word("A");
+        model.rule("A", "F[A]A");
+        Derivation derivation(model.compiled(), with_lineage(seed, plant));
+        const ModuleString string = grow(derivation, 3);
+        return std::vector<Identity>(string.identities.begin(), string.identities.end());
+    };
+    CHECK(identities(1, 0) == identities(2, 0));
+    const auto first = identities(1, 0);
+    for (const Identity identity : identities(1, 1)) CHECK(std::count(first.begin(), first.end(), identity) == 0);
+}
+
+TEST_CASE("plain derivation pays nothing for lineage", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("A");
+    model.rule("A", "AA");
+    Derivation derivation(model.compiled());
+    CHECK_FALSE(grow(derivation, 2).has_lineage());
+    ModuleString without, next;
+    without.append(model.model().alphabet.letter("A", 0));
+    Derivation keeping(model.compiled(), with_lineage());
+    CHECK_THROWS_AS(keeping.step(without, next), RunError);
+}
