@@ -31,12 +31,8 @@ Drawing koch_drawing(int n) {
 }
 
 bool same(const Interpretation& a, const Interpretation& b) {
-    const auto bytes = [](const auto& first, const auto& second) {
-        return first.size() == second.size() &&
-               std::memcmp(first.data(), second.data(), first.size() * sizeof(first[0])) == 0;
-    };
     const PlantGeometry &g = a.geometry, &h = b.geometry;
-    return g.internodes.size() == h.internodes.size() && g.axes == h.axes && bytes(g.vertices, h.vertices) &&
+    return g.internodes.size() == h.internodes.size() && g.axes == h.axes && g.vertices == h.vertices &&
            g.organs.size() == h.organs.size() && g.bounds.lower == h.bounds.lower && g.bounds.upper == h.bounds.upper &&
            a.queries.size() == b.queries.size() &&
            std::equal(g.internodes.begin(), g.internodes.end(), h.internodes.begin(),
