@@ -299,4 +299,23 @@ sources = [{ shape = "sphere", center = [0.5, 0.5, 0], radius = 0.1, hold = 1 }]
     CHECK(early < 0.99);
 }
 
+TEST_CASE("sources add their rate to each of their voxels, or hold their content", "[environment][water]") {
+    Stock soil(R"(
+domain = { lower = [0, 0, 0], upper = [2, 2, 0] }
+voxel = 0.1
+initial = 0.1
+diffusion = 0.001
+sources = [{ shape = "box", lower = [0.4, 0.4], upper = [0.6, 0.6], rate = 0.02 },
+           { shape = "box", lower = [1.4, 1.4], upper = [1.6, 1.6], hold = 0.3 }]
+)");
+    for (int step = 0; step < 3; ++step) soil.advance(2);
+    soil.stock.measure();
+    CHECK(soil.at(14, 14) == 0.3);
+    CHECK(soil.at(15, 15) == 0.3);
+    CHECK(soil.at(4, 4) > 0.15);
+    const double held = soil.stock.balance().added - 4 * 0.02 * 6;
+    CHECK(held > 4 * 0.2);
+    CHECK(soil.stock.balance().total == Approx(40 + 4 * 0.02 * 6 + held).epsilon(1e-12));
+}
+
 }  // namespace espalier::test

@@ -276,4 +276,15 @@ obstacles = [{ shape = "box", lower = [-0.5, 0.2, -1], upper = [0.5, 0.5, 1] },
     CHECK(answers[1][7] == 1);
 }
 
+TEST_CASE("a seed above the soil grows into it but not away from it", "[environment][water]") {
+    Soil soil(plane + "initial = 0.3");
+    soil.advance();
+    const std::vector<double> sown = {0.1, 0, 0, 0.2, 0, 0, 0, 0};
+    const auto answers = soil.ask({{{0, 1.05, 0}, sown, {0, -1, 0}}, {{0, 1.05, 0}, sown, {0, 1, 0}}});
+    CHECK(answers[0][0] == 0);
+    CHECK(heading_of(answers[0]) == glm::dvec3(0, -1, 0));
+    CHECK(answers[1][7] == 1);
+    CHECK(heading_of(answers[1]).y < -0.25 + 1e-9);
+}
+
 }  // namespace espalier::test
