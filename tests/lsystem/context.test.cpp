@@ -141,7 +141,9 @@ TEST_CASE("right contexts across deeply nested branches take linear time", "[lsy
         ModelBuilder model;
         std::string nested;
         for (std::size_t k = 0; k < depth; ++k) nested += "A[";
-        nested += "A" + std::string(depth, ']') + "B";
+        nested += 'A';
+        nested.append(depth, ']');
+        nested += 'B';
         model.system().axiom = model.word(nested);
         if (context)
             model.rule("", "A", "B", "A");
