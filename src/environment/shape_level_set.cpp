@@ -120,7 +120,7 @@ LevelSet::~LevelSet() = default;
 LevelSet::Reading LevelSet::read(const glm::dvec3& point) const {
     const glm::dvec3 index = point / storage_->voxel;
     const glm::dvec3 low = glm::floor(index);
-    if (!(std::max({std::abs(low.x), std::abs(low.y), std::abs(low.z)}) < 2e9)) {
+    if (!(std::abs(low.x) < 2e9 && std::abs(low.y) < 2e9 && std::abs(low.z) < 2e9)) {
         return {false, storage_->background, {}};  // beyond what a voxel index can count, so far outside
     }
     const openvdb::Coord floor(static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(low.z));

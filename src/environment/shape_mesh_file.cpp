@@ -1,5 +1,9 @@
 #include "shape_mesh_file.h"
 
+#include "espalier/base/file.h"
+
+#include "shape_mesh_formats.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <vtkCellArray.h>
@@ -8,13 +12,12 @@
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
 #include <vtkOutputWindow.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 #include <vtkTriangleFilter.h>
 
 #include <algorithm>
@@ -28,8 +31,14 @@ namespace {
 /// VTK reports faults to a window and goes on. While this lives it reports here, and nothing is printed.
 class VtkReports {
 public:
-    VtkReports() : before_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(listener_); }
-    ~VtkReports() { vtkOutputWindow::SetInstance(before_); }
+    VtkReports() : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
+        vtkOutputWindow::SetInstance(listener_);
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    }
+    ~VtkReports() {
+        vtkLogger::SetStderrVerbosity(verbosity_);
+        vtkOutputWindow::SetInstance(before_);
+    }
     VtkReports(const VtkReports&) = delete;
     VtkReports& operator=(const VtkReports&) = delete;
 
@@ -48,6 +57,7 @@ private:
 
     vtkSmartPointer<vtkOutputWindow> before_;
     vtkNew<Listener> listener_;
+    vtkLogger::Verbosity verbosity_;
 };
 
 std::string lower_case_extension(const std::filesystem::path& file) {
@@ -67,61 +77,63 @@ void require_file(const std::filesystem::path& file, const Place& place) {
     }
 }
 
-template <class Reader>
-vtkSmartPointer<vtkPolyData> read_with(const std::filesystem::path& file) {
-    vtkNew<Reader> reader;
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    vtkSmartPointer<vtkPolyData> surface = vtkSmartPointer<vtkPolyData>::New();
-    // Points and polygons only: colours and texture coordinates would hold apart points that coincide.
-    surface->SetPoints(reader->GetOutput()->GetPoints());
-    surface->SetPolys(reader->GetOutput()->GetPolys());
-    return surface;
-}
-
-vtkSmartPointer<vtkPolyData> read_surface(const std::filesystem::path& file, const Place& place) {
+PolygonMesh read_polygons(const std::filesystem::path& file, const Place& place) {
     const std::string extension = lower_case_extension(file);
-    const VtkReports reports;
-    vtkSmartPointer<vtkPolyData> surface;
-    if (extension == ".ply") {
-        surface = read_with<vtkPLYReader>(file);
-    } else if (extension == ".stl") {
-        surface = read_with<vtkSTLReader>(file);
-    } else if (extension == ".obj") {
-        surface = read_with<vtkOBJReader>(file);
-    } else {
+    const auto parse = extension == ".ply"   ? parse_ply
+                       : extension == ".stl" ? parse_stl
+                       : extension == ".obj" ? parse_obj
+                                             : nullptr;
+    if (!parse) {
         throw UserError(place, fmt::format("{} is no mesh that can be read: its name must end in .obj, .stl or .ply",
                                            file.string()));
     }
-    if (reports.any()) {
-        throw UserError(place, fmt::format("{} is not a whole {} mesh", file.string(), extension.substr(1)));
+    try {
+        return parse(read_text(file));
+    } catch (const MeshFormatError& error) {
+        throw UserError(place,
+                        fmt::format("{} is not a whole {} mesh: {}", file.string(), extension.substr(1), error.what()));
     }
-    return surface;
 }
 
-/// A file may number points that it does not have.
-void require_sound(vtkPolyData& surface, const std::filesystem::path& file, const Place& place) {
-    if (surface.GetNumberOfPoints() == 0 || surface.GetNumberOfPolys() == 0) {
+/// A file may number points that it does not have, and have points that are nowhere.
+void require_sound(const PolygonMesh& mesh, const std::filesystem::path& file, const Place& place) {
+    if (mesh.points.empty() || mesh.ends.empty()) {
         throw UserError(place, fmt::format("{} is empty: it has {} points and {} polygons", file.string(),
-                                           surface.GetNumberOfPoints(), surface.GetNumberOfPolys()));
+                                           mesh.points.size(), mesh.ends.size()));
     }
-    for (vtkIdType i = 0; i < surface.GetNumberOfPoints(); ++i) {
-        const double* point = surface.GetPoint(i);
-        if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) {
-            throw UserError(place, fmt::format("point {} of {} is not a number", i + 1, file.string()));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const glm::dvec3& point = mesh.points[i];
+        const auto countable = [](double coordinate) { return std::abs(coordinate) < 1e30; };  // not so NaN
+        if (!countable(point.x) || !countable(point.y) || !countable(point.z)) {
+            throw UserError(place, fmt::format("point {} of {} is not finite", i + 1, file.string()));
         }
     }
-    const vtkNew<vtkIdList> corners;
-    for (vtkIdType polygon = 0; polygon < surface.GetNumberOfPolys(); ++polygon) {
-        surface.GetPolys()->GetCellAtId(polygon, corners);
-        for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i) {
-            if (corners->GetId(i) < 0 || corners->GetId(i) >= surface.GetNumberOfPoints()) {
-                throw UserError(
-                    place, fmt::format("polygon {} of {} has a corner at point {}, but there are {} points",
-                                       polygon + 1, file.string(), corners->GetId(i) + 1, surface.GetNumberOfPoints()));
-            }
+    const auto points = static_cast<std::int64_t>(mesh.points.size());
+    for (std::int64_t corner : mesh.corners) {
+        if (corner < 0 || corner >= points) {
+            throw UserError(place, fmt::format("a polygon of {} has a corner at point {}, but there are {} points",
+                                               file.string(), corner + 1, points));
         }
     }
+}
+
+vtkSmartPointer<vtkPolyData> to_vtk(const PolygonMesh& mesh) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const glm::dvec3& point : mesh.points) points->InsertNextPoint(point.x, point.y, point.z);
+    vtkNew<vtkCellArray> polygons;
+    std::vector<vtkIdType> corners;
+    std::size_t begin = 0;
+    for (std::size_t end : mesh.ends) {
+        corners.assign(mesh.corners.begin() + static_cast<std::ptrdiff_t>(begin),
+                       mesh.corners.begin() + static_cast<std::ptrdiff_t>(end));
+        if (corners.size() >= 3) polygons->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
+        begin = end;
+    }
+    vtkSmartPointer<vtkPolyData> surface = vtkSmartPointer<vtkPolyData>::New();
+    surface->SetPoints(points);
+    surface->SetPolys(polygons);
+    return surface;
 }
 
 /// Triangles between points that are merged where they coincide: STL and OBJ repeat them.
@@ -191,9 +203,9 @@ bool has_volume(const TriangleMesh& mesh) {
 
 TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& place) {
     require_file(file, place);
-    const vtkSmartPointer<vtkPolyData> surface = read_surface(file, place);
-    require_sound(*surface, file, place);
-    TriangleMesh mesh = triangulated(*surface);
+    const PolygonMesh polygons = read_polygons(file, place);
+    require_sound(polygons, file, place);
+    TriangleMesh mesh = triangulated(*to_vtk(polygons));
     if (mesh.triangles.empty()) throw UserError(place, fmt::format("{} has no triangle with an area", file.string()));
     if (const std::size_t open = open_edges(mesh)) {
         throw UserError(place, fmt::format("{} is not closed: {} of its edges {} open, so it has no inside",
@@ -205,10 +217,11 @@ TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& plac
 
 HeightImage read_height_image(const std::filesystem::path& file, const Place& place) {
     require_file(file, place);
-    const VtkReports reports;
+    const VtkReports silence;  // of readers that are asked in turn whether they know this file
     const vtkSmartPointer<vtkImageReader2> reader =
         vtkSmartPointer<vtkImageReader2>::Take(vtkImageReader2Factory::CreateImageReader2(file.c_str()));
     if (!reader) throw UserError(place, fmt::format("{} is no image that can be read", file.string()));
+    const VtkReports reports;
     reader->SetFileName(file.c_str());
     reader->Update();
     vtkDataArray* values = reader->GetOutput()->GetPointData()->GetScalars();

@@ -1,4 +1,4 @@
-// Meshes and images of heights from files, through VTK's readers, with every fault as a UserError naming the file.
+// Meshes and images of heights from files, with every fault as a UserError naming the file.
 #pragma once
 
 #include "espalier/base/error.h"
