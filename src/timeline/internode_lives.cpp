@@ -1,25 +1,50 @@
 #include "timeline/internode_lives.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/random.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace espalier {
+
+namespace {
+
+constexpr std::uint32_t vacant = 0xFFFFFFFF;
+
+}  // namespace
+
+std::size_t InternodeLives::slot_of(Identity identity, std::uint32_t part) const {
+    const std::size_t mask = index_.size() - 1;
+    for (std::size_t slot = mix(identity + part) & mask;; slot = (slot + 1) & mask) {
+        if (index_[slot] == vacant) return slot;
+        const InternodeLife& life = lives_[index_[slot]];
+        if (life.identity == identity && life.part == part) return slot;
+    }
+}
+
+void InternodeLives::enlarge_index() {
+    index_.assign(std::max<std::size_t>(64, 2 * index_.size()), vacant);
+    for (std::uint32_t i = 0; i < lives_.size(); ++i) index_[slot_of(lives_[i].identity, lives_[i].part)] = i;
+}
 
 // Modules keep their order in the string from step to step, so most internodes are found where the last one's
 // neighbour stood; only the others are looked up.
-std::uint32_t InternodeLives::life_of(const Key& key, std::size_t& expected) {
+std::uint32_t InternodeLives::life_of(Identity identity, std::uint32_t part, std::size_t& expected) {
     if (expected < living_.size()) {
         const InternodeLife& life = lives_[living_[expected]];
-        if (life.identity == key.identity && life.part == key.part) return living_[expected++];
+        if (life.identity == identity && life.part == part) return living_[expected++];
     }
-    const auto [entry, is_new] = index_.emplace(key, static_cast<std::uint32_t>(lives_.size()));
-    if (is_new) {
+    if (2 * (lives_.size() + 1) > index_.size()) enlarge_index();
+    std::uint32_t& found = index_[slot_of(identity, part)];
+    if (found == vacant) {
+        found = static_cast<std::uint32_t>(lives_.size());
         lives_.push_back({});
     } else {
-        expected = std::size_t{lives_[entry->second].place} + 1;
+        expected = std::size_t{lives_[found].place} + 1;
     }
-    return entry->second;
+    return found;
 }
 
 void InternodeLives::record(int step, const PlantFrame& plant, std::span<const std::uint16_t> symbols) {
@@ -36,7 +61,7 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
         const Internode& internode = internodes[i];
         const std::uint32_t module = internode.module;
         part = i > 0 && internodes[i - 1].module == module ? part + 1 : 0;
-        const std::uint32_t at = life_of({string.identities[module], part}, expected);
+        const std::uint32_t at = life_of(string.identities[module], part, expected);
         lives_[at] = {string.identities[module],
                       string.parents[module],
                       part,

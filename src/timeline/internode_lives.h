@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 namespace espalier {
@@ -31,20 +30,13 @@ public:
     const std::vector<InternodeLife>& all() const { return lives_; }
 
 private:
-    struct Key {
-        Identity identity;
-        std::uint32_t part;
-        bool operator==(const Key&) const = default;
-    };
-    struct Hash {
-        std::size_t operator()(const Key& key) const { return key.identity + key.part; }
-    };
-
-    /// The life of an internode, made if it is new.
-    std::uint32_t life_of(const Key& key, std::size_t& expected);
+    /// The life of an internode, made if it is new. `expected` is where it likely stands in `living_`, and moves on.
+    std::uint32_t life_of(Identity identity, std::uint32_t part, std::size_t& expected);
+    std::size_t slot_of(Identity identity, std::uint32_t part) const;
+    void enlarge_index();
 
     std::vector<InternodeLife> lives_;
-    std::unordered_map<Key, std::uint32_t, Hash> index_;
+    std::vector<std::uint32_t> index_;   ///< open addressing: number of a life, or `vacant`
     std::vector<std::uint32_t> living_;  ///< the lives seen one step ago, in string order
     std::vector<std::uint32_t> next_living_;
 };

@@ -8,7 +8,10 @@
 #include "timeline/frames.h"
 #include "timeline/small_disk.h"
 
+#include <cstdlib>
 #include <set>
+#include <sys/wait.h>
+#include <thread>
 
 using namespace espalier;
 namespace fs = std::filesystem;
@@ -183,4 +186,41 @@ TEST_CASE("every recorder finishes although another fails", "[timeline]") {
     fs::create_directories(folder.path / "lifespans.vtp/in the way");
     CHECK(error_text([&] { timeline.finish(); }).find("lifespans.vtp") != std::string::npos);
     CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
+}
+
+// Run by the next test in a process of its own.
+TEST_CASE("record until killed", "[.killed]") {
+    const char* folder = std::getenv("ESPALIER_TEST_FOLDER");
+    REQUIRE(folder);
+    Timeline timeline(folder, timeline_table(), 1000000);
+    HandmadePlant plant = branched_plant();
+    for (int step = 0;; ++step) {
+        plant.add_triangle(Identity(100 + step));
+        record(timeline, step, {&plant, &plant});
+    }
+}
+
+TEST_CASE("a run that is killed leaves a timeline that is whole", "[timeline]") {
+    for (const int milliseconds : {60, 83, 101}) {
+        const RunFolder folder;
+        setenv("ESPALIER_TEST_FOLDER", folder.path.c_str(), 1);
+        const pid_t child = fork();
+        if (child == 0) {
+            execl("/proc/self/exe", "test_timeline", "record until killed", static_cast<char*>(nullptr));
+            _exit(1);
+        }
+        while (!fs::exists(folder.path / "plants.pvd")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        kill(child, SIGKILL);
+        waitpid(child, nullptr, 0);
+
+        const std::vector<DataSetEntry> entries = read_collection(folder.path / "plants.pvd");
+        REQUIRE(!entries.empty());
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            CHECK(read_vtp(folder.path / entries[i].file)->GetNumberOfPolys() == 2 * (static_cast<int>(i) + 1));
+        }
+        const std::string rows = bytes_of(folder.path / "statistics.csv");
+        CHECK(rows.back() == '\n');
+        CHECK(std::count(rows.begin(), rows.end(), '\n') % 2 == 1);
+    }
 }
