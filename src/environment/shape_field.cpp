@@ -13,6 +13,7 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 
 constexpr double half_band = 3;        // voxels on either side of the surface, OpenVDB's custom
 constexpr int block_edge = Leaf::DIM;  // voxels
+constexpr std::size_t leaf_bytes = sizeof(Leaf) + Leaf::SIZE * sizeof(float);
 
 /// Finds the blocks of 8^3 voxels that the band passes through, halving larger blocks: a block whose centre is farther
 /// from the surface than its corners are from the centre holds none of it.
@@ -92,7 +93,7 @@ std::shared_ptr<const FieldGrid> sample_level_set(const Shape& shape, const Box&
     grid->setTransform(transform);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
 
-    BandBlocks band(shape, *transform, voxel, memory / sizeof(Leaf));
+    BandBlocks band(shape, *transform, voxel, memory / leaf_bytes);
     int edge = block_edge;
     while (edge < voxels.dim()[voxels.maxExtent()]) edge *= 2;
     if (!band.collect(openvdb::Coord(0), edge, voxels)) {
