@@ -212,6 +212,7 @@ int parse_and_dispatch(int argc, char** argv) {
     add_derive(program, line);
     add_info(program, line);
     add_list(program, line);
+    if (argc == 1) return fail(program.help(), exit_code::user_error, false);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {

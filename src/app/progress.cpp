@@ -10,6 +10,7 @@ namespace espalier {
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
+    if (seconds < 1) return fmt::format("{:.2f} s", seconds);
     if (seconds < 10) return fmt::format("{:.1f} s", seconds);
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
