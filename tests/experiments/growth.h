@@ -26,7 +26,7 @@ struct LonePlant {
 
     explicit LonePlant(const std::string& file, Defines defines = {}, std::uint64_t seed = 0)
         : model(read_model(source_path(file), {std::move(defines), false})),
-          derivation(compile(model), {.seed = seed, .lineage = true}) {
+          derivation(compile(model), with_seed(seed)) {
         derivation.start(string);
         look();
     }
@@ -50,6 +50,13 @@ struct LonePlant {
     std::string text() const { return to_text(string, model->alphabet); }
 
 private:
+    static DerivationSettings with_seed(std::uint64_t seed) {
+        DerivationSettings settings;
+        settings.seed = seed;
+        settings.lineage = true;
+        return settings;
+    }
+
     void look() {
         interpretation = interpret(*model, string, turtle, &derivation);
         for (const Query& query : interpretation.queries) {
@@ -59,11 +66,11 @@ private:
 };
 
 /// A scene grown to its end (or for `steps`), without a timeline.
-inline World grown(const std::string& file, SceneOptions options = {}) {
+inline std::unique_ptr<World> grown(const std::string& file, const SceneOptions& options = {}) {
     const Scene scene = read_scene(source_path(file), options);
-    World world(scene);
-    world.start();
-    for (int step = 0; step < scene.steps && !world.stopped(); ++step) world.step();
+    auto world = std::make_unique<World>(scene);
+    world->start();
+    for (int step = 0; step < scene.steps && !world->stopped(); ++step) world->step();
     return world;
 }
 
