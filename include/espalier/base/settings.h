@@ -37,7 +37,8 @@ public:
 
     /// Reads a TOML file or text; `name` stands in messages. Throws UserError.
     static Settings read_toml(const std::filesystem::path& path);
-    static Settings parse_toml(std::string_view text, const std::string& name, const std::filesystem::path& folder = {});
+    static Settings parse_toml(std::string_view text, const std::string& name,
+                               const std::filesystem::path& folder = {});
 
     bool has(std::string_view key) const;
     Place place(std::string_view key = {}) const;  ///< of a key, or of the table itself

@@ -34,10 +34,10 @@ struct WorldView {
 
 /// What a process is told when the world is made.
 struct EnvironmentContext {
-    std::string name;         ///< the process's name in the scene
+    std::string name;           ///< the process's name in the scene
     std::optional<Box> domain;  ///< the scene's domain, if it gives one
     std::uint64_t seed = 0;
-    std::uint32_t plants = 0;  ///< how many plants the world has
+    std::uint32_t plants = 0;              ///< how many plants the world has
     std::size_t memory = std::size_t(-1);  ///< bytes a process's fields may take; more is an error before allocating
 };
 

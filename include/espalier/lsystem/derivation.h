@@ -38,8 +38,8 @@ const Model& source_of(const CompiledModel& compiled);
 bool has_order(const CompiledModel& compiled);
 bool draws_random_numbers(const CompiledModel& compiled);
 
-/// The growth of one plant: the model's globals, arrays and step counter, and the rule that turns a string into the next.
-/// Random draws depend on seed, plant, module identity, step and draw number only.
+/// The growth of one plant: the model's globals, arrays and step counter, and the rule that turns a string into the
+/// next. Random draws depend on seed, plant, module identity, step and draw number only.
 class Derivation {
 public:
     Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings = {});

@@ -1,4 +1,5 @@
-// An L-system as data: axiom, productions, decomposition, homomorphism, blocks. Readers fill it, the engine compiles it.
+// An L-system as data: axiom, productions, decomposition, homomorphism, blocks. Readers fill it, the engine compiles
+// it.
 #pragma once
 
 #include "espalier/lsystem/alphabet.h"

@@ -20,7 +20,7 @@ struct PlantDescription {
     std::string name;
     std::shared_ptr<const CompiledModel> model;  ///< plants with the same model and defines share it
     TurtleSettings turtle;                       ///< its pose is the plant's place and orientation
-    std::uint32_t stream = 0;  ///< which random numbers it draws; default: its number in the scene
+    std::uint32_t stream = 0;                    ///< which random numbers it draws; default: its number in the scene
 };
 
 struct Scene {
@@ -30,7 +30,7 @@ struct Scene {
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, and --steps and --seed
     int steps = 0;
     std::uint64_t seed = 0;
-    double dt = 1;             ///< time one derivation step stands for
+    double dt = 1;  ///< time one derivation step stands for
     std::string time_unit = "step";
     std::optional<Box> domain;
     std::vector<PlantDescription> plants;
@@ -46,7 +46,8 @@ struct SceneOptions {
     std::optional<std::uint64_t> seed;
 };
 
-/// Reads a scene and the models it names, but makes no process: World does. Throws UserError with every mistake it can find at once.
+/// Reads a scene and the models it names, but makes no process: World does. Throws UserError with every mistake it can
+/// find at once.
 Scene read_scene(const std::filesystem::path& path, const SceneOptions& options = {});
 Scene read_scene_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                       const SceneOptions& options = {});

@@ -19,7 +19,7 @@ struct Progress {
 struct RunOptions {
     std::filesystem::path output;  ///< empty: no timeline
     bool overwrite = false;
-    std::size_t memory = 0;        ///< bytes; 0: half of the machine
+    std::size_t memory = 0;                        ///< bytes; 0: half of the machine
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
     std::function<void(const Progress&)> progress = nullptr;
 };
