@@ -11,71 +11,25 @@
 namespace espalier {
 
 /// Functions of the language. Angles in degrees.
+// clang-format off
 enum class Function : std::uint8_t {
-    sin,
-    cos,
-    tan,
-    asin,
-    acos,
-    atan,
-    atan2,
-    exp,
-    log,
-    sqrt,
-    pow,
-    fabs,
-    floor,
-    ceil,
-    round,
-    sign,
-    trunc,
-    min,
-    max,
-    clamp,
-    lerp,
-    noise,
-    ran,
-    nran,
-    bran,
-    biran,
-    srand,
-    stop,
-    display,
-    print,
-    file_open,
-    file_close,
-    file_print,
-    file_scan,
-    file_flush,
-    get_derivation_length,
-    set_derivation_length,
-    func,
-    curve_x,
-    curve_y,
-    curve_z,
-    curve_gal,
-    view_extent,
-    in_blob
+    sin, cos, tan, asin, acos, atan, atan2, exp, log, sqrt, pow, fabs, floor, ceil, round, sign, trunc,
+    min, max, clamp, lerp, noise,
+    ran, nran, bran, biran, srand,
+    stop, display, print, file_open, file_close, file_print, file_scan, file_flush,
+    get_derivation_length, set_derivation_length,
+    func, curve_x, curve_y, curve_z, curve_gal, view_extent, in_blob
 };
+// clang-format on
 
+// clang-format off
 enum class Operator : std::uint8_t {
-    negate,
-    logical_not,
-    power,
-    multiply,
-    divide,
-    remainder,
-    add,
-    subtract,
-    less,
-    less_equal,
-    greater,
-    greater_equal,
-    equal,
-    not_equal,
-    logical_and,
-    logical_or
+    negate, logical_not,
+    power, multiply, divide, remainder, add, subtract,
+    less, less_equal, greater, greater_equal, equal, not_equal,
+    logical_and, logical_or
 };
+// clang-format on
 
 /// One node. Names are already resolved: a formal parameter of the production at hand, a global variable
 /// of the L-system, or an array.
