@@ -44,6 +44,8 @@ Plans make_plans(const CompiledModel& model) {
         plans.copies.push_back(copy);
         plans.of_letter.push_back(rules.always[l] >= 0 ? plans.productions[rules.always[l]] : copy);
         if (rules.has(letter) && rules.always[l] < 0) plans.of_letter.back().kind = Plan::Kind::choose;
+        plans.lengths.push_back(plans.of_letter.back().length);
+        plans.parameters.push_back(plans.of_letter.back().parameters);
         plans.all_known &= plans.of_letter.back().kind != Plan::Kind::choose;
     }
     return plans;

@@ -90,7 +90,8 @@ struct Plan {
 };
 
 struct Plans {
-    std::vector<Plan> of_letter;  ///< kind `choose` where it depends on more than the letter
+    std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
+    std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
     std::vector<Plan> productions;
     std::vector<Plan> copies;  ///< by letter
     bool all_known = true;     ///< no letter needs choosing

@@ -95,9 +95,9 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
         }
     });
     if (!lineage) return;
-    const Identity root = mix(0x6573'7061'6c69'6572, settings.plant);
+    const Brood brood(mix(0x6573'7061'6c69'6572, settings.plant), 0);
     for (std::size_t i = 0; i < string.size(); ++i) {
-        string.identities[i] = born(root, 0, static_cast<std::uint32_t>(i));
+        string.identities[i] = brood.born(static_cast<std::uint32_t>(i));
         string.parents[i] = 0;
         string.births[i] = 0;
     }

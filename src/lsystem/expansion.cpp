@@ -11,6 +11,7 @@ void Expansion::push_successor(const CompiledProduction& production, const Linea
         successor_[k] = machine_.value(production.successor.results[k]);
     }
     require_finite(production, successor_.data());
+    const Brood brood(strict[0].identity, step);
     const double* end = successor_.data() + production.parameters;
     for (std::size_t k = production.length; k-- > 0;) {
         const Descent& descent = production.descents[k];
@@ -18,7 +19,7 @@ void Expansion::push_successor(const CompiledProduction& production, const Linea
         if (descent.heir_of != Descent::born)
             entry.lineage = strict[descent.heir_of];
         else
-            entry.lineage = {born(strict[0].identity, step, descent.place, depth), strict[0].identity, step};
+            entry.lineage = {brood.born(descent.place, depth), strict[0].identity, step};
         end -= entry.arity;
         stack.push(entry, end);
     }

@@ -87,7 +87,7 @@ void Expansion::run(ModuleStack& stack, const Site& origin, std::uint32_t step, 
         Site site = origin;
         if (rules_.has(entry.letter)) {
             if (entry.depth >= rules_.maximum_depth) {
-                reached_limit_ |= rules_.always[entry.letter] >= 0;
+                reached_limit_ |= entry.depth > 0 && rules_.always[entry.letter] >= 0;
             } else {
                 site.letter = entry.letter;
                 site.values = values_.data();

@@ -48,10 +48,18 @@ struct Scratch {
     std::vector<ModuleString> pieces;  ///< of chunks whose length is not known before they are written
 };
 
-/// The identity of a module born of `parent`.
-inline Identity born(Identity parent, std::uint32_t step, std::uint32_t place, std::uint32_t depth = 0) {
-    return mix(mix(parent, step), (std::uint64_t{depth} << 32) | place);
-}
+/// The modules born of one parent in one step.
+class Brood {
+public:
+    Brood(Identity parent, std::uint32_t step) : origin_(mix(parent, step)) {}
+    /// `depth` tells apart those born when the parent itself was decomposed.
+    Identity born(std::uint32_t place, std::uint32_t depth = 0) const {
+        return mix(origin_ ^ ((std::uint64_t{depth} << 32) | place));
+    }
+
+private:
+    std::uint64_t origin_;
+};
 
 /// Splits what is kept into chunks and finds where their parameters begin.
 /// Throws RunError if the string has not as many parameters as its letters say.

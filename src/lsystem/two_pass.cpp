@@ -24,7 +24,8 @@ public:
 private:
     void measure_known(Chunk& chunk) const;
     Site site(std::size_t module, const double* values) const;
-    const Plan& plan(std::size_t module) const;
+    /// The plan of a module for which measuring chose a production.
+    const Plan& chosen_plan(std::size_t module) const;
     template <bool Lineage>
     void write(Chunk& chunk, Machine& machine) const;
     void write_values(const Plan& plan, const Site& site, Matcher& matcher, Machine& machine, double* out) const;
@@ -43,22 +44,21 @@ Site TwoPasses::site(std::size_t module, const double* values) const {
     return {module, at, input_.from.letters[module], values, input_.lineage ? input_.from.identities[module] : 0, 1};
 }
 
-/// The plan of a module whose production has been chosen.
-inline const Plan& TwoPasses::plan(std::size_t module) const {
+const Plan& TwoPasses::chosen_plan(std::size_t module) const {
     const LetterId letter = input_.from.letters[module];
-    const Plan& known = plans_.of_letter[letter];
-    if (known.kind != Plan::Kind::choose) return known;
     const LetterId choice = scratch_.choices[module];
     if (choice == copied) return plans_.copies[letter];
     return plans_.productions[model_.rules.candidates[model_.rules.first[letter] + choice]];
 }
 
 void TwoPasses::measure_known(Chunk& chunk) const {
+    const std::uint32_t* const lengths = plans_.lengths.data();
+    const std::uint32_t* const counts = plans_.parameters.data();
+    const LetterId* const letters = input_.from.letters.data();
     std::size_t modules = 0, parameters = 0;
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-        const Plan& plan = plans_.of_letter[input_.from.letters[i]];
-        modules += plan.length;
-        parameters += plan.parameters;
+        modules += lengths[letters[i]];
+        parameters += counts[letters[i]];
     }
     chunk.out_end = modules;
     chunk.out_parameters_end = parameters;
@@ -121,7 +121,8 @@ std::vector<std::uint64_t> TwoPasses::count_uses() const {
     std::vector<std::uint64_t> uses(model_.rules.productions.size());
     for (const Chunk& chunk : scratch_.chunks) {
         for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-            const Plan& used = plan(i);
+            const Plan& known = plans_.of_letter[input_.from.letters[i]];
+            const Plan& used = known.kind == Plan::Kind::choose ? chosen_plan(i) : known;
             if (used.production) ++uses[static_cast<std::size_t>(used.production - model_.rules.productions.data())];
         }
     }
@@ -142,11 +143,22 @@ void TwoPasses::write_values(const Plan& plan, const Site& site, Matcher& matche
 void TwoPasses::write_lineage(const Plan& plan, std::size_t module, std::size_t out) const {
     const ModuleString& from = input_.from;
     const Identity identity = from.identities[module];
-    for (std::size_t k = 0; k < plan.length; ++k, ++out) {
-        const bool heir = !plan.production || plan.production->descents[k].heir_of != Descent::born;
-        to_->identities[out] = heir ? identity : born(identity, input_.step, plan.production->descents[k].place);
-        to_->parents[out] = heir ? from.parents[module] : identity;
-        to_->births[out] = heir ? from.births[module] : input_.step;
+    Identity* const identities = to_->identities.data() + out;
+    Identity* const parents = to_->parents.data() + out;
+    std::uint32_t* const births = to_->births.data() + out;
+    if (!plan.production) {
+        *identities = identity;
+        *parents = from.parents[module];
+        *births = from.births[module];
+        return;
+    }
+    const Brood brood(identity, input_.step);
+    const Descent* const descents = plan.production->descents.data();
+    for (std::size_t k = 0; k < plan.length; ++k) {
+        const bool heir = descents[k].heir_of != Descent::born;
+        identities[k] = heir ? identity : brood.born(descents[k].place);
+        parents[k] = heir ? from.parents[module] : identity;
+        births[k] = heir ? from.births[module] : input_.step;
     }
 }
 
@@ -164,6 +176,28 @@ inline bool write_lanes(const Plan& plan, const double* values, double* out) {
     return finite;
 }
 
+/// Writes the letters of a successor. A whole block is copied whatever its length: the next module overwrites what is
+/// too much.
+inline void write_letters(const Plan& plan, LetterId* out, const LetterId* out_end) {
+    if (out_end - out < static_cast<std::ptrdiff_t>(letter_block)) {
+        std::memcpy(out, plan.block.data(), plan.length * sizeof(LetterId));
+        return;
+    }
+    std::memcpy(out, plan.block.data(), sizeof plan.block);
+    if (plan.length <= letter_block) return;
+    std::memcpy(out + letter_block, plan.letters + letter_block, (plan.length - letter_block) * sizeof(LetterId));
+}
+
+inline void copy_values(std::size_t count, const double* from, const double* from_end, double* to,
+                        const double* to_end) {
+    const auto room = static_cast<std::ptrdiff_t>(copied_at_once);
+    if (count <= copied_at_once && from_end - from >= room && to_end - to >= room) {
+        std::memcpy(to, from, copied_at_once * sizeof(double));
+    } else {
+        std::memcpy(to, from, count * sizeof(double));
+    }
+}
+
 template <bool Lineage>
 void TwoPasses::write(Chunk& chunk, Machine& machine) const {
     Matcher matcher(model_, input_.view, machine);
@@ -174,39 +208,28 @@ void TwoPasses::write(Chunk& chunk, Machine& machine) const {
     double* const out_values_end = to_->parameters.data() + chunk.out_parameters_end;
     const double* values = input_.from.parameters.data() + chunk.parameters_at;
     const double* const values_end = input_.from.parameters.data() + input_.from.parameters.size();
+    const LetterId* const letters = input_.from.letters.data();
+    const Plan* const plans = plans_.of_letter.data();
     std::size_t i = chunk.begin;
     try {
-        for (; i < chunk.end; ++i) {
-            const Plan& used = plan(i);
-            // A whole block is copied whatever its length: the next module overwrites what is too much.
-            if (out_end - out >= static_cast<std::ptrdiff_t>(letter_block)) {
-                std::memcpy(out, used.block.data(), sizeof used.block);
-                if (used.length > letter_block) {
-                    std::memcpy(out + letter_block, used.letters + letter_block,
-                                (used.length - letter_block) * sizeof(LetterId));
+        for (const std::size_t end = chunk.end; i < end; ++i) {
+            const Plan* used = plans + letters[i];
+            if (used->kind == Plan::Kind::choose) used = &chosen_plan(i);
+            write_letters(*used, out, out_end);
+            if (used->kind != Plan::Kind::bare) {
+                if (used->kind == Plan::Kind::copy) {
+                    copy_values(used->arity, values, values_end, out_values, out_values_end);
+                } else if (used->kind == Plan::Kind::program || !write_lanes(*used, values, out_values)) {
+                    write_values(*used, site(i, values), matcher, machine, out_values);
                 }
-            } else {
-                std::memcpy(out, used.block.data(), used.length * sizeof(LetterId));
             }
-            if (used.kind == Plan::Kind::copy) {
-                const bool room = used.arity <= copied_at_once &&
-                                  values_end - values >= static_cast<std::ptrdiff_t>(copied_at_once) &&
-                                  out_values_end - out_values >= static_cast<std::ptrdiff_t>(copied_at_once);
-                if (room)
-                    std::memcpy(out_values, values, copied_at_once * sizeof(double));
-                else
-                    std::memcpy(out_values, values, used.arity * sizeof(double));
-            } else if (used.kind != Plan::Kind::bare &&
-                       (used.kind == Plan::Kind::program || !write_lanes(used, values, out_values))) {
-                write_values(used, site(i, values), matcher, machine, out_values);
-            }
-            if constexpr (Lineage) write_lineage(used, i, static_cast<std::size_t>(out - to_->letters.data()));
-            out += used.length;
-            out_values += used.parameters;
-            values += used.arity;
+            if constexpr (Lineage) write_lineage(*used, i, static_cast<std::size_t>(out - to_->letters.data()));
+            out += used->length;
+            out_values += used->parameters;
+            values += used->arity;
         }
     } catch (const EvaluationError& error) {
-        throw RunError(describe(error, model_.source->alphabet, input_.from.letters[i], values, input_.step));
+        throw RunError(describe(error, model_.source->alphabet, letters[i], values, input_.step));
     }
 }
 

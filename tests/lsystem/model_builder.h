@@ -179,6 +179,12 @@ public:
     std::shared_ptr<const CompiledModel> compiled() { return compile(model_); }
 
 private:
+    static std::string made_name(int index) {
+        std::string name = std::to_string(index);
+        name.insert(name.begin(), 'p');
+        return name;
+    }
+
     std::vector<ModulePattern> bound(const std::vector<Pattern>& patterns, Production& production) {
         std::vector<ModulePattern> all;
         for (const Pattern& pattern : patterns) {
@@ -186,7 +192,7 @@ private:
             made.skip_branch = pattern.symbol == "=";
             if (!made.skip_branch) made.letter = model_->alphabet.letter(pattern.symbol, pattern.arity);
             made.first_formal = static_cast<std::uint32_t>(production.formals.size());
-            for (int k = 0; k < pattern.arity; ++k) production.formals.push_back("p" + std::to_string(k));
+            for (int k = 0; k < pattern.arity; ++k) production.formals.push_back(made_name(k));
             all.push_back(made);
         }
         return all;

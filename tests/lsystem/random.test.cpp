@@ -17,10 +17,6 @@ DerivationSettings with_lineage(std::uint64_t seed = 1, std::uint32_t plant = 0)
 }  // namespace
 
 TEST_CASE("productions are chosen with the frequency of their weights", "[lsystem]") {
-    ModelBuilder model;
-    model.system().seed = number(1);
-    model.system().axiom = model.word("A");
-    model.rule("A", "AA");
     ModelBuilder chooser;
     chooser.system().seed = number(1);
     constexpr std::size_t n = 100'000;
