@@ -143,7 +143,7 @@ private:
         }
         skip();
         const std::size_t start = position_;
-        while (position_ < text_.size() && is_name_part(text_[position_])) ++position_;
+        while (position_ < text_.size() && (is_name_part(text_[position_]) || text_[position_] == '.')) ++position_;
         const std::string_view word = text_.substr(start, position_ - start);
         if (word.empty()) {
             if (start >= text_.size()) fail("the condition ends where a number or a name was expected");

@@ -119,16 +119,21 @@ Expression ExpressionParser::conditional() {
     return result;
 }
 
+// No expression holds "-->"; "-o>" is an arrow only where a production's may stand.
+bool ExpressionParser::at_arrow() const {
+    return in_.rest().starts_with("-->") || (ends_at_arrow_ && in_.arrow() > 0);
+}
+
 ExpressionParser::Infix ExpressionParser::infix() {
     in_.skip();
-    if (ends_at_arrow_ && in_.arrow() > 0) return {};
+    if (at_arrow()) return {};
     const char c = in_.peek();
     const char next = in_.peek(1);
     switch (c) {
         case '|':
-            return next == '|' ? Infix{2, Operator::logical_or, 1} : Infix{};
         case '&':
-            return next == '&' ? Infix{2, Operator::logical_and, 2} : Infix{};
+            if (next != c) throw SyntaxError{in_.here(), fmt::format("'{0}' is no operator here: write '{0}{0}'", c)};
+            return c == '|' ? Infix{2, Operator::logical_or, 1} : Infix{2, Operator::logical_and, 2};
         case '=':
             return next == '=' ? Infix{2, Operator::equal, 3} : Infix{};
         case '!':
@@ -181,7 +186,7 @@ Expression ExpressionParser::unary() {
         in_.take(1);
         return apply(Operator::logical_not, at, unary());
     }
-    if (in_.peek() == '-' && !(ends_at_arrow_ && in_.arrow() > 0)) {
+    if (in_.peek() == '-' && !at_arrow()) {
         in_.take(1);
         return apply(Operator::negate, at, unary());
     }
@@ -231,8 +236,11 @@ Expression ExpressionParser::number() {
     double value = 0;
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
     const auto length = static_cast<std::size_t>(end - rest.data());
-    if (error == std::errc::result_out_of_range && std::abs(value) != 0) {
-        throw SyntaxError{at, fmt::format("the number {} is too large", rest.substr(0, length))};
+    const std::string_view digits = rest.substr(0, length);
+    // What is too small is 0; what is too large is a mistake.
+    const bool small = digits.find("e-") != std::string_view::npos || digits.find("E-") != std::string_view::npos;
+    if (error == std::errc::result_out_of_range && !small) {
+        throw SyntaxError{at, fmt::format("the number {} is too large", digits)};
     }
     in_.take(length);
     if (is_name_start(in_.peek())) {

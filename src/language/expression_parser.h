@@ -45,6 +45,7 @@ private:
         int precedence = 0;
     };
     Infix infix();
+    bool at_arrow() const;
     struct AssignmentSign {
         std::size_t length = 0;
         std::optional<Operator> op = std::nullopt;

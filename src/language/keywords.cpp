@@ -58,4 +58,17 @@ bool resembles_keyword(std::string_view line) {
     return !nearest_name(words, header).empty() || !nearest_name(words, section).empty();
 }
 
+bool fits_no_block(std::string_view line) {
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    for (const char* keyword : {"endlsystem", "decomposition", "homomorphism"}) {
+        if (keyword_length(line, keyword) > 0) return true;
+    }
+    const auto begins = [&](const std::string& keyword) {
+        const std::size_t length = keyword_length(line, keyword);
+        const std::size_t next = length == 0 ? line.npos : line.find_first_not_of(" \t", length);
+        return next != line.npos && line[next] == ':';
+    };
+    return std::any_of(header.begin(), header.end(), begins);
+}
+
 }  // namespace espalier::language

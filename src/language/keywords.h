@@ -18,5 +18,7 @@ std::span<const std::string> section_keywords();
 bool begins_with_keyword(std::string_view line);
 /// The same for a line that was probably meant to be one: words only, near a keyword.
 bool resembles_keyword(std::string_view line);
+/// A line that no block can hold, such as "axiom: ..." or "endlsystem".
+bool fits_no_block(std::string_view line);
 
 }  // namespace espalier::language

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace espalier::language {
@@ -27,7 +28,8 @@ public:
           mistakes_(mistakes),
           expressions_(in_, names_, mistakes),
           productions_(in_, names_, mistakes, symbols_, expressions_),
-          model_(model) {
+          model_(model),
+          complete_(mistakes.none()) {
         productions_.set_alphabet(model.alphabet);
     }
 
@@ -38,7 +40,7 @@ public:
         while (next_statement()) {
             statement([&] { outside(); });
         }
-        if (model_.systems.empty()) {
+        if (model_.systems.empty() && complete_) {
             mistakes_.error(in_.here(), "there is no L-system here: 'lsystem: 1' ... 'endlsystem' is missing");
         }
     }
@@ -72,8 +74,14 @@ private:
     void outside() {
         if (declaration()) return;
         if (!accept_lsystem()) {
-            throw SyntaxError{in_.here(),
-                              fmt::format("expected 'lsystem:', found {}", in_.found()) + nearest_keyword()};
+            const std::string keyword = nearest_keyword();
+            mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
+                                                    keyword == "lsystem" ? hint(keyword) : ""));
+            if (keyword != "lsystem") {
+                in_.recover(in_.position());
+                return;
+            }
+            in_.accept_name();
         }
         in_.expect(":", "after 'lsystem'");
         lsystem();
@@ -97,11 +105,13 @@ private:
         while (!system_->label.empty() && is_blank(system_->label.back())) system_->label.pop_back();
 
         rules_ = nullptr;
+        weight_reported_ = false;
         bool ended = false;
         while (!ended && next_statement()) {
             statement([&] { ended = line(); });
         }
-        if (!ended) mistakes_.error(in_.here(), "the file ends inside an L-system: 'endlsystem' is missing");
+        if (!ended && complete_)
+            mistakes_.error(in_.here(), "the file ends inside an L-system: 'endlsystem' is missing");
         if (!axiom_read_) mistakes_.error(begin, "this L-system has no axiom: 'axiom: ...' is missing");
         names_.finish();
     }
@@ -120,7 +130,7 @@ private:
             }
             if (section_line() || header_item() || declaration()) return false;
         }
-        if (!in_.statement_has_arrow()) not_a_line();
+        if (!in_.statement_has_arrow()) return not_a_line();
         production();
         return false;
     }
@@ -148,42 +158,64 @@ private:
         Production read = productions_.production();
         const std::optional<Location> weight = productions_.take_first_weight();
         const bool stochastic = system_->seed || (rules_ && rules_->seed);
-        if (weight && !stochastic) {
+        if (weight && !stochastic && !std::exchange(weight_reported_, true)) {
             mistakes_.error(*weight, "a weight needs a 'seed: number' line in the header of the L-system");
         }
         (rules_ ? rules_->productions : system_->productions).push_back(std::move(read));
     }
 
-    [[noreturn]] void not_a_line() {
+    /// Says what is wrong with a line that is no item and has no arrow. A misspelt keyword is taken as what it was
+    /// meant to be, so that it begets no other mistakes; true if it ends the L-system.
+    bool not_a_line() {
         const Location at = in_.here();
-        const std::string nearest = nearest_keyword();
-        if (!axiom_read_ || !nearest.empty()) {
-            throw SyntaxError{
-                at, fmt::format("expected an item of the header or 'axiom:', found {}", in_.found()) + nearest};
+        const std::string keyword = nearest_keyword();
+        if (axiom_read_ && keyword.empty()) {
+            const std::string_view line = in_.text(in_.position(), in_.end_of_line(in_.position()));
+            const std::size_t short_arrow = std::min(line.find("->"), line.find("=>"));
+            if (short_arrow != Scanner::npos) {
+                throw SyntaxError{
+                    in_.location(in_.position() + short_arrow),
+                    fmt::format("the arrow of a production is '-->', not '{}'", line.substr(short_arrow, 2))};
+            }
+            // Reads it as a production to say what keeps it from being one.
+            productions_.production();
         }
-        // Reads it as a production to say what keeps it from being one.
-        productions_.production();
-        throw SyntaxError{at,
-                          "this line is neither a production nor part of one; a line that begins with TAB continues "
-                          "the one before"};
+        mistakes_.error(at, fmt::format("expected {}, found '{}'{}",
+                                        axiom_read_ ? "a production, a section or 'endlsystem'"
+                                                    : "an item of the header or 'axiom:'",
+                                        words_of_line(), hint(keyword)));
+        in_.recover(in_.position());
+        if (keyword == "axiom") axiom_read_ = true;
+        if (keyword == "decomposition") rules_ = &system_->decomposition;
+        if (keyword == "homomorphism") rules_ = &system_->homomorphism;
+        return keyword == "endlsystem";
     }
 
-    // " (did you mean ...)" for the words this line begins with.
-    std::string nearest_keyword() {
+    static std::string hint(const std::string& keyword) {
+        return keyword.empty() ? "" : fmt::format(" (did you mean '{}'?)", keyword);
+    }
+
+    std::string words_of_line() const {
+        const std::string_view line = in_.text(in_.position(), in_.end_of_line(in_.position()));
+        std::string words(line.substr(0, std::min({line.find_first_of(":({"), line.size(), std::size_t{40}})));
+        while (!words.empty() && is_blank(words.back())) words.pop_back();
+        return words.empty() ? std::string(line.substr(0, 1)) : words;
+    }
+
+    /// The keyword this line was probably meant to begin with, or "".
+    std::string nearest_keyword() const {
         std::vector<std::string> known(header_keywords().begin(), header_keywords().end());
         known.insert(known.end(), section_keywords().begin(), section_keywords().end());
-        const std::string_view line = in_.rest().substr(0, in_.end_of_line(in_.position()) - in_.position());
-        const std::size_t end = std::min(line.find_first_of(":({"), line.size());
-        std::string words;
-        for (const char c : line.substr(0, end)) words += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        while (!words.empty() && is_blank(words.back())) words.pop_back();
-        if (const std::string whole = did_you_mean(words, known); !whole.empty() && words.size() > 2) return whole;
+        std::string words = words_of_line();
+        for (char& c : words) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        const std::string first = words.substr(0, words.find(' '));
         if (words.starts_with('#')) {
             const std::vector<std::string> directives{"#define", "#undef", "#include", "#ifdef", "#ifndef", "#endif"};
-            return did_you_mean(words.substr(0, words.find(' ')), directives);
+            return nearest_name(first, directives);
         }
-        const std::string first = words.substr(0, words.find(' '));
-        return first.size() > 2 ? did_you_mean(first, known) : "";
+        std::string nearest = words.size() > 2 ? nearest_name(words, known) : "";
+        if (nearest.empty() && first.size() > 2) nearest = nearest_name(first, known);
+        return nearest;
     }
 
     // --- sections -----------------------------------------------------------------------------------------------
@@ -260,7 +292,7 @@ private:
     bool block_item() {
         const auto accept_block = [&](const char* keyword, Block& block) {
             if (!in_.accept_keyword(keyword)) return false;
-            const Scanner::Inside inside(in_);
+            const Scanner::Inside inside(in_, Scanner::Inside::braces);
             in_.accept(":");
             block = expressions_.block();
             return true;
@@ -285,7 +317,7 @@ private:
     // define: { array name[2][3] = {...}, other[4]; external name, name; }
     void definitions() {
         {
-            const Scanner::Inside inside(in_);
+            const Scanner::Inside inside(in_, Scanner::Inside::braces);
             in_.expect("{", "after 'define:'");
             while (!in_.accept("}")) {
                 const bool external = in_.accept_keyword("external");
@@ -434,7 +466,9 @@ private:
     Model& model_;
     LSystem* system_ = nullptr;
     RuleSet* rules_ = nullptr;  // null among the productions proper
+    bool complete_;             // nothing was wrong before parsing that may have hidden a part
     bool axiom_read_ = false;
+    bool weight_reported_ = false;
     int value_depth_ = 0;
 };
 

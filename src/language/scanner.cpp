@@ -11,7 +11,8 @@ namespace espalier::language {
 void Scanner::skip() {
     while (position_ < text_.size()) {
         const char c = text_[position_];
-        if (!is_blank(c) && !(c == '\n' && (inside_ > 0 || continues(position_)))) return;
+        if (c != '\n' && !is_blank(c)) return;
+        if (c == '\n' && !(inside_ > 0 ? !ends_inside(position_) : continues(position_))) return;
         ++position_;
     }
 }
@@ -85,6 +86,7 @@ std::string Scanner::found() const {
     const std::string_view between = text(std::min(last_end_, position_), position_);
     if (at_end_of_text()) return "the end of the file";
     if (peek() == '\n' || between.find('\n') != npos) return "the end of the line";
+    if (const std::size_t length = arrow()) return fmt::format("'{}'", text(position_, position_ + length));
     std::size_t end = position_ + 1;
     if (is_name_part(peek())) {
         while (end < text_.size() && is_name_part(text_[end]) && end - position_ < 40) ++end;
@@ -112,11 +114,12 @@ bool Scanner::line_has_arrow(std::size_t position) const {
 }
 
 bool Scanner::statement_has_arrow() {
-    int braces = 0;
+    int open = 0;
     for (std::size_t i = position_; i < text_.size(); ++i) {
+        const char c = text_[i];
         if (arrow_at(i) > 0) return true;
-        braces += text_[i] == '{' ? 1 : text_[i] == '}' ? -1 : 0;
-        if (text_[i] == '\n' && braces <= 0 && !continues(i)) return false;
+        open += c == '{' || c == '(' ? 1 : c == '}' || c == ')' ? -1 : 0;
+        if (c == '\n' && (open > 0 ? ends_inside(i) : !continues(i))) return false;
     }
     return false;
 }
@@ -132,6 +135,18 @@ bool Scanner::continues(std::size_t newline) {
         decision_ = decide_continuation(newline);
     }
     return decision_;
+}
+
+bool Scanner::ends_inside(std::size_t newline) const {
+    const std::string_view line = text(newline + 1, end_of_line(newline + 1));
+    if (fits_no_block(line)) return true;
+    if (line.empty() || is_blank(line.front()) || inside_braces_ > 0) return false;
+    int open = 0;
+    for (std::size_t i = 0; i < line.size() && open >= 0; ++i) {
+        if (open == 0 && arrow_at(newline + 1 + i) > 0) return true;
+        open += line[i] == '(' ? 1 : line[i] == ')' ? -1 : 0;
+    }
+    return false;
 }
 
 // Only the first rule is the reference's; the others read what it rejects and what can mean nothing else.

@@ -15,16 +15,24 @@ class Scanner {
 public:
     explicit Scanner(const MappedText& source) : source_(source), text_(source.text()) {}
 
-    /// While one lives, newlines are blanks.
+    /// While one lives, newlines are blanks, except before a line that is plainly a statement of its own.
     class Inside {
     public:
-        explicit Inside(Scanner& scanner) : scanner_(scanner) { ++scanner_.inside_; }
-        ~Inside() { --scanner_.inside_; }
+        enum Kind { parentheses, braces };
+        explicit Inside(Scanner& scanner, Kind kind = parentheses) : scanner_(scanner), braces_(kind == braces) {
+            ++scanner_.inside_;
+            scanner_.inside_braces_ += braces_;
+        }
+        ~Inside() {
+            --scanner_.inside_;
+            scanner_.inside_braces_ -= braces_;
+        }
         Inside(const Inside&) = delete;
         Inside& operator=(const Inside&) = delete;
 
     private:
         Scanner& scanner_;
+        bool braces_;
     };
 
     std::size_t position() const { return position_; }
@@ -65,6 +73,8 @@ public:
     std::string found() const;
     [[noreturn]] void expected(std::string_view what) const;
 
+    /// Whether the line after `newline` shows that a '}' or ')' is missing.
+    bool ends_inside(std::size_t newline) const;
     /// After a mistake: goes to the end of the statement that began at `start`.
     void recover(std::size_t start);
     std::size_t end_of_line(std::size_t position) const;
@@ -90,6 +100,7 @@ private:
     std::size_t arrow_searched_ = 0;
     bool arrow_seen_ = true;
     int inside_ = 0;
+    int inside_braces_ = 0;
     std::size_t decided_newline_ = npos;
     bool decision_ = false;
     std::size_t joined_from_ = 0;  // newlines of a statement that goes on behind blank lines

@@ -83,6 +83,7 @@ public:
     void error(const SyntaxError& mistake) { error(mistake.at, mistake.message); }
     void warning(Location at, std::string message);
 
+    bool none() const { return errors_.empty(); }
     std::vector<Diagnostic> errors() const { return sorted(errors_, Diagnostic::Severity::error); }
     std::vector<Diagnostic> warnings() const { return sorted(warnings_, Diagnostic::Severity::warning); }
 

@@ -9,7 +9,7 @@
 namespace espalier::language {
 
 Block ExpressionParser::block() {
-    const Scanner::Inside inside(in_);
+    const Scanner::Inside inside(in_, Scanner::Inside::braces);
     const Deeper deeper(depth_, in_);
     const bool ends_at_arrow = std::exchange(ends_at_arrow_, false);
     in_.skip();
@@ -18,7 +18,7 @@ Block ExpressionParser::block() {
     const int loops = loops_;
     Block result;
     while (!in_.accept("}")) {
-        if (in_.at_end_of_text()) throw SyntaxError{begin, "this block is never closed: '}' is missing"};
+        if (in_.at_end()) throw SyntaxError{begin, "this block is never closed: '}' is missing"};
         const std::size_t start = in_.position();
         try {
             statement(result);
@@ -39,6 +39,7 @@ void ExpressionParser::recover_in_block() {
     for (int braces = 0; !in_.at_end_of_text(); in_.take(1)) {
         const char c = in_.peek();
         if (c == '}' && braces == 0) return;
+        if (c == '\n' && in_.ends_inside(in_.position())) return;
         braces += c == '{' ? 1 : c == '}' ? -1 : 0;
         if ((c == ';' || c == '}') && braces == 0) {
             in_.take(1);
@@ -57,25 +58,23 @@ void ExpressionParser::statement(Block& block) {
     }
     const Place place = names_.place(in_.here());
     const std::string_view word = in_.looking_at_name();
-    const auto followed_by = [&](char wanted) {
-        const std::size_t after = in_.rest().find_first_not_of(" \t\n", word.size());
-        return after != std::string_view::npos && in_.rest()[after] == wanted;
-    };
+    // A variable of an old model may have the name of a keyword.
+    const bool assigned = sign_after_name().length > 0;
     Statement result;
-    if (word == "if" && followed_by('(')) {
+    if (word == "if" && !assigned) {
         result = branch();
-    } else if (word == "while" && followed_by('(')) {
+    } else if (word == "while" && !assigned) {
         result = loop(Statement::Kind::while_loop);
-    } else if (word == "for" && followed_by('(')) {
+    } else if (word == "for" && !assigned) {
         result = for_loop();
-    } else if (word == "do" && followed_by('{')) {
+    } else if (word == "do" && !assigned) {
         result = do_loop();
-    } else if (word == "break" && (followed_by(';') || followed_by('}'))) {
+    } else if (word == "break" && !assigned) {
         if (loops_ == 0) mistakes_.error(in_.here(), "'break' stands outside any loop");
         in_.take(word.size());
         end_of_statement();
         result.kind = Statement::Kind::break_loop;
-    } else if (word == "else") {
+    } else if (word == "else" && !assigned) {
         throw SyntaxError{in_.here(), "'else' without 'if'"};
     } else {
         result.expressions.push_back(step_or_expression());
@@ -132,7 +131,8 @@ Statement ExpressionParser::do_loop() {
     ++loops_;
     result.bodies.push_back(block());
     --loops_;
-    if (in_.accept_name() != "while") in_.expected("'while' after the block of 'do'");
+    if (in_.looking_at_name() != "while") in_.expected("'while' after the block of 'do'");
+    in_.accept_name();
     result.expressions.push_back(parenthesised("while"));
     end_of_statement();
     return result;

@@ -1,0 +1,73 @@
+#include "catch.h"
+#include "reading.h"
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+std::string warnings(const std::string& text, const std::vector<std::string>& turtle_symbols = {}) {
+    std::string result;
+    for (const Diagnostic& warning : review(*read(text), turtle_symbols)) {
+        CHECK(warning.severity == Diagnostic::Severity::warning);
+        if (!result.empty()) result += "\n";
+        if (warning.place.known()) result += std::to_string(warning.place.line) + ": ";
+        result += warning.message;
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("a sound model is not warned about", "[language]") {
+    CHECK(warnings("environment light;\n" + lsystem("consider: A F[]\n", "A(1)?light(1)",
+                                                    "A(x) ?light(l) > [F=] : x > 1 --> F[+A(x)?light(1)]@o\n"
+                                                    "A(x) --> A(x+1)F\n?light(l) --> ?light(1)\n"),
+                   {"F", "+", "@o"}) == "");
+}
+
+TEST_CASE("productions that can never apply are named with the reason", "[language]") {
+    CHECK(warnings(lsystem("", "A(1)", "A --> B\n")) ==
+          "3: this production can never apply: nobody produces 'A' (only with 1 parameter)");
+    CHECK(warnings(lsystem("", "AB", "B < A > X --> B\n")) ==
+          "3: this production can never apply: nobody produces 'X'");
+    CHECK(warnings(lsystem("", "A", "A --> AA\nA : Q > 1 --> A\n")) ==
+          "4: this production can never apply: the one in model.l:3:1 takes all its modules");
+    CHECK(warnings(lsystem("", "A", "A : 2 > 3 --> A\n")) ==
+          "3: this production can never apply: its condition is always 0");
+}
+
+TEST_CASE("in a stochastic L-system a second production is another choice", "[language]") {
+    CHECK(warnings(lsystem("seed: 1\n", "A", "A --> AA : 1\nA --> A : 2\n")) == "");
+    CHECK(warnings(lsystem("seed: 1\n", "A", "A --> AA : 0\nA --> A : 0\n")) ==
+          "4: all productions of 'A' have weight 0");
+}
+
+TEST_CASE("unmatched brackets of a successor are a warning", "[language]") {
+    CHECK(warnings(lsystem("", "A", "A --> [A\n")) == "3: this branch is not closed in this successor: ']' is missing");
+    CHECK(warnings(lsystem("", "A", "A --> A]\n")) == "3: this ']' closes no branch of this successor");
+}
+
+TEST_CASE("consider without brackets flattens right contexts", "[language]") {
+    CHECK(warnings(lsystem("consider: AB\n", "A[B]", "A > B --> B\n")).find("does not name the brackets") !=
+          std::string::npos);
+    CHECK(warnings(lsystem("consider: AB\n", "A[B]", "A < B --> B\n")) == "");
+}
+
+TEST_CASE("a picture that contains itself is found at more than one level", "[language]") {
+    const std::string rules = "A --> A\nhomomorphism\nmaximum depth: 5\nA --> FB\nB --> A\n";
+    CHECK(warnings(lsystem("", "A", rules)).find("the picture of 'A' contains itself") != std::string::npos);
+    CHECK(warnings(lsystem("", "A", "A --> A\nhomomorphism\nA --> FA\n")) == "");
+}
+
+TEST_CASE("questions that nobody answers are named", "[language]") {
+    CHECK(warnings("environment light, water;\n" + lsystem("", "A?light(1)?watr(2)", "A --> A\n")) ==
+          "'environment water;' is declared, but no module '?water' asks it\n"
+          "3: nobody answers '?watr': declare 'environment watr;' (did you mean 'water'?)");
+    CHECK(warnings(lsystem("", "A?P(0,0,0)?E(1)", "A --> A\n")) == "");
+}
+
+TEST_CASE("modules of which neither a production nor the turtle takes notice are named once", "[language]") {
+    CHECK(warnings(lsystem("", "A", "A --> F[+X]@oX~l\n"), {"F", "+", "@o"}) ==
+          "3: nobody takes notice of 'X': no production names it, the turtle does not know it");
+}
