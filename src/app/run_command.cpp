@@ -21,8 +21,11 @@ namespace fs = std::filesystem;
 std::atomic<bool> interrupt{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
+std::atomic<bool> silent{false};
+
 void request_interrupt(int) {
     interrupt = true;
+    if (silent) return;
     static const char message[] = "\nfinishing this step (once more to stop at once)\n";
     [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, sizeof message - 1);
 }
@@ -73,6 +76,7 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
+    silent = arguments.quiet;
     listen_for_interrupts();
     std::optional<tbb::global_control> threads;
     if (arguments.threads > 0) {

@@ -15,33 +15,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const shaded_bush = R"(environment light;
+// Shoots ask for light; roots ask whether they are in the pot and how much water they get.
+const char* const bush = R"(environment light, water, pot;
 lsystem: 1
 seed: 3
 derivation length: 6
-axiom: ?light(1)A
+axiom: [?light(1)A][|?pot(0)?water(0.2,1,1,0)R]
 ?light(q) < A : q > 0 --> F(0.5)[+(35)/(90)?light(1)A]?light(1)A : 2
 ?light(q) < A : q > 0 --> F(0.7)/(137)?light(1)A : 1
 ?light(q) --> ?light(1)
+?pot(inside) ?water(w,x,y,z) < R : inside && w > 0 --> F(0.2)[+(30)?pot(0)?water(0.2,1,1,0)R]\(60)?pot(0)?water(0.2,1,1,0)R
 endlsystem
 )";
 
 const char* const two_bushes = R"(
 [simulation]
 seed = 5
+domain = { lower = [-2, -2, -2], upper = [3, 4, 2] }
 [[plant]]
 model = 'bush.l'
 positions = [[0, 0, 0], [1, 0, 0]]
 [environment.light]
 process = 'voxel-shade'
 voxel = 0.25
+[environment.pot]
+process = 'shape'
+shape = 'sphere'
+center = [0.5, 0, 0]
+radius = 1.5
+voxel = 0.1
+[environment.water]
+process = 'soil-water'
+voxel = 0.25
+initial = 0.5
+diffusion = 0.01
 [timeline]
-fields = ['light']
+fields = ['light', 'water']
 )";
 
 class Runs {
 public:
-    Runs() { folder_.write("bush.l", shaded_bush); }
+    Runs() { folder_.write("bush.l", bush); }
 
     Scene scene(const std::string& text = two_bushes) const {
         return read_scene_text(text, "scene.toml", folder_.path());
@@ -86,7 +100,7 @@ TEST_CASE_METHOD(Runs, "one thread and two write the same bytes", "[simulation]"
         CHECK(one.erase(timed) == 1);
         CHECK(two.erase(timed) == 1);
     }
-    CHECK(one.size() > 20);
+    CHECK(one.size() > 30);
     REQUIRE(one.size() == two.size());
     for (const auto& [name, bytes] : one) {
         INFO(name);
