@@ -47,13 +47,17 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
     }
     split_cut(cut_from, input.from.size());
 
-    const auto arities = input.model.source->alphabet.arities();
-    const LetterId* letters = input.from.letters.data();
+    const std::uint16_t* const arities = input.model.source->alphabet.arities().data();
+    const std::uint32_t* const lengths = input.model.plans.lengths.data();
+    const std::uint32_t* const counts = input.model.plans.parameters.data();
+    const LetterId* const letters = input.from.letters.data();
     tbb::parallel_for(std::size_t{0}, scratch.chunks.size(), [&](std::size_t k) {
         Chunk& chunk = scratch.chunks[k];
-        std::size_t parameters = 0;
-        for (std::size_t i = chunk.begin; i < chunk.end; ++i) parameters += arities[letters[i]];
-        chunk.parameters_at = parameters;
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+            chunk.parameters_at += arities[letters[i]];
+            chunk.out_end += lengths[letters[i]];
+            chunk.out_parameters_end += counts[letters[i]];
+        }
     });
     std::size_t at = 0;
     for (Chunk& chunk : scratch.chunks) at += std::exchange(chunk.parameters_at, at);
@@ -61,8 +65,10 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
         throw RunError(
             fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(), at));
     }
-    for (std::size_t k = cut.size(); k-- > 0;) {
-        scratch.chunks[cut[k]].end = scratch.chunks[cut[k]].begin;
+    for (const std::size_t k : cut) {
+        Chunk& chunk = scratch.chunks[k];
+        chunk.end = chunk.begin;
+        chunk.out_end = chunk.out_parameters_end = 0;
     }
 }
 

@@ -61,7 +61,8 @@ private:
     std::uint64_t origin_;
 };
 
-/// Splits what is kept into chunks and finds where their parameters begin.
+/// Splits what is kept into chunks, finds where their parameters begin, and adds up the lengths of letters' plans:
+/// the measure of the new string where every letter's plan is known.
 /// Throws RunError if the string has not as many parameters as its letters say.
 void make_chunks(const StepInput& input, Scratch& scratch);
 

@@ -22,7 +22,6 @@ public:
     void write(Chunk& chunk, Machine& machine) const;
 
 private:
-    void measure_known(Chunk& chunk) const;
     Site site(std::size_t module, const double* values) const;
     /// The plan of a module for which measuring chose a production.
     const Plan& chosen_plan(std::size_t module) const;
@@ -51,21 +50,7 @@ const Plan& TwoPasses::chosen_plan(std::size_t module) const {
     return plans_.productions[model_.rules.candidates[model_.rules.first[letter] + choice]];
 }
 
-void TwoPasses::measure_known(Chunk& chunk) const {
-    const std::uint32_t* const lengths = plans_.lengths.data();
-    const std::uint32_t* const counts = plans_.parameters.data();
-    const LetterId* const letters = input_.from.letters.data();
-    std::size_t modules = 0, parameters = 0;
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-        modules += lengths[letters[i]];
-        parameters += counts[letters[i]];
-    }
-    chunk.out_end = modules;
-    chunk.out_parameters_end = parameters;
-}
-
 void TwoPasses::measure(Chunk& chunk, Machine& machine) const {
-    if (plans_.all_known) return measure_known(chunk);
     Matcher matcher(model_, input_.view, machine);
     matcher.set_draws(input_.key, input_.step);
     const double* values = input_.from.parameters.data() + chunk.parameters_at;
@@ -244,9 +229,12 @@ void TwoPasses::write(Chunk& chunk, Machine& machine) const {
 
 void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
     make_chunks(input, scratch);
-    if (!input.model.plans.all_known) scratch.choices.resize(input.from.size());
     TwoPasses passes(input, scratch);
-    for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) { passes.measure(chunk, machine); });
+    if (!input.model.plans.all_known) {
+        scratch.choices.resize(input.from.size());
+        for_each_chunk(scratch.chunks, machines,
+                       [&](Chunk& chunk, Machine& machine) { passes.measure(chunk, machine); });
+    }
     passes.place(to);
     for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) { passes.write(chunk, machine); });
 }
