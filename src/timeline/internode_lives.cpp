@@ -6,44 +6,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace espalier {
 
 namespace {
 
 constexpr std::uint32_t vacant = 0xFFFFFFFF;
+constexpr std::size_t look_ahead = 64;
 
 }  // namespace
 
+bool InternodeLives::is(std::uint32_t life, Identity identity, std::uint32_t part) const {
+    return lives_[life].identity == identity && lives_[life].part == part;
+}
+
 std::size_t InternodeLives::slot_of(Identity identity, std::uint32_t part) const {
     const std::size_t mask = index_.size() - 1;
-    for (std::size_t slot = mix(identity + part) & mask;; slot = (slot + 1) & mask) {
-        if (index_[slot] == vacant) return slot;
-        const InternodeLife& life = lives_[index_[slot]];
-        if (life.identity == identity && life.part == part) return slot;
+    std::size_t slot = mix(identity + part) & mask;
+    while (index_[slot] != vacant && !is(index_[slot], identity, part)) slot = (slot + 1) & mask;
+    return slot;
+}
+
+void InternodeLives::complete_index() {
+    if (2 * (lives_.size() + 1) > index_.size()) {
+        index_.assign(std::bit_ceil(4 * (lives_.size() + 1)), vacant);
+        indexed_ = 0;
+    }
+    for (; indexed_ < lives_.size(); ++indexed_) {
+        index_[slot_of(lives_[indexed_].identity, lives_[indexed_].part)] = indexed_;
     }
 }
 
-void InternodeLives::enlarge_index() {
-    index_.assign(std::max<std::size_t>(64, 2 * index_.size()), vacant);
-    for (std::uint32_t i = 0; i < lives_.size(); ++i) index_[slot_of(lives_[i].identity, lives_[i].part)] = i;
+std::uint32_t InternodeLives::begin_life(Identity identity, std::uint32_t part) {
+    lives_.push_back({});
+    lives_.back().identity = identity;
+    lives_.back().part = part;
+    return static_cast<std::uint32_t>(lives_.size() - 1);
 }
 
-// Modules keep their order in the string from step to step, so most internodes are found where the last one's
-// neighbour stood; only the others are looked up.
+// Modules keep their order in the string from step to step, so an internode is found a little ahead of its neighbour,
+// behind what died between them. Only what was not drawn for a while has to be looked up.
 std::uint32_t InternodeLives::life_of(Identity identity, std::uint32_t part, std::size_t& expected) {
-    if (expected < living_.size()) {
-        const InternodeLife& life = lives_[living_[expected]];
-        if (life.identity == identity && life.part == part) return living_[expected++];
+    const std::size_t end = std::min(living_.size(), expected + look_ahead);
+    for (std::size_t i = expected; i < end; ++i) {
+        if (!is(living_[i], identity, part)) continue;
+        expected = i + 1;
+        return living_[i];
     }
-    if (2 * (lives_.size() + 1) > index_.size()) enlarge_index();
-    std::uint32_t& found = index_[slot_of(identity, part)];
-    if (found == vacant) {
-        found = static_cast<std::uint32_t>(lives_.size());
-        lives_.push_back({});
-    } else {
-        expected = std::size_t{lives_[found].place} + 1;
-    }
+    complete_index();
+    const std::uint32_t found = index_[slot_of(identity, part)];
+    if (found == vacant) return begin_life(identity, part);
+    expected = std::size_t{lives_[found].place} + 1;
     return found;
 }
 
@@ -61,8 +75,10 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
         const Internode& internode = internodes[i];
         const std::uint32_t module = internode.module;
         part = i > 0 && internodes[i - 1].module == module ? part + 1 : 0;
-        const std::uint32_t at = life_of(string.identities[module], part, expected);
-        lives_[at] = {string.identities[module],
+        const Identity identity = string.identities[module];
+        const bool is_new = static_cast<std::int64_t>(string.births[module]) > previous_step_;
+        const std::uint32_t at = is_new ? begin_life(identity, part) : life_of(identity, part, expected);
+        lives_[at] = {identity,
                       string.parents[module],
                       part,
                       static_cast<std::int32_t>(string.births[module]),
@@ -82,6 +98,7 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
         if (!lives_[life].alive) lives_[life].death = step;
     }
     living_.swap(next_living_);
+    previous_step_ = step;
 }
 
 }  // namespace espalier

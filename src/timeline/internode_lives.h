@@ -30,13 +30,17 @@ public:
     const std::vector<InternodeLife>& all() const { return lives_; }
 
 private:
-    /// The life of an internode, made if it is new. `expected` is where it likely stands in `living_`, and moves on.
+    std::uint32_t begin_life(Identity identity, std::uint32_t part);
+    /// The life of an internode older than a step. `expected` is where it likely stands in `living_`, and moves on.
     std::uint32_t life_of(Identity identity, std::uint32_t part, std::size_t& expected);
+    bool is(std::uint32_t life, Identity identity, std::uint32_t part) const;
     std::size_t slot_of(Identity identity, std::uint32_t part) const;
-    void enlarge_index();
+    void complete_index();
 
     std::vector<InternodeLife> lives_;
-    std::vector<std::uint32_t> index_;   ///< open addressing: number of a life, or `vacant`
+    std::vector<std::uint32_t> index_;  ///< open addressing: number of a life, or `vacant`
+    std::uint32_t indexed_ = 0;         ///< how many lives are in it; completed when something must be looked up
+    int previous_step_ = -1;
     std::vector<std::uint32_t> living_;  ///< the lives seen one step ago, in string order
     std::vector<std::uint32_t> next_living_;
 };

@@ -99,6 +99,35 @@ TEST_CASE("a module that draws several internodes has as many lifespans", "[time
     CHECK(read_vtp(folder.path / "lifespans.vtp")->GetNumberOfCells() == 2);
 }
 
+TEST_CASE("lifespans agree with a count by hand, whatever dies, hides and returns", "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table("skeleton = false"), 19);
+    constexpr int count = 400, steps = 20;
+    // Internode i is born at step i % 7; some die early, some are not drawn at every step.
+    const auto birth = [](int i) { return i % 7; };
+    const auto is_drawn = [&](int i, int step) {
+        const bool dead = i % 3 == 0 && step >= 8 + i % 5;
+        const bool hidden = i % 4 == 1 && step % 3 == 0;
+        return step >= birth(i) && !dead && !hidden;
+    };
+    for (int step = 0; step < steps; ++step) {
+        HandmadePlant plant;
+        for (int i = 0; i < count; ++i) {
+            if (!is_drawn(i, step)) continue;
+            plant.add_internode(Identity(i + 1), 0, std::uint32_t(birth(i)), 0, 0, {0, i, 0}, {0, i + 1, 0}, 1);
+        }
+        record(timeline, step, {&plant});
+    }
+    timeline.finish();
+    const auto rows = lifespans(folder.path / "lifespans.vtp");
+    REQUIRE(rows.size() == count);
+    for (int i = 0; i < count; ++i) {
+        int last = steps - 1;
+        while (!is_drawn(i, last)) --last;
+        CHECK(rows.at(i + 1) == std::vector<double>{0, double(birth(i)), double(last + 1), double(last == steps - 1)});
+    }
+}
+
 TEST_CASE("a run without any internode leaves lifespans that open", "[timeline]") {
     const RunFolder folder;
     Timeline timeline(folder.path, timeline_table(), 0);
