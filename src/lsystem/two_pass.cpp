@@ -165,7 +165,7 @@ inline bool write_lanes(const Plan& plan, const double* values, double* out) {
 /// too much.
 inline void write_letters(const Plan& plan, LetterId* out, const LetterId* out_end) {
     if (out_end - out < static_cast<std::ptrdiff_t>(letter_block)) {
-        std::memcpy(out, plan.block.data(), plan.length * sizeof(LetterId));
+        std::copy_n(plan.block.data(), plan.length, out);
         return;
     }
     std::memcpy(out, plan.block.data(), sizeof plan.block);
