@@ -2,7 +2,7 @@
 
 #include "espalier/base/text.h"
 
-#include "language/constant.h"
+#include "language/declaration_parser.h"
 #include "language/expression_parser.h"
 #include "language/keywords.h"
 #include "language/names.h"
@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -28,6 +27,7 @@ public:
           mistakes_(mistakes),
           expressions_(in_, names_, mistakes),
           productions_(in_, names_, mistakes, symbols_, expressions_),
+          declarations_(in_, names_, mistakes, symbols_, expressions_, model),
           model_(model),
           complete_(mistakes.none()) {
         productions_.set_alphabet(model.alphabet);
@@ -66,13 +66,8 @@ private:
         }
     }
 
-    void end_of_statement(std::string_view what) {
-        in_.accept(";");
-        if (!in_.at_end()) in_.expected(fmt::format("the end of the line after {}", what));
-    }
-
     void outside() {
-        if (declaration()) return;
+        if (declarations_.declaration()) return;
         if (!accept_lsystem()) {
             const std::string keyword = nearest_keyword();
             mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
@@ -125,10 +120,10 @@ private:
                 return true;
             }
             if (in_.accept_keyword("endlsystem")) {
-                end_of_statement("'endlsystem'");
+                in_.end_statement("'endlsystem'");
                 return true;
             }
-            if (section_line() || header_item() || declaration()) return false;
+            if (section_line() || header_item() || declarations_.declaration()) return false;
         }
         if (!in_.statement_has_arrow()) return not_a_line();
         production();
@@ -230,10 +225,10 @@ private:
             rules_->seed = value_of("seed");
         } else if (in_.accept_keyword("no warnings")) {
             rules_->warnings = false;
-            end_of_statement("'no warnings'");
+            in_.end_statement("'no warnings'");
         } else if (in_.accept_keyword("warnings")) {
             rules_->warnings = true;
-            end_of_statement("'warnings'");
+            in_.end_statement("'warnings'");
         } else {
             return false;
         }
@@ -248,14 +243,14 @@ private:
         // "warnings" and "no warnings" may stand on the keyword's own line.
         if (in_.accept_keyword("no warnings")) rules.warnings = false;
         in_.accept_keyword("warnings");
-        end_of_statement(fmt::format("'{}'", name));
+        in_.end_statement(fmt::format("'{}'", name));
         return true;
     }
 
     Expression value_of(std::string_view item) {
         in_.expect(":", fmt::format("after '{}'", item));
         Expression value = expressions_.expression();
-        end_of_statement(fmt::format("the value of '{}'", item));
+        in_.end_statement(fmt::format("the value of '{}'", item));
         return value;
     }
 
@@ -271,7 +266,7 @@ private:
         } else if (in_.accept_keyword("ring")) {
             system_->ring = true;
             accept_lsystem();
-            end_of_statement("'ring lsystem'");
+            in_.end_statement("'ring lsystem'");
         } else if (in_.accept_keyword("seed")) {
             system_->seed = value_of("seed");
         } else if (in_.accept_keyword("derivation length")) {
@@ -282,7 +277,7 @@ private:
             filter(LSystem::Filter::consider, "consider");
         } else if (in_.accept_keyword("define")) {
             in_.accept(":");
-            definitions();
+            declarations_.definitions();
         } else {
             return block_item();
         }
@@ -299,7 +294,7 @@ private:
         };
         const bool found = accept_block("start each", system_->start_each) || accept_block("start", system_->start) ||
                            accept_block("end each", system_->end_each) || accept_block("end", system_->end);
-        if (found) end_of_statement("the block");
+        if (found) in_.end_statement("the block");
         return found;
     }
 
@@ -314,162 +309,19 @@ private:
         system_->filtered.insert(system_->filtered.end(), symbols.begin(), symbols.end());
     }
 
-    // define: { array name[2][3] = {...}, other[4]; external name, name; }
-    void definitions() {
-        {
-            const Scanner::Inside inside(in_, Scanner::Inside::braces);
-            in_.expect("{", "after 'define:'");
-            while (!in_.accept("}")) {
-                const bool external = in_.accept_keyword("external");
-                const bool array = in_.accept_keyword("array");
-                if (!external && !array) in_.expected("'array' or 'external' in 'define'");
-                do {
-                    definition(external, array);
-                } while (in_.accept(","));
-                if (!in_.accept(";") && !in_.looking_at("}")) in_.expected("';' after the declaration");
-            }
-        }
-        end_of_statement("'define'");
-    }
-
-    void definition(bool external, bool array) {
-        in_.skip();
-        const Location at = in_.here();
-        const std::string name(in_.accept_name());
-        if (name.empty()) in_.expected("the name of a variable or an array");
-        if (!array && !in_.looking_at("[")) {
-            names_.add_external(name);
-            return;
-        }
-        if (names_.array(name)) mistakes_.error(at, fmt::format("array '{}' is declared a second time", name));
-        ArrayDeclaration declared;
-        declared.name = name;
-        declared.external = external;
-        declared.place = names_.place(at);
-        while (in_.accept("[")) {
-            declared.dimensions.push_back(expressions_.expression());
-            if (in_.looking_at(",")) throw SyntaxError{in_.here(), "each dimension has its own brackets: a[2][3]"};
-            in_.expect("]", "after the size of the array");
-        }
-        if (declared.dimensions.empty()) in_.expected(fmt::format("the size of array '{0}': {0}[size]", name));
-        if (in_.accept("=")) values(declared.values);
-        check_size(declared, at);
-        system_->arrays.push_back(std::move(declared));
-    }
-
-    // { 1, 2, 3 }, row by row in braces of their own or not.
-    void values(std::vector<Expression>& into) {
-        in_.expect("{", "before the values of the array");
-        if (++value_depth_ > 50) throw SyntaxError{in_.here(), "the values are nested more than 50 deep"};
-        if (!in_.accept("}")) {
-            do {
-                if (in_.looking_at("{")) {
-                    values(into);
-                } else {
-                    into.push_back(expressions_.expression());
-                }
-            } while (in_.accept(","));
-            in_.expect("}", "after the values of the array");
-        }
-        --value_depth_;
-    }
-
-    void check_size(const ArrayDeclaration& array, Location at) {
-        double elements = 1;
-        for (const Expression& dimension : array.dimensions) {
-            const std::optional<double> size = constant_value(dimension);
-            if (!size) return;
-            if (*size < 1) {
-                mistakes_.error(at, fmt::format("array '{}' has a dimension of size {}", array.name, *size));
-                return;
-            }
-            elements *= std::floor(*size);
-        }
-        if (static_cast<double>(array.values.size()) > elements) {
-            mistakes_.error(
-                at, fmt::format("array '{}' has {} elements but {} values", array.name, elements, array.values.size()));
-        }
-    }
-
-    // --- declarations -------------------------------------------------------------------------------------------
-
-    bool declaration() {
-        if (in_.accept_keyword("module")) {
-            do module_declaration();
-            while (in_.accept(","));
-            end_of_statement("the declaration");
-        } else if (in_.accept_keyword("environment")) {
-            do process_declaration();
-            while (in_.accept(","));
-            end_of_statement("the declaration");
-        } else if (in_.accept_keyword("const")) {
-            constant_declaration();
-        } else {
-            return false;
-        }
-        return true;
-    }
-
-    void module_declaration() {
-        in_.skip();
-        ModuleDeclaration declared;
-        declared.name = in_.accept_name();
-        if (declared.name.empty()) in_.expected("the name of a module");
-        if (in_.accept("(") && !in_.accept(")")) {
-            const Scanner::Inside inside(in_);
-            do {
-                declared.parameters.emplace_back(in_.accept_name());
-                if (declared.parameters.back().empty()) in_.expected("the name of a parameter");
-            } while (in_.accept(","));
-            in_.expect(")", fmt::format("after the parameters of '{}'", declared.name));
-        }
-        symbols_.declare(declared.name);
-        symbols_.declare_arity(declared.name, declared.parameters.size());
-        model_.modules.push_back(std::move(declared));
-    }
-
-    void process_declaration() {
-        in_.skip();
-        const Location at = in_.here();
-        const std::string name(in_.accept_name());
-        if (name.empty()) in_.expected("the name of a process of the environment");
-        if (name.size() == 1 && std::string_view("EPHLUQ").find(name) != std::string_view::npos) {
-            throw SyntaxError{at, fmt::format("'?{}' has a meaning of its own; give the process a longer name", name)};
-        }
-        symbols_.declare("?" + name);
-        if (std::find(model_.processes.begin(), model_.processes.end(), name) == model_.processes.end()) {
-            model_.processes.push_back(name);
-        }
-    }
-
-    void constant_declaration() {
-        in_.skip();
-        const Location at = in_.here();
-        const std::string name(in_.accept_name());
-        if (name.empty()) in_.expected("the name of a constant");
-        in_.expect("=", fmt::format("after 'const {}'", name));
-        names_.set_constants_only(true);
-        const Expression expression = expressions_.expression();
-        names_.set_constants_only(false);
-        const std::optional<double> value = constant_value(expression);
-        if (!value) throw SyntaxError{at, fmt::format("the constant '{}' has no value that is known now", name)};
-        names_.define_constant(name, *value, at);
-        end_of_statement("the constant");
-    }
-
     Scanner in_;
     Names names_;
     Mistakes& mistakes_;
     Symbols symbols_;
     ExpressionParser expressions_;
     ProductionParser productions_;
+    DeclarationParser declarations_;
     Model& model_;
     LSystem* system_ = nullptr;
     RuleSet* rules_ = nullptr;  // null among the productions proper
     bool complete_;             // nothing was wrong before parsing that may have hidden a part
     bool axiom_read_ = false;
     bool weight_reported_ = false;
-    int value_depth_ = 0;
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ public:
     void set_constants_only(bool only) { constants_only_ = only; }
     void define_constant(std::string_view name, double value, Location at);
     void add_external(std::string_view name);
+    void add_array(ArrayDeclaration array) { system_->arrays.push_back(std::move(array)); }
 
     Expression read(std::string_view name, Location at);
     /// A variable to be assigned. Reports names that cannot be.

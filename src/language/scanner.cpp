@@ -42,6 +42,11 @@ void Scanner::expect(std::string_view token, std::string_view where) {
     if (!accept(token)) expected(fmt::format("'{}' {}", token, where));
 }
 
+void Scanner::end_statement(std::string_view what) {
+    accept(";");
+    if (!at_end()) expected(fmt::format("the end of the line after {}", what));
+}
+
 std::string_view Scanner::looking_at_name() {
     skip();
     if (!is_name_start(peek())) return {};

@@ -58,6 +58,8 @@ public:
     bool accept(std::string_view token);
     /// Throws SyntaxError: "expected 'token' <where>".
     void expect(std::string_view token, std::string_view where);
+    /// Throws SyntaxError unless the statement ends here; a ';' before the end is allowed.
+    void end_statement(std::string_view what);
     /// The name that stands here, or "".
     std::string_view looking_at_name();
     std::string_view accept_name();

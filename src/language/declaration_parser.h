@@ -1,0 +1,43 @@
+// Reads what a model declares: arrays and external variables, modules with names, processes, constants.
+#pragma once
+
+#include "espalier/lsystem/lsystem.h"
+
+#include "language/expression_parser.h"
+#include "language/names.h"
+#include "language/scanner.h"
+#include "language/symbols.h"
+
+#include <vector>
+
+namespace espalier::language {
+
+class DeclarationParser {
+public:
+    DeclarationParser(Scanner& in, Names& names, Mistakes& mistakes, Symbols& symbols, ExpressionParser& expressions,
+                      Model& model)
+        : in_(in), names_(names), mistakes_(mistakes), symbols_(symbols), expressions_(expressions), model_(model) {}
+
+    /// `module ...;`, `environment ...;` or `const ...;`; false if none of them stands here.
+    bool declaration();
+    /// The braces after `define:`.
+    void definitions();
+
+private:
+    void definition(bool external, bool array);
+    void values(std::vector<Expression>& into);
+    void check_size(const ArrayDeclaration& array, Location at);
+    void module_declaration();
+    void process_declaration();
+    void constant_declaration();
+
+    Scanner& in_;
+    Names& names_;
+    Mistakes& mistakes_;
+    Symbols& symbols_;
+    ExpressionParser& expressions_;
+    Model& model_;
+    int value_depth_ = 0;
+};
+
+}  // namespace espalier::language
