@@ -1,7 +1,7 @@
 // The real program, run from outside: its exit code, its words, and signals sent to it.
 #pragma once
 
-#include "simulation/temporary_folder.h"
+#include "temporary_folder.h"
 
 #include <chrono>
 #include <csignal>

@@ -4,7 +4,7 @@
 
 #include "catch.h"
 #include "timeline/frames.h"
-#include "timeline/small_disk.h"
+#include "small_disk.h"
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>

@@ -6,7 +6,7 @@
 #include "catch.h"
 #include "timeline/collections.h"
 #include "timeline/frames.h"
-#include "timeline/small_disk.h"
+#include "small_disk.h"
 
 #include <cstdlib>
 #include <set>
