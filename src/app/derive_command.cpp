@@ -45,12 +45,13 @@ ModuleString derive(const CompiledModel& compiled, Derivation derivation, bool b
     TurtleAnswers answers(source_of(compiled));
     ModuleString string, next;
     derivation.start(string);
-    const int steps = derivation.length();
-    if (steps > 0 || !before_exchange) answers.exchange(string, derivation);
-    while (derivation.steps_done() < steps && !derivation.stopped()) {
+    // Asked anew after every step: a model may stop, or change its length.
+    const auto done = [&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); };
+    if (!done() || !before_exchange) answers.exchange(string, derivation);
+    while (!done()) {
         derivation.step(string, next);
         std::swap(string, next);
-        if (derivation.steps_done() < steps || !before_exchange) answers.exchange(string, derivation);
+        if (!done() || !before_exchange) answers.exchange(string, derivation);
     }
     return string;
 }

@@ -152,19 +152,34 @@ void add_list(CLI::App& program, CommandLine& line) {
         "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene");
 }
 
-// CLI11 says what it did not expect; the nearest option is offered as for every other name.
+// What CLI11 could make nothing of, options first; "" if it made something of everything.
+std::string unexpected(const CLI::App& program) {
+    const std::vector<std::string> rest = program.remaining(true);
+    const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with('-'); });
+    if (option != rest.end()) return *option;
+    return rest.empty() ? "" : rest.front();
+}
+
+// CLI11 says that something is wrong; what it is is named, and the nearest name offered as everywhere.
 std::string explain(const CLI::App& program, const CLI::ParseError& error) {
-    std::vector<std::string> names;
     const CLI::App* command = &program;
     for (const CLI::App* subcommand : program.get_subcommands()) command = subcommand;
-    for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
-    for (const CLI::App* subcommand : command->get_subcommands({})) names.push_back(subcommand->get_name());
-    std::string hint;
-    for (const std::string& rest : program.remaining(true)) {
-        if (hint.empty()) hint = did_you_mean(rest, names);
-    }
     const std::string name = command == &program ? "espalier" : "espalier " + command->get_name();
-    return fmt::format("{}{}\n`{} --help` explains the options", error.what(), hint, name);
+    std::vector<std::string> options, commands;
+    for (const CLI::Option* option : command->get_options()) options.push_back(option->get_name());
+    for (const CLI::App* subcommand : command->get_subcommands({})) commands.push_back(subcommand->get_name());
+
+    const std::string word = unexpected(program);
+    std::string message = error.what();
+    if (word.starts_with('-')) {
+        message = fmt::format("{} has no option '{}'{}", name, word, did_you_mean(word, options));
+    } else if (!word.empty() && command == &program) {
+        message = fmt::format("'{}' is none of the commands {}{}", word, fmt::join(commands, ", "),
+                              did_you_mean(word, commands));
+    } else if (!word.empty()) {
+        message = fmt::format("{} does not expect '{}'", name, word);
+    }
+    return fmt::format("{}\n`{} --help` explains the options", message, name);
 }
 
 int dispatch(const CLI::App& program, CommandLine& line) {

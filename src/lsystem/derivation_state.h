@@ -46,7 +46,6 @@ struct Derivation::State {
     RandomDraws block_draws{RandomKey(), 0, 0};
     std::uint32_t step = 0;
     int length = 0;
-    bool length_set = false;
     Scratch scratch;
     Machines machines;
     mutable tbb::enumerable_thread_specific<std::unique_ptr<Painter>> painters;

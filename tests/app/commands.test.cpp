@@ -99,6 +99,15 @@ TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, or leaves the 
     CHECK(run("derive ask.l").out == "F(1)F(1)?E(5)\n");
 }
 
+TEST_CASE_METHOD(Workplace, "derive goes on as long as the model says, and no longer than it wants", "[app]") {
+    const std::string steps = "lsystem: 1\nderivation length: 3\nEndEach: {if (Q == 2) {";
+    const std::string rest = "}}\naxiom: A(0)\nA(n) --> A(n + 1)\nendlsystem\n";
+    write("longer.l", steps + "SetDerivationLength(5);" + rest);
+    write("stopping.l", steps + "stop(1);" + rest);
+    CHECK(run("derive longer.l").out == "A(5)\n");
+    CHECK(run("derive stopping.l").out == "A(2)\n");
+}
+
 TEST_CASE_METHOD(Workplace, "check says what was read and warns of what looks wrong", "[app]") {
     write("bush.l", models::bush);
     const Outcome outcome = run("check bush.l");
