@@ -97,6 +97,14 @@ TEST_CASE("a mistake in TOML shows the line it stands in", "[base]") {
     CHECK(message.find("b = = 2") != std::string::npos);
 }
 
+TEST_CASE("a list of points has three numbers each", "[base]") {
+    const Settings root =
+        Settings::parse_toml("p = [[1, 2, 3], [4.5, 5, 6]]\nq = [[1, 2, 3], [4, 5]]\nr = [1, 2, 3]", "s.toml");
+    CHECK(root.vectors("p") == std::vector<glm::dvec3>{{1, 2, 3}, {4.5, 5, 6}});
+    CHECK_THROWS_AS(root.vectors("q"), UserError);
+    CHECK_THROWS_AS(root.vectors("r"), UserError);
+}
+
 TEST_CASE("paths are relative to the file that says them", "[base]") {
     const Settings root = Settings::parse_toml("model = '../m/a.l'", "s.toml", "/scenes");
     CHECK(root.path("model") == "/m/a.l");
