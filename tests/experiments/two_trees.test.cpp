@@ -204,6 +204,25 @@ TEST_CASE("two trees: both crowns lean away from the neighbour, by more than 0.1
     }
 }
 
+TEST_CASE("two trees: whatever the strength and the kind of shadows, both lean away after 10 cycles", "[two-trees]") {
+    using Light = std::vector<std::pair<std::string, std::string>>;
+    const std::vector<Light> others{{{"strength", "0.3"}},
+                                    {{"strength", "0.7"}},
+                                    {{"strength", "0.4"}, {"dissipation", "1.5"}},
+                                    {{"strength", "0.2"}, {"mode", "\"add\""}},
+                                    {{"strength", "0.15"}, {"voxel", "1"}}};
+    for (const Light& light : others) {
+        SceneOptions options;
+        for (const auto& [key, value] : light) options.overrides.emplace_back("environment.light." + key, value);
+        options.steps = end_of(10);
+        const std::vector<Life> two = lives("two-trees.toml", options), lone = lives("lone-tree.toml", options);
+        const double alone = lone.front().crowns.back().asymmetry();
+        CAPTURE(light, alone);
+        CHECK(two[0].crowns.back().asymmetry() < alone - 0.1);
+        CHECK(two[1].crowns.back().asymmetry() > alone + 0.1);
+    }
+}
+
 TEST_CASE("two trees: less than 0.35 of each tree's leaves are on the side of the neighbour", "[two-trees]") {
     const Crown &left = two_trees()[0].crowns.back(), &right = two_trees()[1].crowns.back();
     CAPTURE(left.leaves, left.to_right, right.leaves, right.to_right);
