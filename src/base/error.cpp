@@ -1,5 +1,7 @@
 #include "espalier/base/error.h"
 
+#include "espalier/base/excerpt.h"
+
 #include <fmt/format.h>
 
 namespace espalier {
@@ -12,13 +14,6 @@ std::string joined(const std::vector<Diagnostic>& diagnostics) {
         text += to_string(diagnostic);
     }
     return text;
-}
-
-// The caret stands under the column; tabs before it are kept so that it lines up however wide they are shown.
-std::string caret_line(const std::string& source, int column) {
-    std::string line;
-    for (int i = 0; i + 1 < column && i < static_cast<int>(source.size()); ++i) line += source[i] == '\t' ? '\t' : ' ';
-    return line + '^';
 }
 
 }  // namespace
@@ -35,17 +30,15 @@ std::string to_string(const Diagnostic& diagnostic) {
     if (diagnostic.place.known()) text += to_string(diagnostic.place) + ": ";
     if (diagnostic.severity == Diagnostic::Severity::warning) text += "warning: ";
     text += diagnostic.message;
-    if (!diagnostic.source.empty()) {
-        text += "\n    " + diagnostic.source;
-        if (diagnostic.place.column > 0) text += "\n    " + caret_line(diagnostic.source, diagnostic.place.column);
-    }
+    if (!diagnostic.source.empty()) text += excerpt(diagnostic.source, diagnostic.place.column);
     return text;
 }
 
 UserError::UserError(const std::string& message) : UserError(Place{}, message) {}
 
 UserError::UserError(const Place& place, const std::string& message, const std::string& source)
-    : UserError(std::vector<Diagnostic>{{Diagnostic::Severity::error, place, message, source}}) {}
+    : UserError(std::vector<Diagnostic>{
+          {Diagnostic::Severity::error, place, message, source.empty() ? source_line(place) : source}}) {}
 
 UserError::UserError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}

@@ -1,5 +1,7 @@
 #include "language/declaration_parser.h"
 
+#include "espalier/base/text.h"
+
 #include "language/constant.h"
 
 #include <fmt/format.h>
@@ -17,7 +19,10 @@ void DeclarationParser::definitions() {
         while (!in_.accept("}")) {
             const bool external = in_.accept_keyword("external");
             const bool array = in_.accept_keyword("array");
-            if (!external && !array) in_.expected("'array' or 'external' in 'define'");
+            if (!external && !array) {
+                const std::vector<std::string> known{"array", "external"};
+                in_.expected("'array' or 'external' in 'define'", did_you_mean(in_.looking_at_name(), known));
+            }
             do {
                 definition(external, array);
             } while (in_.accept(","));

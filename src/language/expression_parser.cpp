@@ -331,7 +331,9 @@ Expression ExpressionParser::call(std::string_view name, Location at) {
     const bool ends_at_arrow = std::exchange(ends_at_arrow_, false);
     const FunctionEntry* entry = find_function(name);
     if (!entry) {
-        throw SyntaxError{at, fmt::format("there is no function '{}'{}", name, did_you_mean(name, function_names()))};
+        std::vector<std::string> known = function_names();
+        known.insert(known.end(), {"if", "for", "while"});
+        throw SyntaxError{at, fmt::format("there is no function '{}'{}", name, did_you_mean(name, known))};
     }
     Expression result;
     result.kind = Expression::Kind::call;

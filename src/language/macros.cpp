@@ -204,8 +204,8 @@ std::optional<std::vector<std::string>> Macros::arguments(std::string_view name,
     position = i + 1;
     if (macro.parameters.empty() && found.size() == 1 && found.front().empty()) found.clear();
     if (found.size() != macro.parameters.size()) {
-        throw SyntaxError{
-            use_, fmt::format("macro '{}' takes {} arguments, not {}", name, macro.parameters.size(), found.size())};
+        throw SyntaxError{use_, fmt::format("macro '{}' takes {} argument{}, not {}", name, macro.parameters.size(),
+                                            macro.parameters.size() == 1 ? "" : "s", found.size())};
     }
     return found;
 }

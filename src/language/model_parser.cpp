@@ -70,15 +70,18 @@ private:
         if (declarations_.declaration()) return;
         if (!accept_lsystem()) {
             const std::string keyword = nearest_keyword();
+            const bool fits = keyword == "lsystem" || keyword == "module" || keyword == "environment" ||
+                              keyword == "const" || keyword.starts_with('#');
             mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
-                                                    keyword == "lsystem" ? hint(keyword) : ""));
+                                                    fits ? hint(keyword) : ""));
             if (keyword != "lsystem") {
                 in_.recover(in_.position());
                 return;
             }
             in_.accept_name();
         }
-        in_.expect(":", "after 'lsystem'");
+        if (!in_.accept(":"))
+            mistakes_.error({in_.missing_at(), fmt::format("expected ':' after 'lsystem', found {}", in_.found())});
         lsystem();
     }
 

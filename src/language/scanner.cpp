@@ -100,8 +100,8 @@ std::string Scanner::found() const {
     return fmt::format("'{}'", text(position_, end));
 }
 
-void Scanner::expected(std::string_view what) const {
-    throw SyntaxError{missing_at(), fmt::format("expected {}, found {}", what, found())};
+void Scanner::expected(std::string_view what, std::string_view hint) const {
+    throw SyntaxError{missing_at(), fmt::format("expected {}, found {}{}", what, found(), hint)};
 }
 
 std::size_t Scanner::end_of_line(std::size_t position) const {

@@ -73,7 +73,7 @@ public:
     Location missing_at() const;
     /// What stands here, for messages: "'x'", "the end of the line".
     std::string found() const;
-    [[noreturn]] void expected(std::string_view what) const;
+    [[noreturn]] void expected(std::string_view what, std::string_view hint = {}) const;
 
     /// Whether the line after `newline` shows that a '}' or ')' is missing.
     bool ends_inside(std::size_t newline) const;

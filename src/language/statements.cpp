@@ -34,7 +34,7 @@ Block ExpressionParser::block() {
     return result;
 }
 
-// Goes on behind the next ';' or the block the faulty statement has.
+// Goes on behind the next ';' or the block the faulty statement has, and the 'else' that belongs to it.
 void ExpressionParser::recover_in_block() {
     for (int braces = 0; !in_.at_end_of_text(); in_.take(1)) {
         const char c = in_.peek();
@@ -43,7 +43,7 @@ void ExpressionParser::recover_in_block() {
         braces += c == '{' ? 1 : c == '}' ? -1 : 0;
         if ((c == ';' || c == '}') && braces == 0) {
             in_.take(1);
-            return;
+            if (in_.looking_at_name() != "else") return;
         }
     }
 }

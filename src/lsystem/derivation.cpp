@@ -1,3 +1,5 @@
+#include "espalier/base/excerpt.h"
+
 #include "derivation_state.h"
 
 #include <fmt/format.h>
@@ -57,8 +59,8 @@ void Derivation::State::in_block(const char* name, const std::function<void()>& 
     try {
         work();
     } catch (const EvaluationError& error) {
-        throw RunError(fmt::format("{}{}{}, in {} at step {}", to_string(error.place), error.place.known() ? ": " : "",
-                                   error.what(), name, step));
+        throw RunError(fmt::format("{}{}{}, in {} at step {}{}", to_string(error.place),
+                                   error.place.known() ? ": " : "", error.what(), name, step, excerpt(error.place)));
     }
     block_draws = block_machine.draws();
 }

@@ -1,5 +1,6 @@
 #include "matching.h"
 
+#include "espalier/base/excerpt.h"
 #include "espalier/base/text.h"
 
 #include <fmt/format.h>
@@ -195,8 +196,8 @@ std::string describe(const EvaluationError& error, const Alphabet& alphabet, Let
                      std::uint32_t step) {
     ModuleString module;
     module.append(letter, {values, static_cast<std::size_t>(alphabet.arity(letter))});
-    return fmt::format("{}{}{}, in module {} at step {}", to_string(error.place), error.place.known() ? ": " : "",
-                       error.what(), to_text(module, alphabet), step);
+    return fmt::format("{}{}{}, in module {} at step {}{}", to_string(error.place), error.place.known() ? ": " : "",
+                       error.what(), to_text(module, alphabet), step, excerpt(error.place));
 }
 
 }  // namespace espalier

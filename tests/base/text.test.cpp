@@ -1,8 +1,9 @@
 #include "espalier/base/text.h"
 
-#include "espalier/base/error.h"
+#include "espalier/base/excerpt.h"
 
 #include "catch.h"
+#include "temporary_folder.h"
 
 using namespace espalier;
 
@@ -11,6 +12,8 @@ TEST_CASE("the nearest name is a slip of the pen away, or none", "[base]") {
     CHECK(nearest_name("voxle", names) == "voxel");
     CHECK(nearest_name("strenght", names) == "strength");
     CHECK(nearest_name("gravity", names).empty());
+    CHECK(nearest_name("sni", std::vector<std::string>{"sun", "sin"}) == "sin");
+    CHECK(nearest_name("x", std::vector<std::string>{"y", "Q"}).empty());
     CHECK(did_you_mean("dept", names) == " (did you mean 'depth'?)");
 }
 
@@ -26,6 +29,23 @@ TEST_CASE("text splits into code points, and invalid bytes stand for themselves"
     CHECK(code_points("aé") == std::vector<std::string>{"a", "é"});
     CHECK(code_points("\xC3(") == std::vector<std::string>{"\xC3", "("});
     CHECK(code_points("\xE2\x82").size() == 2);
+}
+
+TEST_CASE("carets line up behind tabs and characters of several bytes, and long lines are cut about them", "[base]") {
+    CHECK(excerpt("\tA(\u03b1x)", 6) == "\n    \tA(\u03b1x)\n    \t   ^");
+    const std::string cut = excerpt(std::string(5000, 'F') + "!" + std::string(5000, 'F'), 5001);
+    CHECK(cut.size() < 400);
+    const std::size_t second = cut.find('\n', 1);
+    CHECK(cut.find('!') - 1 == cut.find('^') - second - 1);
+}
+
+TEST_CASE("a mistake without its line shows the line of its file", "[base]") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("model.l", "lsystem: 1\r\naxiom: A(\r\n").string();
+    CHECK(std::string(UserError(Place{file, 2, 9}, "')' is missing").what()) ==
+          file + ":2:9: ')' is missing\n    axiom: A(\n            ^");
+    CHECK(std::string(UserError(Place{file, 7, 1}, "beyond").what()) == file + ":7:1: beyond");
+    CHECK(excerpt(Place{folder.path().string(), 1, 1}).empty());
 }
 
 TEST_CASE("a message shows place, source line and caret", "[base]") {
