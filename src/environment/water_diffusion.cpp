@@ -165,6 +165,34 @@ double WaterDiffusion::cross_sides(const WaterFaces& faces, const double* c, dou
     return inflow;
 }
 
+double WaterDiffusion::conductance(int y, int face) const {
+    switch (face) {
+        case 0:
+        case 1:
+            return x_[y];
+        case 2:
+            return down_[y];
+        case 3:
+            return up_[y];
+        default:
+            return z_[y];
+    }
+}
+
+WaterDiffusion::AcrossSides WaterDiffusion::across_sides(const glm::ivec3& voxel) const {
+    const glm::ivec3 last = grid_.size() - 1;
+    const bool at_side[6] = {voxel.x == 0,      voxel.x == last.x, voxel.y == 0,
+                             voxel.y == last.y, voxel.z == 0,      voxel.z == last.z};
+    const double along[3] = {x_[voxel.y], y_[voxel.y], z_[voxel.y]};
+    AcrossSides across;
+    for (int side = 0; side < 6; ++side) {
+        if (!at_side[side] || !sides_[side].fixed) continue;
+        across.conductance += 2 * along[side / 2];
+        across.inflow += 2 * along[side / 2] * sides_[side].content;
+    }
+    return across;
+}
+
 double relaxation_sweep(const WaterGrid& grid, const WaterFaces& faces, double w, WaterBrick& from, WaterBrick& to) {
     const glm::ivec3 size = grid.size();
     std::vector<double> largest(grid.rows(), 0);

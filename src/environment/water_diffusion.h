@@ -21,6 +21,18 @@ public:
     /// in content times voxels.
     double sweep(const WaterFaces& faces, WaterBrick& from, WaterBrick& to, double dt);
 
+    /// Between a voxel at height index y and its neighbour across a face (-x, +x, -y, +y, -z, +z), over voxel volume,
+    /// 1 per time unit.
+    double conductance(int y, int face) const;
+
+    /// What joins a voxel to the fixed sides of the domain: conductances, and conductances times the sides' contents.
+    struct AcrossSides {
+        double conductance = 0, inflow = 0;
+    };
+    AcrossSides across_sides(const glm::ivec3& voxel) const;
+
+    const Place& place() const { return place_; }  ///< of the process in its scene
+
 private:
     double cross_sides(const WaterFaces& faces, const double* c, double* to, std::size_t row, double dt) const;
 

@@ -48,6 +48,11 @@ public:
     std::size_t row_begin(std::size_t row) const { return row * stride() + 1; }
     std::size_t cell(const glm::ivec3& v) const { return row_begin(std::size_t(v.z) * size_.y + v.y) + v.x; }
 
+    glm::ivec3 voxel_of(std::size_t cell) const {
+        const std::size_t row = cell / stride();
+        return {static_cast<int>(cell - row_begin(row)), y_of(row), z_of(row)};
+    }
+
     glm::dvec3 lower() const;
     glm::dvec3 upper() const;
     glm::dvec3 centre(const glm::ivec3& voxel) const;

@@ -145,6 +145,10 @@ WaterParameters read_water_parameters(Settings& settings, const EnvironmentConte
     parameters.initial = settings.number_or("initial", 0, content_range);
     parameters.sides = read_sides(settings, parameters.flat);
     read_mode(settings, parameters);
+    parameters.steady = settings.choice_or("begin", "initial", {"initial", "steady"}) == "steady";
+    if (parameters.steady && parameters.mode == WaterMode::relaxation) {
+        throw UserError(settings.place("begin"), "begin = \"steady\" needs mode = \"diffusion\"");
+    }
 
     double diffusion = 0;
     glm::dvec3 anisotropy{1};
@@ -186,6 +190,8 @@ layers           [ { bottom, top (m, y), initial, diffusion, anisotropy, gravity
                  gravity_angle (degrees, 0) turns the layer's downward direction about z, towards +x
 regions          [ { a shape, value, edge }, ... ] painted in order over the initial content; over `edge` (m, 0)
                  outside the shape the content fades to what was there
+begin            "initial" (default): with the contents above; "steady": with what they settle at between the fixed
+                 sides and the sources; soil that neither reaches begins at its mean
 obstacles        [ { a shape }, ... ]: no water inside, none through
 obstacle_field   name of a distance field, as "stone.distance": inside it is an obstacle
 container_field  name of a distance field, as "pot.distance": outside it is an obstacle

@@ -49,6 +49,7 @@ struct WaterParameters {
     bool flat = false;  ///< two-dimensional
     std::string unit;
     double initial = 0;
+    bool steady = false;  ///< begin at the steady state of diffusion
     glm::dvec3 diffusion{0};
     int max_substeps = 0;
     int sweeps = 0;

@@ -1,5 +1,7 @@
 #include "environment/water_stock.h"
 
+#include "environment/water_steady.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -132,6 +134,23 @@ void WaterStock::gain(double dt) {
         for (const std::size_t cell : source.cells) contents_[cell] += amount;
         balance_.added += amount * static_cast<double>(source.cells.size());
     }
+}
+
+void WaterStock::settle(const WaterDiffusion& diffusion) {
+    WaterForcing forcing;
+    forcing.held.resize(grid_.cells());
+    forcing.gain.resize(grid_.cells());
+    hold();
+    for (const Source& source : sources_) {
+        for (const std::size_t cell : source.cells) {
+            if (source.source.hold) forcing.held[cell] = 1;
+            forcing.gain[cell] += source.source.rate;
+        }
+    }
+    espalier::settle(grid_, faces_, diffusion, forcing, contents_);
+    balance_ = {};
+    measure();
+    balance_.start = balance_.total;
 }
 
 void WaterStock::diffuse(WaterDiffusion& diffusion, double dt) {

@@ -8,6 +8,7 @@
 #include "environment/water_field.h"
 #include "environment/water_parameters.h"
 #include "environment/water_solids.h"
+#include "environment/water_steady.h"
 #include "environment/water_stock.h"
 #include "environment/water_uptake.h"
 
@@ -25,7 +26,7 @@ namespace {
 
 WaterGrid affordable_grid(const WaterParameters& parameters, const EnvironmentContext& context) {
     // Two bricks of doubles, two grids of floats, flags.
-    constexpr double bytes_per_voxel = 2 * 8 + 2 * 5 + 3;
+    const double bytes_per_voxel = 2 * 8 + 2 * 5 + 3 + (parameters.steady ? steady_bytes_per_voxel : 0);
     const double voxels = WaterGrid::voxels_needed(parameters.domain, parameters.voxel, parameters.flat);
     const double bytes = voxels * bytes_per_voxel;
     if (!(voxels <= 2e9) || bytes > static_cast<double>(context.memory)) {
@@ -49,6 +50,7 @@ public:
           wish_(context.plants, 0) {
         solids_.look(fields);
         stock_.emplace(grid_, parameters_, solids_.free_voxels(grid_));
+        if (parameters_.steady) stock_->settle(diffusion_);
         field_.set_faces(stock_->faces());
         field_.publish(stock_->contents(), fields);
     }
