@@ -39,7 +39,6 @@ private:
 struct Rootlet {
     glm::dvec3 base{0}, heading{0, -1, 0};  ///< where it begins and which way
     double length = 0;
-    bool dried = false;  ///< stopped before it was full grown
 };
 
 struct RootSystem {
@@ -63,15 +62,12 @@ inline RootSystem root_system(const World& world, std::size_t plant = 0) {
             rootlet.heading = glm::normalize(internode.tip - internode.base);
         }
         rootlet.length += glm::length(internode.tip - internode.base);
-        for (const Organ& organ : world.interpretation(plant).geometry.organs) {
-            rootlet.dried = rootlet.dried || organ.pose.position == internode.tip;
-        }
     }
     for (const auto& [axis, rootlet] : axes) system.rootlets.push_back(rootlet);
     // A rootlet that dried up at once has its mark at a node of the main root.
     for (const Organ& organ : world.interpretation(plant).geometry.organs) {
         if (std::find(system.main.begin(), system.main.end(), organ.pose.position) == system.main.end()) continue;
-        system.rootlets.push_back({organ.pose.position, organ.pose.heading, 0, true});
+        system.rootlets.push_back({organ.pose.position, organ.pose.heading, 0});
     }
     for (LetterId letter : world.string(plant).letters) {
         if (world.model(plant).alphabet.name(letter) == "S") ++system.unfinished;
