@@ -46,9 +46,9 @@ void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings
     for (Diagnostic& warning : review(model, turtle_symbols())) findings.warnings.push_back(std::move(warning));
     const LSystem& system = model.main();
     findings.facts.push_back(fmt::format(
-        "{}: {} productions, {} of decomposition, {} of homomorphism; derivation length {}; {}{}", model.path.string(),
-        system.productions.size(), system.decomposition.productions.size(), system.homomorphism.productions.size(),
-        Derivation(compiled).length(),
+        "{}: {} production{}, {} of decomposition, {} of homomorphism; derivation length {}; {}{}", model.path.string(),
+        system.productions.size(), system.productions.size() == 1 ? "" : "s", system.decomposition.productions.size(),
+        system.homomorphism.productions.size(), Derivation(compiled).length(),
         has_order(*compiled) ? "derived in order, because its productions assign globals, print or read files"
                              : "derived in parallel",
         draws_random_numbers(*compiled) ? "; draws random numbers" : ""));

@@ -4,6 +4,7 @@
 #include "espalier/language/reader.h"
 
 #include "language/constant.h"
+#include "language/walk.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,13 @@ public:
             review_filter(system);
             review_homomorphism(system.homomorphism);
             review_modules(system.axiom);
+            for (const Block* block : {&system.start, &system.start_each, &system.end_each, &system.end})
+                review_statements(*block);
+            for_each_production(system, [&](const Production& production) {
+                review_statements(production.before);
+                if (production.condition) review_condition(*production.condition);
+                review_statements(production.after);
+            });
         }
         review_processes();
         std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
@@ -253,6 +261,35 @@ private:
             }
         }
         return false;
+    }
+
+    // --- statements ---------------------------------------------------------------------------------------------
+
+    void review_statements(const Block& block) {
+        for (const Statement& statement : block) {
+            const bool plain = statement.kind == Statement::Kind::expression;
+            if (plain && !acts(*statement.expressions.front())) {
+                warn(statement.place, "this statement changes nothing ('=' assigns)");
+            }
+            const bool conditional = !plain && statement.kind != Statement::Kind::for_loop;
+            for (const std::optional<Expression>& expression : statement.expressions) {
+                if (conditional && expression) review_condition(*expression);
+            }
+            for (const Block& body : statement.bodies) review_statements(body);
+        }
+    }
+
+    void review_condition(const Expression& condition) {
+        if (condition.kind != Expression::Kind::assign) return;
+        warn(condition.place, "this condition assigns ('==' compares)");
+    }
+
+    static bool acts(const Expression& expression) {
+        bool found = false;
+        language::visit_expression(expression, [&](const Expression& part) {
+            found |= part.kind == Expression::Kind::assign || part.kind == Expression::Kind::call;
+        });
+        return found;
     }
 
     // --- words --------------------------------------------------------------------------------------------------

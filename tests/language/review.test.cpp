@@ -37,6 +37,17 @@ TEST_CASE("productions that can never apply are named with the reason", "[langua
           "3: this production can never apply: its condition is always 0");
 }
 
+TEST_CASE("'=' and '==' in each other's place are warned about", "[language]") {
+    CHECK(warnings(lsystem("Start: { n == 0; n = 1; if (n = 2) { n + 1; } while (n == 3) { srand(n); } }\n", "A",
+                           "A : n = 2 --> A\nA : {n = Q;} n == 2 {n;} --> A\n")) ==
+          "2: this statement changes nothing ('=' assigns)\n"
+          "2: this condition assigns ('==' compares)\n"
+          "2: this statement changes nothing ('=' assigns)\n"
+          "4: this condition assigns ('==' compares)\n"
+          "5: this statement changes nothing ('=' assigns)");
+    CHECK(warnings(lsystem("Start: { for (i = 0; i < 3; i++) { ran(1); } i = 3; }\n", "A", "A --> A\n")) == "");
+}
+
 TEST_CASE("in a stochastic L-system a second production is another choice", "[language]") {
     CHECK(warnings(lsystem("seed: 1\n", "A", "A --> AA : 1\nA --> A : 2\n")) == "");
     CHECK(warnings(lsystem("seed: 1\n", "A", "A --> AA : 0\nA --> A : 0\n")) ==
