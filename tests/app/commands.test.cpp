@@ -112,7 +112,7 @@ TEST_CASE_METHOD(Workplace, "check says what was read and warns of what looks wr
     write("bush.l", models::bush);
     const Outcome outcome = run("check bush.l");
     CHECK(outcome.code == 0);
-    CHECK_THAT(outcome.out, Contains("1 productions") && Contains("derivation length 5") && Contains("in parallel"));
+    CHECK_THAT(outcome.out, Contains("1 production,") && Contains("derivation length 5") && Contains("in parallel"));
     write("counter.l", "lsystem: 1\nderivation length: 2\naxiom: A\nA : { n = n + 1; } 1 --> A\nB --> A\nendlsystem\n");
     const Outcome warned = run("check counter.l");
     CHECK(warned.code == 0);
