@@ -44,30 +44,29 @@ Json json_of(const Node& node) {
     return array;
 }
 
+template <class Value>
+std::shared_ptr<Node> scalar(Node::Type type, Value Node::*member, Value value) {
+    auto node = std::make_shared<Node>(type);
+    (*node).*member = std::move(value);
+    return node;
+}
+
 }  // namespace
 
 std::shared_ptr<Node> Node::make(bool value) {
-    auto node = std::make_shared<Node>(Type::boolean);
-    node->boolean = value;
-    return node;
+    return scalar(Type::boolean, &Node::boolean, value);
 }
 
 std::shared_ptr<Node> Node::make(std::int64_t value) {
-    auto node = std::make_shared<Node>(Type::integer);
-    node->integer = value;
-    return node;
+    return scalar(Type::integer, &Node::integer, value);
 }
 
 std::shared_ptr<Node> Node::make(double value) {
-    auto node = std::make_shared<Node>(Type::real);
-    node->real = value;
-    return node;
+    return scalar(Type::real, &Node::real, value);
 }
 
 std::shared_ptr<Node> Node::make(std::string value) {
-    auto node = std::make_shared<Node>(Type::text);
-    node->text = std::move(value);
-    return node;
+    return scalar(Type::text, &Node::text, std::move(value));
 }
 
 std::shared_ptr<Node> Node::find_shared(std::string_view key) const {

@@ -111,19 +111,41 @@ private:
         }
     }
 
+    /// The productions of one strict predecessor in a stochastic L-system.
+    struct Pool {
+        const Production* first = nullptr;
+        const Production* fallback = nullptr;  ///< without context and condition
+        std::size_t size = 0;
+        bool any_chance = false;
+        bool any_weight = false;
+    };
+
     void review_weights(const std::vector<Production>& productions) {
-        std::map<std::vector<LetterId>, std::pair<const Production*, bool>> by_predecessor;
+        std::map<std::vector<LetterId>, Pool> pools;
         for (const Production& production : productions) {
             std::vector<LetterId> letters;
             for (const ModulePattern& pattern : production.strict) letters.push_back(pattern.letter);
-            auto& [first, any] = by_predecessor.try_emplace(letters, &production, false).first->second;
-            any = any || !production.weight || constant_value(*production.weight) != 0;
-        }
-        for (const auto& [letters, entry] : by_predecessor) {
-            if (!entry.second) {
-                warn(entry.first->place,
-                     fmt::format("all productions of {} have weight 0", described(letters.front())));
+            Pool& pool = pools[letters];
+            if (!pool.first) pool.first = &production;
+            if (production.left.empty() && production.right.empty() && !production.condition) {
+                pool.fallback = &production;
             }
+            ++pool.size;
+            pool.any_weight = pool.any_weight || production.weight;
+            pool.any_chance = pool.any_chance || !production.weight || constant_value(*production.weight) != 0;
+        }
+        for (const auto& [letters, pool] : pools) review_pool(pool, described(letters.front()));
+    }
+
+    void review_pool(const Pool& pool, const std::string& predecessor) {
+        if (!pool.any_chance) {
+            warn(pool.first->place, fmt::format("all productions of {} have weight 0", predecessor));
+        }
+        if (pool.size > 1 && pool.fallback && !pool.any_weight) {
+            warn(pool.fallback->place,
+                 fmt::format("with 'seed:' this production is drawn as often as each of the others of {} that match, "
+                             "whatever their order: give it a condition, or all of them weights",
+                             predecessor));
         }
     }
 

@@ -49,6 +49,9 @@ TEST_CASE("'=' and '==' in each other's place are warned about", "[language]") {
 }
 
 TEST_CASE("in a stochastic L-system a second production is another choice", "[language]") {
+    CHECK(warnings(lsystem("seed: 1\n", "A", "A : ran(1) < 0.5 --> AA\nA --> A\n"))
+              .find("drawn as often as each of the others of 'A'") != std::string::npos);
+    CHECK(warnings(lsystem("seed: 1\n", "A", "A : ran(1) < 0.5 --> AA\n")) == "");
     CHECK(warnings(lsystem("seed: 1\n", "A", "A --> AA : 1\nA --> A : 2\n")) == "");
     CHECK(warnings(lsystem("seed: 1\n", "A", "A --> AA : 0\nA --> A : 0\n")) ==
           "4: all productions of 'A' have weight 0");
