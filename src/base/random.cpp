@@ -36,11 +36,12 @@ double RandomDraws::normal() {
     return radius * std::cos(2 * std::numbers::pi * uniform());
 }
 
-// Marsaglia & Tsang (2000), "A simple method for generating gamma variables".
-double RandomDraws::gamma(double shape) {
+// Marsaglia & Tsang (2000), "A simple method for generating gamma variables". Small shapes give numbers that only
+// their logarithms can hold.
+double RandomDraws::log_gamma(double shape) {
     if (shape < 1) {
-        const double boost = std::pow(1 - uniform(), 1 / shape);
-        return gamma(shape + 1) * boost;
+        const double boost = std::log(1 - uniform()) / shape;
+        return log_gamma(shape + 1) + boost;
     }
     const double d = shape - 1.0 / 3;
     const double c = 1 / std::sqrt(9 * d);
@@ -48,14 +49,14 @@ double RandomDraws::gamma(double shape) {
         const double x = normal();
         const double v = std::pow(1 + c * x, 3);
         if (v <= 0) continue;
-        if (std::log(1 - uniform()) < 0.5 * x * x + d - d * v + d * std::log(v)) return d * v;
+        if (std::log(1 - uniform()) < 0.5 * x * x + d - d * v + d * std::log(v)) return std::log(d) + std::log(v);
     }
 }
 
 double RandomDraws::beta(double a, double b) {
-    const double x = gamma(a);
-    const double y = gamma(b);
-    return x / (x + y);
+    const double x = log_gamma(a);
+    const double y = log_gamma(b);
+    return 1 / (1 + std::exp(y - x));
 }
 
 double RandomDraws::binomial(double n, double p) {

@@ -60,3 +60,14 @@ TEST_CASE("normal, beta and binomial deviates have the moments of their distribu
     CHECK(std::abs(beta / n - 0.4) < 0.003);
     CHECK(std::abs(tosses / n - 3) < 0.02);
 }
+
+TEST_CASE("beta deviates of tiny shapes lie at both ends, never beside them", "[base]") {
+    // For shapes a = b -> 0 the distribution becomes two points of probability 1/2.
+    int high = 0;
+    for (std::uint64_t drawer = 0; drawer < 10'000; ++drawer) {
+        const double value = RandomDraws(RandomKey(1, 0, Stream::derivation), drawer, 0).beta(1e-4, 1e-4);
+        REQUIRE((value >= 0 && value <= 1));
+        high += value > 0.5;
+    }
+    CHECK(std::abs(high - 5000) < 200);  // 4 standard deviations
+}

@@ -43,7 +43,7 @@ public:
     std::uint32_t drawn() const { return draw_; }
 
 private:
-    double gamma(double shape);
+    double log_gamma(double shape);
 
     RandomKey key_;
     std::uint64_t drawer_;
