@@ -83,7 +83,7 @@ void write_file(const fs::path& path, const std::function<bool(const fs::path&)>
     const fs::path temporary = temporary_beside(path);
     std::error_code ignored;
     try {
-        if (!write(temporary)) fail_to_write(path, likely_reason(path.parent_path()));
+        if (!write(temporary)) fail_to_write(path, likely_reason(path.has_parent_path() ? path.parent_path() : "."));
     } catch (const std::system_error& error) {
         fs::remove(temporary, ignored);
         fail_to_write(path, error.code().message());
@@ -109,7 +109,11 @@ FolderLock::FolderLock(const fs::path& folder) {
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) throw RunError(fmt::format("cannot write into {}: {}", folder.string(), reason(errno)));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+        const int error_number = errno;
         ::close(descriptor_);
+        if (error_number != EWOULDBLOCK) {
+            throw RunError(fmt::format("cannot lock {}: {}", folder.string(), reason(error_number)));
+        }
         throw UserError(
             fmt::format("another run is writing into {}; choose another folder with --output, "
                         "or wait until it has ended",

@@ -130,7 +130,8 @@ void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {
 }
 
 std::string Node::to_json() const {
-    return json_of(*this).dump(2);
+    // A value of the command line may be no UTF-8.
+    return json_of(*this).dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace espalier

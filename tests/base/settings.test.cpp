@@ -91,6 +91,13 @@ TEST_CASE("what was read is resolved with the defaults that were used", "[base]"
     CHECK(root.resolved_json() == "{\n  \"a\": 1,\n  \"b\": 0.5\n}");
 }
 
+TEST_CASE("a value of the command line that is no UTF-8 does not keep the settings from being written", "[base]") {
+    Settings root = Settings::parse_toml("", "s.toml");
+    root.set("name", "\xFF");
+    CHECK(root.text("name") == "\xFF");
+    CHECK(root.resolved_json() == "{\n  \"name\": \"\uFFFD\"\n}");
+}
+
 TEST_CASE("a mistake in TOML shows the line it stands in", "[base]") {
     const std::string message = message_of([] { Settings::parse_toml("a = 1\nb = = 2\n", "s.toml"); });
     CHECK(message.find("s.toml:2:") == 0);
