@@ -299,7 +299,8 @@ void ModelCompiler::find_lanes(CompiledProduction& production) const {
 // Adding -0.0 changes no number, not even -0.0.
 std::optional<Lane> ModelCompiler::lane(const Expression& expression, const CompiledPattern& strict) const {
     if (const std::optional<double> constant = programs_.fold(expression)) {
-        if (!std::isfinite(*constant)) return std::nullopt;
+        // 0 times a value, plus -0.0, may be 0.0.
+        if (!std::isfinite(*constant) || (*constant == 0 && std::signbit(*constant))) return std::nullopt;
         return Lane{0, 0, *constant};
     }
     if (expression.kind == Expression::Kind::formal) {

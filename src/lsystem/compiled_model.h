@@ -121,6 +121,8 @@ public:
     bool draws() const {
         return rules.effects.draws || rules.stochastic || decomposition.effects.draws || decomposition.stochastic;
     }
+    /// Pictures take random numbers, which are those of the module they are of.
+    bool picture_draws() const { return homomorphism.effects.draws || homomorphism.stochastic; }
 };
 
 }  // namespace espalier

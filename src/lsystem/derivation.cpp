@@ -10,11 +10,16 @@
 #include <cstdio>
 
 namespace espalier {
+namespace {
+
+constexpr double most_steps = 1e9;
+
+}  // namespace
 
 Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given)
     : model(std::move(compiled)),
       settings(std::move(given)),
-      lineage(settings.lineage || model->draws()),
+      lineage(settings.lineage || model->draws() || model->picture_draws()),
       block_machine(model->machine()),
       machines([this] {
           Machine machine = model->machine();
@@ -30,7 +35,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     if (!model->length.empty()) {
         double steps = 0;
         in_block("the derivation length", [&] { steps = block_machine.evaluate(model->length); });
-        if (!(steps >= 0 && steps <= 1e9)) {
+        if (!(steps >= 0 && steps <= most_steps)) {
             throw RunError(fmt::format("{}: a derivation length of {:g} is out of range", model->source->name, steps));
         }
         length = static_cast<int>(steps);
@@ -68,7 +73,17 @@ void Derivation::State::in_block(const char* name, const std::function<void()>& 
 void Derivation::State::run_block(const Program& block, const char* name) {
     if (block.empty()) return;
     in_block(name, [&] { block_machine.run(block); });
-    length = static_cast<int>(variables.globals[1]);
+    follow_length();
+}
+
+// A model may assign Z itself, and anything.
+void Derivation::State::follow_length() {
+    const double steps = variables.globals[1];
+    if (!(steps >= 0 && steps <= most_steps)) {
+        throw RunError(fmt::format("{}: a derivation length (Z) of {:g} is out of range, at step {}",
+                                   model->source->name, steps, step));
+    }
+    length = static_cast<int>(steps);
 }
 
 void Derivation::State::evaluate_axiom(ModuleString& string) {
@@ -181,7 +196,7 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     const StepInput input = state.prepare(from);
     if (model.ordered() || model.rules.several_strict || !model.decomposition.empty()) {
         rewrite_in_one_pass(input, state.scratch, state.machines, state.services, to, state.depth_limit);
-        state.length = static_cast<int>(state.variables.globals[1]);
+        state.follow_length();
         state.warn_of_depth();
     } else {
         rewrite_in_two_passes(input, state.scratch, state.machines, to);

@@ -22,6 +22,9 @@ struct Painter {
     Matcher matcher;
     Expansion expansion;
     ModuleStack stack;
+    // What the blocks of a picture assign, seed or stop holds for that picture only.
+    Variables variables;
+    Services services;
 };
 
 struct Derivation::State {
@@ -29,6 +32,7 @@ struct Derivation::State {
 
     void reset();
     void run_block(const Program& block, const char* name);
+    void follow_length();
     /// Runs what belongs to no module; its draws form one sequence from the beginning of the growth.
     void in_block(const char* name, const std::function<void()>& work);
     RandomKey key(Stream stream) const { return RandomKey(settings.seed, settings.plant, stream, services.salt); }

@@ -74,7 +74,8 @@ public:
         out_.uses.resize(model_.rules.productions.size());
     }
 
-    void run(std::size_t begin, std::size_t end, std::size_t parameters_at);
+    /// Returns where it ended: a predecessor of several modules that names `%` may reach beyond `end`.
+    std::size_t run(std::size_t begin, std::size_t end, std::size_t parameters_at);
     bool reached_limit() const { return decomposition_.reached_limit(); }
 
 private:
@@ -100,11 +101,12 @@ Lineage OnePass::lineage(std::size_t module) const {
     return {input_.from.identities[module], input_.from.parents[module], input_.from.births[module]};
 }
 
-void OnePass::run(std::size_t begin, std::size_t end, std::size_t parameters_at) {
+std::size_t OnePass::run(std::size_t begin, std::size_t end, std::size_t parameters_at) {
     const auto arities = model_.source->alphabet.arities();
     const LetterId* letters = input_.from.letters.data();
     const double* values = input_.from.parameters.data() + parameters_at;
-    for (std::size_t i = begin; i < end;) {
+    std::size_t i = begin;
+    while (i < end) {
         const auto at = static_cast<std::size_t>(values - input_.from.parameters.data());
         const Site site{i, at, letters[i], values, lineage(i).identity, 0};
         std::size_t consumed = 0;
@@ -118,6 +120,7 @@ void OnePass::run(std::size_t begin, std::size_t end, std::size_t parameters_at)
         }
         for (const std::size_t next = i + consumed; i < next; ++i) values += arities[letters[i]];
     }
+    return i;
 }
 
 /// Replaces the modules at a site; returns how many they were.
@@ -165,10 +168,11 @@ void run_in_order(const StepInput& input, Scratch& scratch, Machine& machine, Se
     GrowingString out(to, input, bytes);
     OnePass pass(input, machine, services, out);
     const auto arities = input.model.source->alphabet.arities();
-    std::size_t at = 0, parameters_at = 0;
-    for (const auto& [begin, end] : scratch.kept) {
+    std::size_t at = 0, parameters_at = 0, rewritten = 0;
+    for (const auto& [kept_begin, end] : scratch.kept) {
+        const std::size_t begin = std::max(kept_begin, rewritten);
         for (; at < begin; ++at) parameters_at += arities[input.from.letters[at]];
-        pass.run(begin, end, parameters_at);
+        rewritten = pass.run(begin, end, parameters_at);
     }
     if (pass.reached_limit()) limit = true;
 }

@@ -48,10 +48,9 @@ bool Derivation::picture(const ModuleString& string, const std::vector<std::size
             painter->machine.attach(&state.variables, &state.services, Stream::homomorphism);
             return paint(*painter, rules, site, state.step, picture);
         }
-        // What its blocks assign, seed or stop holds for this picture only.
-        Variables variables = state.variables;
-        Services services = state.services;
-        painter->machine.attach(&variables, &services, Stream::homomorphism);
+        painter->variables = state.variables;
+        painter->services = state.services;
+        painter->machine.attach(&painter->variables, &painter->services, Stream::homomorphism);
         return paint(*painter, rules, site, state.step, picture);
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, model.source->alphabet, site.letter, values, state.step));

@@ -304,3 +304,25 @@ TEST_CASE("the derivation length is the model's until it is set", "[lsystem]") {
     CHECK(derivation.length() == 4);
     CHECK(derivation.stopped());
 }
+
+TEST_CASE("a derivation length that is none is refused, also if a block assigns it", "[lsystem]") {
+    for (const double length : {-1.0, 1e12, std::numeric_limits<double>::quiet_NaN()}) {
+        ModelBuilder model;
+        model.system().axiom = model.word("A");
+        model.system().end_each = {assign(global(1), number(length))};
+        CHECK_THROWS_AS(text_after(model, 1), RunError);
+    }
+    ModelBuilder model;
+    model.system().axiom = model.word("A");
+    model.system().end_each = {assign(global(1), number(7.5))};
+    Derivation derivation(model.compiled());
+    grow(derivation, 1);
+    CHECK(derivation.length() == 7);
+}
+
+TEST_CASE("a parameter of -0 stays -0 whichever way it is written", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("A", {number(1)})};
+    model.rule({{"A", 1}}, {model.module("A", {number(-0.0)})});
+    CHECK(text_after(model, 1) == "A(-0)");
+}

@@ -137,6 +137,101 @@ TEST_CASE("identities of two plants of one model differ, of one plant with two s
     for (const Identity identity : identities(1, 1)) CHECK(std::count(first.begin(), first.end(), identity) == 0);
 }
 
+namespace {
+
+/// A stochastic plant whose string is the same whatever is done to make the engine take another way.
+ModuleString grown_by(const std::string& way) {
+    ModelBuilder model;
+    model.system().seed = number(1);
+    const Expression draw = call(Function::ran, {number(1)});
+    model.system().axiom = {model.module("A", {number(0)}), model.module("A", {number(1)})};
+    model.rule({{"A", 1}}, {model.module("F", {draw}), model.module("[", {}), model.module("A", {formal(0) + draw}),
+                            model.module("]", {}), model.module("A", {draw})});
+    model.rule({{"A", 1}}, {model.module("A", {draw}), model.module("F", {formal(0)})});
+    model.rule({{"F", 1}}, {model.module("F", {formal(0) * number(1.1)}), model.module("L", {draw})}).weight =
+        number(0.2);
+    if (way == "decomposed") {
+        model.system().decomposition.productions.push_back(model.make({}, {{"Z", 0}}, {}, model.word("ZZ")));
+    } else if (way == "blocks") {
+        model.add(model.make({}, ModelBuilder::patterns("YZ"), {}, model.word("ZY")));
+    } else if (way == "ordered") {
+        const std::uint32_t count = model.add_global("count");
+        model.rule("Z", "Z").after = {assign(global(count), number(1))};
+    }
+    Derivation derivation(model.compiled(), with_lineage());
+    return grow(derivation, 18);
+}
+
+}  // namespace
+
+TEST_CASE("two passes, one pass and one pass in order give the same modules, lineages and draws", "[lsystem]") {
+    const ModuleString expected = grown_by("two passes");
+    REQUIRE(expected.size() > 20'000);  // several chunks
+    const std::set<Identity> distinct(expected.identities.begin(), expected.identities.end());
+    CHECK(distinct.size() == expected.size());
+    for (const char* way : {"decomposed", "blocks", "ordered"}) {
+        INFO(way);
+        const ModuleString string = grown_by(way);
+        CHECK(string.letters == expected.letters);
+        CHECK(string.parameters == expected.parameters);
+        CHECK(string.identities == expected.identities);
+        CHECK(string.parents == expected.parents);
+        CHECK(string.births == expected.births);
+    }
+}
+
+TEST_CASE("a module decomposed draws the same whatever grows beside it", "[lsystem]") {
+    const auto drawn = [](int extra) {
+        ModelBuilder model;
+        const Expression draw = call(Function::ran, {number(1)});
+        model.system().axiom = {model.module("A", {}), model.module("B", {})};
+        std::vector<ModuleTemplate> successor = {model.module("A", {})};
+        for (int k = 0; k < extra; ++k) successor.push_back(model.module("C", {draw}));
+        model.rule({{"A", 0}}, successor);
+        model.rule({{"B", 0}}, {model.module("B", {}), model.module("D", {draw})});
+        RuleSet& rules = model.system().decomposition;
+        rules.maximum_depth = number(2);
+        rules.productions.push_back(model.make({}, {{"C", 1}}, {}, {model.module("E", {draw})}));
+        rules.productions.push_back(
+            model.make({}, {{"D", 1}}, {}, {model.module("D", {draw}), model.module("G", {formal(0)})}));
+        Derivation derivation(model.compiled(), with_lineage());
+        const ModuleString string = grow(derivation, 2);
+        return std::vector<double>(string.parameters.end() - 6, string.parameters.end());
+    };
+    CHECK(drawn(0) == drawn(5));
+    const std::vector<double> values = drawn(3);
+    CHECK(std::set<double>(values.begin(), values.end()).size() == values.size());
+}
+
+TEST_CASE("a picture draws for its module wherever that stands in the string", "[lsystem]") {
+    const auto picture = [](const char* axiom) {
+        ModelBuilder model;
+        model.system().axiom = model.word("AB");
+        model.rule("A", axiom);
+        model.system().homomorphism.productions.push_back(
+            model.make({}, {{"B", 0}}, {}, {model.module("D", {call(Function::ran, {number(1)})})}));
+        Derivation derivation(model.compiled());
+        const ModuleString string = grow(derivation, 1);
+        BranchLinks links;
+        link_branches(string, links);
+        ModuleString result;
+        REQUIRE(derivation.picture(string, nullptr, links, string.size() - 1, 0, result));
+        return result.parameters.front();
+    };
+    CHECK(picture("A") == picture("AFFF"));
+}
+
+TEST_CASE("a predecessor that reaches over a cut takes its modules once", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("[A%B]C");
+    model.add(model.make({}, ModelBuilder::patterns("A%B]"), {}, model.word("X]")));
+    Derivation derivation(model.compiled(), with_lineage());
+    const ModuleString string = grow(derivation, 1);
+    CHECK(to_text(string, model.model().alphabet) == "[X]C");
+    const std::set<Identity> distinct(string.identities.begin(), string.identities.end());
+    CHECK(distinct.size() == string.size());
+}
+
 TEST_CASE("plain derivation pays nothing for lineage", "[lsystem]") {
     ModelBuilder model;
     model.system().axiom = model.word("A");
