@@ -362,11 +362,11 @@ Expression ExpressionParser::call(std::string_view name, Location at) {
     height_ = highest + 1;
     check_height(at);
     ends_at_arrow_ = ends_at_arrow;
-    return normalised(std::move(result));
+    return normalised(std::move(result), at);
 }
 
 // The engine knows each function in one form only.
-Expression ExpressionParser::normalised(Expression call) {
+Expression ExpressionParser::normalised(Expression call, Location at) {
     std::vector<Expression>& operands = call.operands;
     if (call.function == Function::atan && operands.size() == 2) {
         call.function = Function::atan2;
@@ -378,11 +378,17 @@ Expression ExpressionParser::normalised(Expression call) {
     if (call.function == Function::view_extent) operands.clear();
     const bool chained = call.function == Function::min || call.function == Function::max;
     while (chained && operands.size() > 2) {
-        Expression inner = call;
-        inner.operands = {std::move(operands[0]), std::move(operands[1])};
+        Expression inner;
+        inner.kind = call.kind;
+        inner.function = call.function;
+        inner.place = call.place;
+        inner.operands.reserve(2);
+        inner.operands.push_back(std::move(operands[0]));
+        inner.operands.push_back(std::move(operands[1]));
         operands.erase(operands.begin());
         operands[0] = std::move(inner);
         ++height_;
+        check_height(at);
     }
     return call;
 }

@@ -35,7 +35,7 @@ private:
     Expression number();
     Expression text();
     Expression call(std::string_view name, Location at);
-    Expression normalised(Expression call);
+    Expression normalised(Expression call, Location at);
     Expression element(std::string_view name, Location at);
     Expression address();
     Expression name_or_call();

@@ -3,6 +3,7 @@
 
 #include "espalier/lsystem/expression.h"
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,7 @@ struct FunctionEntry {
     std::uint32_t index = 0;  ///< which edge of the view
 };
 
-inline constexpr int any_number = 1000;
+inline constexpr int any_number = std::numeric_limits<int>::max();
 
 /// Null if there is no such function.
 const FunctionEntry* find_function(std::string_view name);

@@ -143,3 +143,10 @@ TEST_CASE("expressions of any depth are read or refused, never a crash", "[langu
     CHECK(messages(lsystem("derivation length: " + sum + "\n", "A", "A --> A\n")).find("too long") !=
           std::string::npos);
 }
+
+TEST_CASE("min and max of thousands of values are refused, not nested without bound", "[language]") {
+    std::string values = "Q";
+    for (int k = 0; k < 5000; ++k) values += ", Q";
+    CHECK(messages(lsystem("", "A(min(" + values + "))", "")).find("too long") != std::string::npos);
+    CHECK(messages(lsystem("", "A(max(Q, 1, 2, 3, 4, 5))", "")).empty());
+}
