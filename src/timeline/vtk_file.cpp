@@ -32,10 +32,12 @@ void write(const std::filesystem::path& path, Data& data) {
     writer->AddObserver(vtkCommand::ErrorEvent, listener);
     writer->AddObserver(vtkCommand::WarningEvent, listener);
     writer->SetInputDataObject(&data);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
+    // Inline, not appended: readers older than VTK 9.3 mistake appended data for XML where the system's expat (2.5 of
+    // Debian 12 as updated, 2.6) defers its parsing; Debian's ParaView 5.11 is one of them.
+    writer->SetDataModeToBinary();
     writer->SetHeaderTypeToUInt64();
-    writer->SetCompressorTypeToLZ4();
+    writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(1);
     writer->WriteToOutputStringOn();
     const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
     if (!written || !errors.empty()) {

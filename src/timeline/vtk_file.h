@@ -1,4 +1,4 @@
-// VTK's XML files as the timeline writes them: appended raw data, LZ4, the same bytes for the same content.
+// VTK's XML files as the timeline writes them: inline compressed data, the same bytes for the same content.
 #pragma once
 
 #include <vtkSmartPointer.h>
