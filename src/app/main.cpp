@@ -9,10 +9,15 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
+#include <fcntl.h>
 #include <new>
 #include <string_view>
+#include <system_error>
+#include <unistd.h>
 
 namespace espalier {
 namespace {
@@ -182,7 +187,7 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     return fmt::format("{}\n`{} --help` explains the options", message, name);
 }
 
-int dispatch(const CLI::App& program, CommandLine& line) {
+int run_subcommand(const CLI::App& program, CommandLine& line) {
     if (program.got_subcommand("run")) {
         line.run.overrides = line.overrides();
         line.run.steps = line.steps_if_any();
@@ -206,11 +211,28 @@ int dispatch(const CLI::App& program, CommandLine& line) {
     return list_command(line.list);
 }
 
+// What is still in the buffer must arrive too, or a full disk behind `espalier list > file` goes unnoticed.
+int dispatch(const CLI::App& program, CommandLine& line) {
+    const int code = run_subcommand(program, line);
+    if (std::fflush(stdout) != 0) {
+        throw RunError(fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)));
+    }
+    return code;
+}
+
+// A file must not be opened under the number of a standard stream that somebody closed, or messages land in it.
+void occupy_standard_streams() {
+    int descriptor = open("/dev/null", O_RDWR);
+    while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
+    if (descriptor >= 0) close(descriptor);
+}
+
 int fail(const std::string& message, int code, bool json) {
-    fmt::print(stderr, "{}\n", message);
+    // Nobody is left to be told of an output that cannot be written; the exit code still says it.
+    std::fputs((message + "\n").c_str(), stderr);
     if (json) {
         const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", code}, {"message", message}};
-        fmt::print("{}\n", result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        std::fputs((result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n").c_str(), stdout);
     }
     return code;
 }
@@ -252,6 +274,7 @@ int parse_and_dispatch(int argc, char** argv) {
 }  // namespace espalier
 
 int main(int argc, char** argv) {
+    espalier::occupy_standard_streams();
     // A file larger than the system allows is an error of the writer, not the end of the program.
     std::signal(SIGXFSZ, SIG_IGN);
     return espalier::parse_and_dispatch(argc, argv);

@@ -7,6 +7,15 @@
 #include <unistd.h>
 
 namespace espalier {
+namespace {
+
+// Progress that nobody can read any more must not end a run: what cannot be written is let go.
+void say(const std::string& text) {
+    std::fputs(text.c_str(), stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long>(std::ceil(seconds));
@@ -29,7 +38,7 @@ std::string grouped(std::size_t number) {
 ProgressReport::ProgressReport(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressReport::~ProgressReport() {
-    if (drawn_) fmt::print(stderr, "\n");
+    if (drawn_) say("\n");
 }
 
 void ProgressReport::operator()(const Progress& progress) {
@@ -51,10 +60,9 @@ void ProgressReport::redraw(const Progress& progress) {
     drawn_seconds_ = progress.seconds;
     const int left = progress.steps - progress.step;
     // The line is erased to its end, because it may become shorter.
-    fmt::print(stderr, "\rstep {}/{}  {} modules  {:.3g} steps/s  {}\033[K", progress.step, progress.steps,
-               grouped(progress.modules), step_seconds_ > 0 ? 1 / step_seconds_ : 0.0,
-               last ? duration_text(progress.seconds) : duration_text(left * step_seconds_) + " left");
-    std::fflush(stderr);
+    say(fmt::format("\rstep {}/{}  {} modules  {:.3g} steps/s  {}\033[K", progress.step, progress.steps,
+                    grouped(progress.modules), step_seconds_ > 0 ? 1 / step_seconds_ : 0.0,
+                    last ? duration_text(progress.seconds) : duration_text(left * step_seconds_) + " left"));
 }
 
 void ProgressReport::print_tenth(const Progress& progress) {
@@ -62,8 +70,8 @@ void ProgressReport::print_tenth(const Progress& progress) {
     const int tenths = static_cast<int>(10.0 * progress.step / progress.steps);
     if (tenths == tenths_) return;
     tenths_ = tenths;
-    fmt::print(stderr, "step {}/{}  {} modules  {}\n", progress.step, progress.steps, grouped(progress.modules),
-               duration_text(progress.seconds));
+    say(fmt::format("step {}/{}  {} modules  {}\n", progress.step, progress.steps, grouped(progress.modules),
+                    duration_text(progress.seconds)));
 }
 
 }  // namespace espalier

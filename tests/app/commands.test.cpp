@@ -148,3 +148,25 @@ TEST_CASE_METHOD(Workplace, "the same seed gives the same string, another seed a
     CHECK(run("derive chance.l --seed 3").out == run("derive chance.l --seed 3").out);
     CHECK(run("derive chance.l --seed 3").out != run("derive chance.l --seed 4").out);
 }
+
+TEST_CASE_METHOD(Workplace, "a run goes on although nobody reads its progress", "[app]") {
+    write("bush.l", models::bush);
+    for (const char* nowhere : {"2>/dev/full", "2> >(exec true)", "2>&-"}) {
+        INFO(nowhere);
+        const std::string arguments = std::string("run bush.l --steps 8 --overwrite --output out ") + nowhere;
+        write("run.sh", std::string("sleep 0.1; '") + ESPALIER_PROGRAM + "' " + arguments + "\n");
+        CHECK(run("--version >/dev/null; bash run.sh").code == 0);
+        CHECK_THAT(text_of(path() / "out/run.json"), Contains("\"exit\": \"done\""));
+        CHECK(text_of(path() / "out/.lock").empty());
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "a result that cannot be written out is a failure", "[app]") {
+    write("bush.l", models::bush);
+    for (const char* command : {"list", "derive bush.l", "run bush.l --output out", "check bush.l"}) {
+        INFO(command);
+        const Outcome outcome = run(std::string(command) + " >/dev/full");
+        CHECK(outcome.code == 2);
+        CHECK_THAT(outcome.err, Contains("standard output"));
+    }
+}
