@@ -3,8 +3,8 @@
 #include "espalier/timeline/csv_file.h"
 
 #include "catch.h"
-#include "timeline/frames.h"
 #include "small_disk.h"
+#include "timeline/frames.h"
 
 #include <vtkCellData.h>
 #include <vtkPointData.h>

@@ -4,9 +4,9 @@
 #include "espalier/environment/openvdb_grid.h"
 
 #include "catch.h"
+#include "small_disk.h"
 #include "timeline/collections.h"
 #include "timeline/frames.h"
-#include "small_disk.h"
 
 #include <cstdlib>
 #include <set>
