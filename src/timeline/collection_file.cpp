@@ -1,12 +1,26 @@
 #include "timeline/collection_file.h"
 
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <fcntl.h>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+
 namespace espalier {
 namespace {
+
+constexpr std::size_t page = 4096;  // the smallest there are
+constexpr std::string_view opening =
+    "<?xml version=\"1.0\"?>\n"
+    "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+    "  <Collection>\n";
+constexpr std::string_view closing = "  </Collection>\n</VTKFile>\n";
 
 std::string escaped(const std::string& text) {
     std::string result;
@@ -38,11 +52,46 @@ void CollectionFile::add(double time, int part, const std::string& name, const s
                             format_exact(time), part, escaped(name), escaped(file));
 }
 
-void CollectionFile::write() const {
-    write_text(path_, fmt::format("<?xml version=\"1.0\"?>\n"
-                                  "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-                                  "  <Collection>\n{}  </Collection>\n</VTKFile>\n",
-                                  entries_));
+// Writing the index anew after every frame costs the square of the frames, so what fits is put over the file's end. The
+// kernel copies a write within one page whole or not at all, also when the program is killed; anything longer goes the
+// way of every other file, beside and then renamed.
+void CollectionFile::write() {
+    const std::size_t at = opening.size() + written_;
+    std::string tail = entries_.substr(written_) + std::string(closing);
+    const bool within_page = at / page == (at + tail.size() - 1) / page;
+    if (descriptor_ >= 0 && within_page) {
+        extend(at, tail);
+    } else {
+        write_anew();
+    }
+    written_ = entries_.size();
+}
+
+void CollectionFile::write_anew() {
+    close();
+    write_text(path_, fmt::format("{}{}{}", opening, entries_, closing));
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);  // without it every index is written anew
+}
+
+void CollectionFile::extend(std::size_t at, const std::string& tail) {
+    const ssize_t written = ::pwrite(descriptor_, tail.data(), tail.size(), static_cast<off_t>(at));
+    if (written == static_cast<ssize_t>(tail.size())) return;
+    const int error = written < 0 ? errno : ENOSPC;
+    // The old end again: it takes no room that the file did not have.
+    const bool restored = ::pwrite(descriptor_, closing.data(), closing.size(), static_cast<off_t>(at)) ==
+                              static_cast<ssize_t>(closing.size()) &&
+                          ::ftruncate(descriptor_, static_cast<off_t>(at + closing.size())) == 0;
+    throw RunError(fmt::format("cannot write {}: {}{}", path_.string(), std::generic_category().message(error),
+                               restored ? "" : "; its end is lost"));
+}
+
+void CollectionFile::close() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+}
+
+CollectionFile::~CollectionFile() {
+    close();
 }
 
 }  // namespace espalier
