@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <ctime>
 
 namespace espalier {
@@ -54,7 +55,7 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
     json["overrides"] = overrides_json(scene_);
     json["seed"] = scene_.seed;
     json["steps"] = scene_.steps;
-    json["steps_done"] = steps_ - 1;
+    json["steps_done"] = std::max(steps_ - 1, 0);
     json["dt"] = scene_.dt;
     json["time_unit"] = scene_.time_unit;
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -126,6 +126,16 @@ TEST_CASE_METHOD(Runs, "a run records what it takes to repeat it", "[simulation]
     CHECK(std::count(timings.begin(), timings.end(), '\n') == 8);
 }
 
+TEST_CASE_METHOD(Runs, "a run that has recorded nothing yet has done no steps, and not minus one", "[simulation]") {
+    nlohmann::json record;
+    const auto look = [&](const Progress& progress) {
+        if (progress.step == 0) record = record_of(output("run"));
+    };
+    run(scene(), {.output = output("run"), .progress = look});
+    CHECK(record["exit"] == "running");
+    CHECK(record["steps_done"] == 0);
+}
+
 TEST_CASE_METHOD(Runs, "an interrupted run keeps every frame so far and says so", "[simulation]") {
     std::atomic<bool> interrupt{false};
     RunOptions options;
