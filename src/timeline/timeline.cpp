@@ -18,7 +18,9 @@ constexpr std::array indices{"plants.pvd", "fields.pvd", "lifespans.vtp", "stati
 constexpr std::array reports{"run.json", "timings.csv"};
 
 bool holds_timeline(const fs::path& folder) {
-    return std::any_of(indices.begin(), indices.end(), [&](const char* name) { return fs::exists(folder / name); });
+    const auto is_there = [&](const char* name) { return fs::exists(folder / name); };
+    return std::any_of(indices.begin(), indices.end(), is_there) ||
+           std::any_of(reports.begin(), reports.end(), is_there);
 }
 
 // "0012.vtp": named by a step's number.

@@ -76,6 +76,13 @@ TEST_CASE("a folder that holds a timeline is refused unless it may be overwritte
     CHECK(fs::exists(folder.path / "plants/notes.txt"));
 }
 
+TEST_CASE("a run.json of whomever is not replaced unasked", "[timeline]") {
+    const RunFolder folder;
+    write_file_at(folder.path / "run.json", "mine");
+    CHECK_THROWS_AS(Timeline(folder.path, timeline_table(), 1), UserError);
+    CHECK(bytes_of(folder.path / "run.json") == "mine");
+}
+
 TEST_CASE("overwriting with settings that mean nothing leaves the old timeline alone", "[timeline]") {
     const RunFolder folder;
     const HandmadePlant plant = branched_plant();
