@@ -25,7 +25,11 @@ std::vector<std::string> turtle_symbols() {
 // A folder for the recorders to be made in, and gone afterwards.
 class TemporaryFolder {
 public:
-    TemporaryFolder() : path_(fs::temp_directory_path() / fmt::format("espalier-check-{}", getpid())) {}
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "espalier-check-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw RunError("cannot make a folder in " + fs::temp_directory_path().string());
+        path_ = name;
+    }
     ~TemporaryFolder() {
         std::error_code ignored;
         fs::remove_all(path_, ignored);

@@ -147,3 +147,20 @@ TEST_CASE("looking at a plant never changes its growth", "[lsystem]") {
     };
     CHECK(grown(true) == grown(false));
 }
+
+TEST_CASE("a picture that doubles at every depth is stopped by the memory, not by the machine's end", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("X");
+    model.system().homomorphism.productions.push_back(
+        model.make({}, {{"X", 0}}, {}, {model.module("X", {}), model.module("X", {})}));
+    model.system().homomorphism.maximum_depth = number(60);
+    DerivationSettings settings;
+    settings.memory = 1 << 20;
+    Derivation derivation(model.compiled(), settings);
+    ModuleString string, picture;
+    derivation.start(string);
+    BranchLinks links;
+    link_branches(string, links);
+    CHECK_THROWS_AS(derivation.picture(string, nullptr, links, 0, 0, picture), RunError);
+    CHECK(picture.bytes() <= 2 << 20);
+}
