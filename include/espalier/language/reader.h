@@ -21,6 +21,8 @@ struct ReadOptions {
     bool quirks = false;  ///< --cpfg-quirks
     /// Names defined before the file is read, whether it mentions them or not (the functions of a function set).
     Defines predefined = {};
+    /// What func(), curveX() and their like ask; null if there is nothing.
+    std::shared_ptr<const Resources> resources = nullptr;
     /// Where warnings of the preprocessor go; none are kept if null.
     std::vector<Diagnostic>* warnings = nullptr;
 };

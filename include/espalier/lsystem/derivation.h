@@ -7,6 +7,7 @@
 #include "espalier/lsystem/module_string.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <memory>
@@ -24,6 +25,10 @@ struct DerivationSettings {
     bool lineage = false;
     /// Bytes this plant's strings may take; a step that would exceed them throws RunError before it allocates.
     std::size_t memory = std::size_t(-1);
+    /// Where fopen() looks for files to read, besides those the model itself wrote.
+    std::filesystem::path input_folder;
+    /// Where files the model writes go; if empty they are kept in memory and forgotten with the derivation.
+    std::filesystem::path output_folder;
     /// Where printf goes (default: standard error).
     std::function<void(const std::string&)> print;
 };

@@ -4,8 +4,10 @@
 
 #include "espalier/lsystem/alphabet.h"
 #include "espalier/lsystem/expression.h"
+#include "espalier/lsystem/resources.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,7 +90,11 @@ struct Model {
     std::vector<LSystem> systems;  ///< the first is the main one
     std::vector<ModuleDeclaration> modules;
     std::vector<std::string> processes;  ///< names of `environment light, water;` in order
-    bool quirks = false;                 ///< --cpfg-quirks: trunc rounds, x/0 = x, subscripts are clamped
+    /// Texts that stand among the parameters of modules, as in @L("%d", n); the parameter is an index into them.
+    std::vector<std::string> texts;
+    /// What side files provide; null if there are none.
+    std::shared_ptr<const Resources> resources;
+    bool quirks = false;  ///< --cpfg-quirks: trunc rounds, x/0 = x, subscripts are clamped
 
     const LSystem& main() const { return systems.front(); }
 };

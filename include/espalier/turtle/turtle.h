@@ -2,8 +2,10 @@
 #pragma once
 
 #include "espalier/geometry/plant_geometry.h"
+#include "espalier/geometry/shapes.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,9 @@ struct Tropism {
     double elasticity_step = 0;
     bool torque = false;  ///< rolls about the heading instead of bending it
 };
+
+/// How lines were meant to be drawn. Pixel widths are those of a screen, the others lengths.
+enum class LineStyle : std::uint8_t { pixel, polygon, cylinder };
 
 /// Where a turtle starts and what a symbol without parameter means.
 struct TurtleSettings {
@@ -37,6 +42,11 @@ struct TurtleSettings {
     glm::dvec3 tropism_direction{0, 1, 0};  ///< of any length but 0
     double initial_elasticity = 0;
     double elasticity_increment = 0;
+    LineStyle line_style = LineStyle::pixel;
+    int contour_sides = 8;                 ///< polygons around cylinders and spheres, at least 3
+    bool tapered_lines = true;             ///< a segment's end may be thinner than its start
+    bool twist_of_cylinders = false;       ///< generalized cylinders follow the turtle's roll instead of twisting least
+    std::shared_ptr<const Shapes> shapes;  ///< surfaces, contours, textures; null if there are none
 };
 
 /// What `[` saves and `]` restores, but for the elasticities, which the walk keeps on a stack of their own.
