@@ -1,5 +1,7 @@
 #include "language/preprocessor.h"
 
+#include "espalier/language/preprocessor.h"
+
 #include "catch.h"
 #include "reading.h"
 
@@ -170,4 +172,26 @@ TEST_CASE("macros that expand without end are an error, not a hang", "[language]
     std::string chain = "#define n0 1\n";
     for (int i = 1; i <= 1000; ++i) chain += "#define n" + std::to_string(i) + " n" + std::to_string(i - 1) + "\n";
     CHECK(messages(chain + lsystem("", "A", "A --> F(n1000)\n")).find("nested more than 200") != std::string::npos);
+}
+
+TEST_CASE("the text of a side file knows where it was written, through macros and included files", "[language]") {
+    const Folder folder;
+    folder.write("parts/angle.h", "#define ANGLE 22\nline width: 2\n");
+    folder.write("plant.v", "#include \"parts/angle.h\"\n/* how it turns */ angle factor: 360/-ANGLE x\n");
+    ReadOptions options;
+    options.defines = {{"UNKNOWN", "1"}};
+    const PreprocessedText text = preprocess_file(folder.path / "plant.v", options);
+    CHECK(text.text().find("angle factor: 360/-22 x\n") != std::string::npos);
+    const Place width = text.place(text.text().find("width"));
+    CHECK(width.file == (folder.path / "parts/angle.h").string());
+    CHECK(width.line == 2);
+    CHECK(width.column == 6);
+    const std::size_t behind_macro = text.text().find(" x\n") + 1;
+    CHECK(text.place(behind_macro).line == 2);
+    CHECK(text.place(behind_macro).column == 46);
+    CHECK(text.place(text.text().find("22")).column == 39);
+    CHECK(text.source_line(behind_macro) == "/* how it turns */ angle factor: 360/-ANGLE x");
+    CHECK(preprocess_text("", "empty.v").text().empty());
+    CHECK(preprocess_text("", "empty.v").place(0).line == 1);
+    CHECK_THROWS_AS(preprocess_text("#if 1\n", "plant.v"), UserError);
 }
