@@ -51,11 +51,16 @@ void DeclarationParser::definition(bool external, bool array) {
         if (in_.looking_at(",")) throw SyntaxError{in_.here(), "each dimension has its own brackets: a[2][3]"};
         in_.expect("]", "after the size of the array");
     }
-    if (declared.dimensions.empty()) in_.expected(fmt::format("the size of array '{0}': {0}[size]", name));
+    if (declared.dimensions.empty() && !external) {
+        in_.expected(fmt::format("the size of array '{0}': {0}[size]", name));
+    }
     value_depth_ = 0;
+    if (external && in_.looking_at("=")) {
+        throw SyntaxError{in_.here(), "an external array has the values it has in the surrounding L-system"};
+    }
     if (in_.accept("=")) values(declared.values);
     check_size(declared, at);
-    names_.add_array(std::move(declared));
+    names_.add_array(std::move(declared), at);
 }
 
 // { 1, 2, 3 }, row by row in braces of their own or not.

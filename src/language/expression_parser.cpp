@@ -227,6 +227,7 @@ Expression ExpressionParser::primary() {
     if (is_digit(c) || (c == '.' && is_digit(in_.peek(1)))) return number();
     if (is_name_start(c)) return name_or_call();
     if (c == '"') throw SyntaxError{in_.here(), "text cannot stand here, only numbers"};
+    if (c == '&') throw SyntaxError{in_.here(), "'&' stands before the variables that fscanf reads only"};
     in_.expected("a number, a name or '('");
 }
 
@@ -288,7 +289,7 @@ Expression ExpressionParser::name_or_call() {
 Expression ExpressionParser::element(std::string_view name, Location at) {
     const Scanner::Inside inside(in_);
     const bool ends_at_arrow = std::exchange(ends_at_arrow_, false);
-    const std::optional<std::uint32_t> array = names_.array(name);
+    const std::optional<std::uint32_t> array = names_.subscripted(name, at);
     if (!array) throw SyntaxError{at, fmt::format("'{}' is not a declared array{}", name, names_.suggestion(name))};
     Expression result;
     result.kind = Expression::Kind::element;
@@ -301,11 +302,7 @@ Expression ExpressionParser::element(std::string_view name, Location at) {
         if (in_.looking_at(",")) throw SyntaxError{in_.here(), "each dimension has its own brackets: a[i][j]"};
         in_.expect("]", "after a subscript");
     }
-    const std::size_t dimensions = names_.dimensions(*array);
-    if (result.operands.size() != dimensions) {
-        mistakes_.error(at, fmt::format("array '{}' has {} dimension{}, not {}", name, dimensions,
-                                        dimensions == 1 ? "" : "s", result.operands.size()));
-    }
+    names_.check_subscripts(*array, result.operands.size(), at);
     height_ = highest + 1;
     ends_at_arrow_ = ends_at_arrow;
     return result;

@@ -13,6 +13,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -30,7 +32,7 @@ public:
           declarations_(in_, names_, mistakes, symbols_, expressions_, model),
           model_(model),
           complete_(mistakes.none()) {
-        productions_.set_alphabet(model.alphabet);
+        productions_.set_model(model);
     }
 
     void run() {
@@ -40,6 +42,7 @@ public:
         while (next_statement()) {
             statement([&] { outside(); });
         }
+        statement([&] { names_.finish_model(model_); });
         if (model_.systems.empty() && complete_) {
             mistakes_.error(in_.here(), "there is no L-system here: 'lsystem: 1' ... 'endlsystem' is missing");
         }
@@ -93,33 +96,50 @@ private:
         model_.systems.emplace_back();
         system_ = &model_.systems.back();
         axiom_read_ = false;
-        names_.begin(*system_);
+        names_.begin(*system_, model_.systems.size() - 1);
         productions_.take_first_weight();
         const Location begin = in_.here();
-        in_.skip();
-        const std::size_t label = in_.position();
-        in_.take(in_.end_of_line(label) - label);
-        system_->label = in_.text(label, in_.position());
-        while (!system_->label.empty() && is_blank(system_->label.back())) system_->label.pop_back();
-
+        label();
         rules_ = nullptr;
         weight_reported_ = false;
         bool ended = false;
         while (!ended && next_statement()) {
             statement([&] { ended = line(); });
         }
-        if (!ended && complete_)
-            mistakes_.error(in_.here(), "the file ends inside an L-system: 'endlsystem' is missing");
+        if (!ended && complete_) mistakes_.warning(in_.here(), "'endlsystem' is missing at the end of the file");
         if (!axiom_read_) mistakes_.error(begin, "this L-system has no axiom: 'axiom: ...' is missing");
         names_.finish();
+    }
+
+    // Only sub-L-systems are called by their labels; the first L-system's may be anything.
+    void label() {
+        in_.skip();
+        const Location at = in_.here();
+        const std::size_t begin = in_.position();
+        in_.take(in_.end_of_line(begin) - begin);
+        std::string_view text = in_.text(begin, in_.position());
+        while (!text.empty() && (is_blank(text.back()) || text.back() == ';')) text.remove_suffix(1);
+        system_->label = text;
+        int number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool is_number = error == std::errc() && end == text.data() + text.size();
+        if (is_number) {
+            system_->label = std::to_string(number);
+            const auto [first, is_new] = labels_.try_emplace(number, at);
+            if (is_new) return;
+            mistakes_.error(at, fmt::format("an L-system with the label {} stands in {} already", number,
+                                            to_string(names_.place(first->second))));
+        } else if (model_.systems.size() > 1) {
+            mistakes_.error(
+                at, fmt::format("expected the number by which ?(number) calls this L-system, found '{}'", text));
+        }
     }
 
     /// One line of an L-system; true at its end.
     bool line() {
         if (begins_item()) {
             if (in_.looking_at_keyword("lsystem")) {
-                mistakes_.error(in_.here(),
-                                "another L-system begins inside this one: 'endlsystem' is missing before it");
+                mistakes_.warning(in_.here(), "'endlsystem' is missing before this L-system");
                 return true;
             }
             if (in_.accept_keyword("endlsystem")) {
@@ -133,14 +153,16 @@ private:
         return false;
     }
 
-    // A word such as "axiom" begins an item unless the line is plainly a production: "end --> F".
+    // A word such as "axiom" begins an item unless the line is plainly a production: "end --> F", and, behind the
+    // axiom, "end : x > 1 --> F".
     bool begins_item() {
         const auto is_here = [&](const std::string& keyword) {
             const std::size_t length = keyword_length(in_.rest(), keyword);
             if (length == 0) return false;
             const std::size_t after = in_.rest().find_first_not_of(" \t", length);
             const char next = after == Scanner::npos ? '\n' : in_.rest()[after];
-            return next == ':' || next == '{' || !in_.line_has_arrow(in_.position());
+            const bool production = in_.line_has_arrow(in_.position());
+            return next == '{' || !production || (next == ':' && !axiom_read_);
         };
         const auto header = header_keywords();
         const auto section = section_keywords();
@@ -323,6 +345,7 @@ private:
     LSystem* system_ = nullptr;
     RuleSet* rules_ = nullptr;  // null among the productions proper
     bool complete_;             // nothing was wrong before parsing that may have hidden a part
+    std::map<int, Location> labels_;
     bool axiom_read_ = false;
     bool weight_reported_ = false;
 };

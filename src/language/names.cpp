@@ -21,8 +21,9 @@ std::optional<double> mathematical_constant(std::string_view name) {
 
 }  // namespace
 
-void Names::begin(LSystem& system) {
+void Names::begin(LSystem& system, std::size_t number) {
     system_ = &system;
+    system_number_ = number;
     ids_.clear();
     variables_.clear();
     system.globals.clear();
@@ -47,6 +48,13 @@ void Names::define_constant(std::string_view name, double value, Location at) {
 void Names::add_external(std::string_view name) {
     variables_[variable(name)].assigned = true;
     system_->external_globals.emplace_back(name);
+    shared_.emplace(name);
+}
+
+void Names::add_array(ArrayDeclaration array, Location at) {
+    const auto index = static_cast<std::uint32_t>(system_->arrays.size());
+    if (array.dimensions.empty()) external_elements_.push_back({system_number_, index, 0, at});
+    system_->arrays.push_back(std::move(array));
 }
 
 std::optional<std::uint32_t> Names::array(std::string_view name) const {
@@ -54,6 +62,19 @@ std::optional<std::uint32_t> Names::array(std::string_view name) const {
         if (system_->arrays[i].name == name) return static_cast<std::uint32_t>(i);
     }
     return std::nullopt;
+}
+
+std::optional<std::uint32_t> Names::subscripted(std::string_view name, Location at) {
+    std::vector<std::string>& external = system_->external_globals;
+    const auto shared = std::find(external.begin(), external.end(), name);
+    if (const std::optional<std::uint32_t> known = array(name); known || shared == external.end()) return known;
+    external.erase(shared);
+    ArrayDeclaration declared;
+    declared.name = name;
+    declared.external = true;
+    declared.place = place(at);
+    add_array(std::move(declared), at);
+    return static_cast<std::uint32_t>(system_->arrays.size() - 1);
 }
 
 Expression Names::read(std::string_view name, Location at) {
@@ -138,10 +159,10 @@ std::string Names::unknown(std::string_view name, const std::vector<std::string>
     if (macros_.contains(std::string(name))) {
         return fmt::format(
             "macro '{}' is not expanded here: it is defined later, or takes arguments, or an apostrophe "
-            "stands before it on the line",
+            "stands before it on the line; its value is 0",
             name);
     }
-    return fmt::format("nothing is known of '{}': it is no parameter here and never assigned{}", name,
+    return fmt::format("'{}' is no parameter here and never assigned, so its value is 0{}", name,
                        did_you_mean(name, known_names(formals)));
 }
 
@@ -153,10 +174,52 @@ void Names::finish() {
         if (mathematical_constant(system_->globals[i])) {
             constants_used = true;
         } else {
-            mistakes_.error(*variable.read, unknown(system_->globals[i], &variable.formals));
+            unassigned_.push_back(
+                {*variable.read, system_->globals[i], unknown(system_->globals[i], &variable.formals)});
         }
     }
     if (constants_used) put_in_constants();
+}
+
+void Names::finish_model(Model& model) {
+    for (const Unassigned& variable : unassigned_) {
+        if (!shared_.contains(variable.name)) mistakes_.warning(variable.at, variable.message);
+    }
+    for (const ExternalElement& element : external_elements_) {
+        ArrayDeclaration& array = model.systems[element.system].arrays[element.array];
+        if (array.dimensions.empty()) size_external_array(model, array);
+        if (array.dimensions.empty()) {
+            mistakes_.error(element.at, fmt::format("no L-system of this file declares an array '{}'", array.name));
+            array.dimensions.resize(std::max<std::size_t>(element.count, 1));  // said once
+        }
+        const bool used = element.count > 0;
+        if (used && array.dimensions.size() != element.count) wrong_subscripts(array, element.count, element.at);
+    }
+}
+
+void Names::size_external_array(const Model& model, ArrayDeclaration& array) {
+    for (const LSystem& system : model.systems) {
+        for (const ArrayDeclaration& declared : system.arrays) {
+            if (declared.external || declared.name != array.name) continue;
+            array.dimensions = declared.dimensions;
+            return;
+        }
+    }
+}
+
+void Names::check_subscripts(std::uint32_t array, std::size_t count, Location at) {
+    const ArrayDeclaration& declared = system_->arrays[array];
+    if (declared.dimensions.empty()) {
+        external_elements_.push_back({system_number_, array, count, at});
+    } else if (declared.dimensions.size() != count) {
+        wrong_subscripts(declared, count, at);
+    }
+}
+
+void Names::wrong_subscripts(const ArrayDeclaration& array, std::size_t count, Location at) {
+    const std::size_t dimensions = array.dimensions.size();
+    mistakes_.error(at, fmt::format("array '{}' has {} dimension{}, not {}", array.name, dimensions,
+                                    dimensions == 1 ? "" : "s", count));
 }
 
 // pi and e are variables where the model assigns them, numbers where it does not.

@@ -143,7 +143,9 @@ ModuleTemplate ProductionParser::module() {
     if (in_.accept("(")) {
         const Scanner::Inside inside(in_);
         do {
-            result.arguments.push_back(expressions_.argument(true));
+            Expression argument = expressions_.argument(true);
+            if (argument.kind == Expression::Kind::text) argument.index = text_index(argument.text);
+            result.arguments.push_back(std::move(argument));
         } while (in_.accept(","));
         if (!in_.accept(")")) in_.expected(fmt::format("')' after the parameters of '{}'", name));
     }
@@ -176,15 +178,25 @@ LetterId ProductionParser::letter(std::string_view symbol, std::size_t arity, Lo
     }
     if (arity > 60'000) throw SyntaxError{at, "a module has at most 60,000 parameters"};
     try {
-        return alphabet_->letter(symbol, static_cast<int>(arity));
+        return model_->alphabet.letter(symbol, static_cast<int>(arity));
     } catch (const UserError& error) {
         throw SyntaxError{at, error.what()};
     }
 }
 
+std::uint32_t ProductionParser::text_index(const std::string& text) {
+    const auto [found, is_new] = texts_.try_emplace(text, static_cast<std::uint32_t>(model_->texts.size()));
+    if (is_new) model_->texts.push_back(text);
+    return found->second;
+}
+
 std::vector<SymbolId> ProductionParser::symbol_list() {
     std::vector<SymbolId> result;
-    while (!in_.at_end()) result.push_back(alphabet_->symbol(symbol()));
+    if (in_.accept("*")) {
+        if (!in_.at_end()) in_.expected("nothing beside '*', which stands for no module");
+        return result;
+    }
+    while (!in_.at_end()) result.push_back(model_->alphabet.symbol(symbol()));
     return result;
 }
 

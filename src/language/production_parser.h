@@ -9,6 +9,8 @@
 #include "language/symbols.h"
 
 #include <optional>
+#include <string>
+#include <unordered_map>
 
 namespace espalier::language {
 
@@ -17,7 +19,8 @@ public:
     ProductionParser(Scanner& in, Names& names, Mistakes& mistakes, Symbols& symbols, ExpressionParser& expressions)
         : in_(in), names_(names), mistakes_(mistakes), symbols_(symbols), expressions_(expressions) {}
 
-    void set_alphabet(Alphabet& alphabet) { alphabet_ = &alphabet; }
+    /// Where letters and texts are entered.
+    void set_model(Model& model) { model_ = &model; }
 
     /// left < strict > right : {before} condition {after} --> successor : weight
     Production production();
@@ -39,13 +42,15 @@ private:
     ModuleTemplate module();
     std::string_view symbol();
     LetterId letter(std::string_view symbol, std::size_t arity, Location at);
+    std::uint32_t text_index(const std::string& text);
 
     Scanner& in_;
     Names& names_;
     Mistakes& mistakes_;
     Symbols& symbols_;
     ExpressionParser& expressions_;
-    Alphabet* alphabet_ = nullptr;
+    Model* model_ = nullptr;
+    std::unordered_map<std::string, std::uint32_t> texts_;  // their places in Model::texts
     std::optional<Location> first_weight_;
 };
 

@@ -17,6 +17,7 @@ std::shared_ptr<const Model> read(std::string text, const std::string& name, con
     model->name = path.empty() ? name : path.filename().string();
     model->path = path;
     model->quirks = options.quirks;
+    model->resources = options.resources;
     try {
         const std::uint32_t file = sources.add(name, std::move(text));
         const language::Preprocessed source = language::preprocess(sources, file, folder, options, mistakes);
@@ -24,7 +25,10 @@ std::shared_ptr<const Model> read(std::string text, const std::string& name, con
     } catch (const language::TooManyMistakes&) {
         // Those found so far are reported.
     }
-    if (options.warnings) *options.warnings = mistakes.warnings();
+    if (options.warnings) {
+        const std::vector<Diagnostic> found = mistakes.warnings();
+        options.warnings->insert(options.warnings->end(), found.begin(), found.end());
+    }
     if (std::vector<Diagnostic> errors = mistakes.errors(); !errors.empty()) throw UserError(std::move(errors));
     return model;
 }

@@ -4,6 +4,7 @@
 #include "reading.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 using namespace espalier;
@@ -14,11 +15,15 @@ namespace {
 // The folder is left out, so that the expected text is the same wherever the sources lie.
 std::string complaint(const std::filesystem::path& path) {
     std::string text;
+    std::vector<Diagnostic> warnings;
+    ReadOptions options;
+    options.warnings = &warnings;
     try {
-        read_model_text(read_text(path), path.filename().string(), path.parent_path());
+        read_model_text(read_text(path), path.filename().string(), path.parent_path(), options);
     } catch (const UserError& error) {
         text = error.what();
     }
+    for (const Diagnostic& warning : warnings) text += (text.empty() ? "" : "\n") + to_string(warning);
     const std::string folder = path.parent_path().string() + "/";
     for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
         text.erase(at, folder.size());
@@ -27,6 +32,7 @@ std::string complaint(const std::filesystem::path& path) {
 
 }  // namespace
 
+// ESPALIER_APPROVE=1 in the environment writes what is said now as what is to be said.
 TEST_CASE("every mistake in the collection is explained as approved", "[language]") {
     std::vector<std::filesystem::path> models;
     for (const auto& entry : std::filesystem::directory_iterator(ESPALIER_SOURCE_DIR "/tests/language/mistakes")) {
@@ -36,7 +42,9 @@ TEST_CASE("every mistake in the collection is explained as approved", "[language
     CHECK(models.size() >= 70);
     for (const std::filesystem::path& model : models) {
         std::filesystem::path expected = model;
-        CHECK(complaint(model) == read_text(expected.replace_extension(".expected")));
+        expected.replace_extension(".expected");
+        if (std::getenv("ESPALIER_APPROVE")) write_text(expected, complaint(model));
+        CHECK(complaint(model) == read_text(expected));
     }
 }
 

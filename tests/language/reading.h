@@ -25,6 +25,15 @@ inline std::vector<Diagnostic> mistakes(const std::string& text, const ReadOptio
     return {};
 }
 
+/// What the reader warns of while it reads.
+inline std::vector<Diagnostic> reading_warnings(const std::string& text) {
+    std::vector<Diagnostic> found;
+    ReadOptions options;
+    options.warnings = &found;
+    read(text, options);
+    return found;
+}
+
 /// The messages of the mistakes, one a line, without source lines: "3:5: expected ..."
 inline std::string messages(const std::string& text, const ReadOptions& options = {}) {
     std::string result;

@@ -23,7 +23,7 @@ struct ReadOptions {
     Defines predefined = {};
     /// What func(), curveX() and their like ask; null if there is nothing.
     std::shared_ptr<const Resources> resources = nullptr;
-    /// Where warnings of the preprocessor go; none are kept if null.
+    /// Where warnings go (macros defined twice, variables that nobody assigns); none are kept if null.
     std::vector<Diagnostic>* warnings = nullptr;
 };
 
