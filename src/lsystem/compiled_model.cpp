@@ -1,5 +1,7 @@
 #include "compiled_model.h"
 
+#include "limits.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 namespace espalier {
 namespace {
 
-constexpr double most_elements = 1e9;
 constexpr double deepest = 1e6;
 
 Plan plan_of(const CompiledProduction& production) {

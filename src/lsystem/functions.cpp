@@ -1,5 +1,7 @@
 #include "functions.h"
 
+#include "limits.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@ namespace espalier {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double most_tosses = 1e8;
 
 double at_or(std::span<const double> values, std::size_t index, double fallback) {
     return index < values.size() ? values[index] : fallback;

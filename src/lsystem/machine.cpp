@@ -1,5 +1,7 @@
 #include "machine.h"
 
+#include "limits.h"
+
 #include <fmt/format.h>
 
 #include <bit>
@@ -7,8 +9,6 @@
 
 namespace espalier {
 namespace {
-
-constexpr std::uint64_t most_turns = 100'000'000;  // of all loops of one block: seconds, where others would hang
 
 [[noreturn]] void refuse_loop(const Place& place) {
     throw EvaluationError(place, fmt::format("the loop does not end: it was stopped after {} turns", most_turns));

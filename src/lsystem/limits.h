@@ -1,0 +1,18 @@
+// How much a model may ask for before it is stopped: seconds, where others would hang.
+#pragma once
+
+#include <cstdint>
+
+namespace espalier {
+
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+inline constexpr std::uint64_t most_turns = 1'000;
+inline constexpr double most_tosses = 1e3;
+inline constexpr double most_elements = 1e5;
+#else
+inline constexpr std::uint64_t most_turns = 100'000'000;  ///< of all loops of one block
+inline constexpr double most_tosses = 1e8;                ///< of one biran()
+inline constexpr double most_elements = 1e9;              ///< of one array
+#endif
+
+}  // namespace espalier
