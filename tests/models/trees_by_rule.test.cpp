@@ -1,0 +1,284 @@
+// Trees made by chance or by what flows in them: Oppenheimer, de Reffye, unequal flow, Strahler, pipes.
+#include "catch.h"
+#include "experiments/growth.h"
+#include "models/measure.h"
+
+#include <map>
+
+using namespace espalier;
+
+namespace {
+
+int segments_of_oppenheimer(int depth, int branches) {
+    return depth == 0 ? 1 : 1 + (1 + branches) * segments_of_oppenheimer(depth - 1, branches);
+}
+
+// Upper tail of chi-square with k degrees of freedom, by the Wilson-Hilferty normal approximation (1931).
+double chi_square_p(double chi_square, int k) {
+    const double z = (std::cbrt(chi_square / k) - (1 - 2.0 / (9 * k))) / std::sqrt(2.0 / (9 * k));
+    return 0.5 * std::erfc(z / std::sqrt(2));
+}
+
+struct Fork {
+    double parent = 0;
+    std::vector<double> children;
+};
+
+// Every internode I with the internodes that grow from its end; `value` is their first parameter.
+std::vector<Fork> forks_of(const LonePlant& tree) {
+    const auto symbols = symbols_of(tree.string, tree.model->alphabet);
+    const auto values = values_of(tree.string, tree.model->alphabet, "I");
+    std::vector<Fork> forks;
+    std::vector<std::size_t> stack;
+    std::size_t last = std::size_t(-1), next = 0;
+    for (const std::string& symbol : symbols) {
+        if (symbol == "[") stack.push_back(last);
+        if (symbol == "]") {
+            last = stack.back();
+            stack.pop_back();
+        }
+        if (symbol != "I") continue;
+        if (last != std::size_t(-1)) forks[last].children.push_back(values[next]);
+        forks.push_back({values[next], {}});
+        last = next++;
+    }
+    return forks;
+}
+
+}  // namespace
+
+TEST_CASE("oppenheimer: N(d) = 1 + N(d-1) + n N(d-1) segments and a leaf at every end", "[trees]") {
+    for (int branches : {1, 2, 3}) {
+        LonePlant tree("models/trees/oppenheimer.l", {{"DEPTH", "5"}, {"BRANCHES", std::to_string(branches)}}, 3);
+        tree.grow(6);
+        CHECK(tree.counts()["F"] == segments_of_oppenheimer(5, branches));
+        CHECK(tree.counts()["L"] == static_cast<int>(std::pow(1 + branches, 5)));
+        CHECK(tree.counts()["T"] == 0);
+        CHECK(tree.interpretation.geometry.polygons.size() == static_cast<std::size_t>(tree.counts()["L"]));
+    }
+}
+
+TEST_CASE("oppenheimer: without deviation the ratios are exact, with it they have their mean and deviation",
+          "[trees]") {
+    LonePlant exact("models/trees/oppenheimer.l", {{"DEVIATION", "0"}});
+    exact.grow(5);
+    const auto children = children_of(exact.interpretation.geometry);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const Internode& parent = exact.interpretation.geometry.internodes[i];
+        for (std::size_t child : children[i]) {
+            const Internode& internode = exact.interpretation.geometry.internodes[child];
+            const double ratio = internode.order == parent.order ? 0.8 : 0.6;
+            CHECK(length_of(internode) == Approx(ratio * length_of(parent)));
+        }
+    }
+
+    LonePlant varied("models/trees/oppenheimer.l", {{"DEPTH", "9"}, {"BRANCHES", "2"}, {"RATIO_SD", "0.04"}}, 11);
+    varied.grow(9);
+    std::vector<double> stems, branches;
+    const PlantGeometry& geometry = varied.interpretation.geometry;
+    std::vector<std::size_t> last_of_order(100, 0);
+    for (std::size_t i = 0; i < geometry.internodes.size(); ++i) {
+        const Internode& internode = geometry.internodes[i];
+        if (i > 0) {
+            // The parent is the last segment of this order, or of the one below if this one begins a branch.
+            const bool begins = internode.axis != geometry.internodes[last_of_order[internode.order]].axis;
+            const std::size_t parent = last_of_order[begins ? internode.order - 1u : internode.order];
+            (begins ? branches : stems).push_back(length_of(internode) / length_of(geometry.internodes[parent]));
+        }
+        last_of_order[internode.order] = i;
+    }
+    // 3280 and 6560 draws: the mean is known to 0.04 / sqrt(3280) = 0.0007.
+    REQUIRE(stems.size() + branches.size() > 9000);
+    CHECK(mean_of(stems) == Approx(0.8).margin(0.003));
+    CHECK(mean_of(branches) == Approx(0.6).margin(0.002));
+    CHECK(deviation_of(stems) == Approx(0.04).epsilon(0.05));
+    CHECK(deviation_of(branches) == Approx(0.04).epsilon(0.05));
+}
+
+TEST_CASE("unequal-flow: what the tips get adds up to what the root gives", "[trees]") {
+    for (const char* share : {"0.5", "0.667", "0.9", "1"}) {
+        LonePlant tree("models/trees/unequal-flow.l", {{"F2", share}});
+        tree.grow(8);
+        double sum = 0;
+        for (double flow : values_of(tree.string, tree.model->alphabet, "T")) sum += flow;
+        CHECK(std::abs(sum - 1) < 1e-12);
+    }
+}
+
+TEST_CASE("unequal-flow: the more unequal the flow, the fewer tips; an equal flow makes a symmetric tree", "[trees]") {
+    int last = 1000;
+    for (const char* share : {"0.5", "0.667", "0.9", "1"}) {
+        LonePlant tree("models/trees/unequal-flow.l", {{"F2", share}});
+        tree.grow(8);
+        CHECK(tree.counts()["T"] < last);
+        last = tree.counts()["T"];
+    }
+    CHECK(last == 9);
+
+    LonePlant even("models/trees/unequal-flow.l", {{"F2", "0.5"}, {"ANGLE_1", "30"}, {"ANGLE_2", "30"}});
+    even.grow(6);
+    CHECK(even.counts()["T"] == 64);
+    std::vector<double> left, right;
+    for (const Internode& internode : even.interpretation.geometry.internodes) {
+        (internode.tip.x < 0 ? left : right).push_back(std::abs(internode.tip.x) + internode.tip.y);
+    }
+    // The trunk stands on the right side of zero.
+    REQUIRE(left.size() + 1 == right.size());
+    std::sort(left.begin(), left.end());
+    std::sort(right.begin(), right.end());
+    right.erase(right.begin());
+    for (std::size_t i = 0; i < left.size(); ++i) CHECK(left[i] == Approx(right[i]));
+}
+
+TEST_CASE("buds: without death an axis has binomially many internodes, each with one leaf", "[trees]") {
+    const int ticks = 20, runs = 2000;
+    std::vector<int> found(ticks + 1, 0);
+    const auto model = read_model(source_path("models/trees/buds.l"), {{{"DEATH", "0"}, {"PAUSE", "0.3"}}});
+    const auto compiled = compile(model);
+    for (int seed = 0; seed < runs; ++seed) {
+        DerivationSettings settings;
+        settings.seed = static_cast<std::uint64_t>(seed);
+        Derivation derivation(compiled, settings);
+        ModuleString string, next;
+        derivation.start(string);
+        for (int step = 0; step < 2 * ticks; ++step) {
+            derivation.step(string, next);
+            std::swap(string, next);
+        }
+        int internodes = 0, leaves = 0;
+        for (const auto& each : parameters_of(string, model->alphabet, "Internode")) {
+            leaves += 1;
+            if (each[0] == 0) ++internodes;
+        }
+        CHECK(parameters_of(string, model->alphabet, "Leaf").size() == static_cast<std::size_t>(leaves));
+        ++found[static_cast<std::size_t>(internodes)];
+    }
+    double chi_square = 0, pooled_expected = 0;
+    int pooled_found = 0, classes = 0;
+    double probability = std::pow(0.3, ticks);
+    for (int k = 0; k <= ticks; ++k) {
+        pooled_expected += runs * probability;
+        pooled_found += found[static_cast<std::size_t>(k)];
+        if (pooled_expected >= 10 || k == ticks) {
+            chi_square += (pooled_found - pooled_expected) * (pooled_found - pooled_expected) / pooled_expected;
+            ++classes;
+            pooled_expected = pooled_found = 0;
+        }
+        probability *= 0.7 / 0.3 * (ticks - k) / (k + 1);
+    }
+    CHECK(classes > 8);
+    CHECK(chi_square_p(chi_square, classes - 1) > 0.01);
+}
+
+TEST_CASE("buds: with death the ticks a bud lives are geometric with mean 1 / DEATH", "[trees]") {
+    const double death = 0.1;
+    const auto compiled = compile(
+        read_model(source_path("models/trees/buds.l"), {{{"DEATH", "0.1"}, {"BRANCHING", "0"}, {"PERIOD_0", "1"}}}));
+    const LetterId bud = *source_of(*compiled).alphabet.find("Bud", 2);
+    std::vector<double> lives;
+    int beyond = 0;
+    for (int seed = 0; seed < 2000; ++seed) {
+        DerivationSettings settings;
+        settings.seed = static_cast<std::uint64_t>(seed);
+        Derivation derivation(compiled, settings);
+        ModuleString string, next;
+        derivation.start(string);
+        int ticks = 0;
+        do {
+            derivation.step(string, next);
+            std::swap(string, next);
+            ++ticks;
+        } while (std::count(string.letters.begin(), string.letters.end(), bud) > 0);
+        lives.push_back(ticks);
+        if (ticks > 10) ++beyond;
+    }
+    // The mean has a standard error of sqrt(1 - q) / q / sqrt(2000) = 0.21.
+    CHECK(mean_of(lives) == Approx(1 / death).margin(0.7));
+    CHECK(beyond / 2000.0 == Approx(std::pow(1 - death, 10)).margin(0.04));
+}
+
+TEST_CASE("buds: half the period makes twice the nodes, and nodes bear the buds of the table", "[trees]") {
+    LonePlant tree("models/trees/buds.l",
+                   {{"DEATH", "0"}, {"PAUSE", "0"}, {"BRANCHING", "1"}, {"BUDS_0", "3"}, {"BUDS_1", "2"}});
+    tree.grow(12);
+    std::map<int, int> internodes, buds;
+    for (double order : values_of(tree.string, tree.model->alphabet, "Internode")) ++internodes[int(order)];
+    for (double order : values_of(tree.string, tree.model->alphabet, "Bud")) ++buds[int(order)];
+    CHECK(internodes[0] == 6);
+    CHECK(buds[1] == 3 * internodes[0]);
+    CHECK(buds[2] == 2 * internodes[1]);
+    CHECK(tree.counts()["Leaf"] == tree.counts()["Internode"]);
+
+    const auto nodes_of_first_branchlet = [](const char* period) {
+        LonePlant plant("models/trees/buds.l", {{"DEATH", "0"},
+                                                {"PAUSE", "0"},
+                                                {"BRANCHING", "1"},
+                                                {"BUDS_0", "1"},
+                                                {"BUDS_1", "0"},
+                                                {"PERIOD_1", period}});
+        plant.grow(10);  // the first branch begins at step 2 and has 8 steps
+        int count = 0;
+        for (const Internode& internode : plant.interpretation.geometry.internodes) {
+            if (internode.axis == 1) ++count;
+        }
+        return count;
+    };
+    CHECK(nodes_of_first_branchlet("2") == 4);
+    CHECK(nodes_of_first_branchlet("1") == 8);
+}
+
+TEST_CASE("strahler: a perfect binary tree of depth k has order k + 1, a caterpillar 2", "[trees]") {
+    for (int depth = 1; depth <= 6; ++depth) {
+        const std::string text = std::to_string(depth);
+        LonePlant perfect("models/trees/strahler.l", {{"SHAPE", "0"}, {"DEPTH", text}});
+        perfect.grow(2 * depth + 4);
+        const auto orders = values_of(perfect.string, perfect.model->alphabet, "I");
+        CHECK(orders.size() == (std::size_t(2) << depth) - 1);
+        CHECK(orders.front() == depth + 1);
+
+        LonePlant caterpillar("models/trees/strahler.l", {{"SHAPE", "1"}, {"DEPTH", text}});
+        caterpillar.grow(2 * depth + 4);
+        CHECK(values_of(caterpillar.string, caterpillar.model->alphabet, "I").front() == 2);
+    }
+}
+
+TEST_CASE("strahler: every fork obeys the rule of equal children", "[trees]") {
+    LonePlant tree("models/trees/strahler.l", {{"DEPTH", "10"}});
+    tree.grow(30);
+    int raised = 0;
+    for (const Fork& fork : forks_of(tree)) {
+        if (fork.children.empty()) {
+            CHECK(fork.parent == 1);
+            continue;
+        }
+        REQUIRE(fork.children.size() == 2);
+        const double a = fork.children[0], b = fork.children[1];
+        CHECK(fork.parent == (a == b ? a + 1 : std::max(a, b)));
+        if (a == b) ++raised;
+    }
+    CHECK(raised > 5);
+}
+
+TEST_CASE("pipe-model: r^n adds up at every fork, and the base carries r0 k^(1/n)", "[trees]") {
+    for (double n : {2.0, 2.5, 3.0}) {
+        LonePlant tree("models/trees/pipe-model.l", {{"N", std::to_string(n)}});
+        tree.grow(tree.derivation.length());
+        int forks = 0, unary = 0;
+        for (const Fork& fork : forks_of(tree)) {
+            REQUIRE(fork.parent > 0);
+            if (fork.children.size() == 1) {
+                CHECK(fork.parent == fork.children[0]);
+                ++unary;
+            } else if (fork.children.size() == 2) {
+                const double sum = std::pow(fork.children[0], n) + std::pow(fork.children[1], n);
+                CHECK(std::pow(fork.parent, n) == Approx(sum).epsilon(1e-9));
+                ++forks;
+            } else {
+                CHECK(fork.parent == 0.01);
+            }
+        }
+        CHECK(forks > 30);
+        CHECK(unary > 30);
+        CHECK(forks_of(tree).front().parent == Approx(0.01 * std::pow(tree.counts()["T"], 1 / n)).epsilon(1e-9));
+    }
+}
