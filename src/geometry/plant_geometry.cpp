@@ -22,6 +22,12 @@ void PlantGeometry::clear() {
     polygons.clear();
     vertices.clear();
     organs.clear();
+    mesh.vertices.clear();
+    mesh.triangles.clear();
+    mesh.pieces.clear();
+    labels.clear();
+    textures.clear();
+    shapes.reset();
     axes = 0;
     bounds = Box{};
 }

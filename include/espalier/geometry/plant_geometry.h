@@ -1,10 +1,13 @@
-// What a turtle draws: internodes, polygons and organs with the module they belong to. Metres, radians.
+// What a turtle draws: internodes, polygons, organs and meshes with the module they belong to. Metres, radians.
 #pragma once
+
+#include "espalier/geometry/shapes.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,7 +31,14 @@ struct Box {
     void add(const Box& box);
 };
 
+/// How the two sides of something flat or closed look: the colour index of its back, and a texture (0: none).
+struct Look {
+    std::uint16_t back_colour = 0;
+    std::uint16_t texture = 0;  ///< counted from 1 in Shapes::textures
+};
+
 /// One drawn segment. Internodes of one axis follow each other: `axis` counts the axes of the plant.
+/// Lines whose width is in pixels have radius 0.
 struct Internode {
     std::uint32_t module;  ///< index of the module in the plant's string
     std::uint32_t axis;
@@ -44,6 +54,7 @@ struct Polygon {
     std::uint32_t first, count;
     std::uint16_t order;
     std::uint16_t colour;
+    Look look = {};
 };
 
 /// A thing placed at a pose: a disc, a sphere, a circle's outline, a named surface.
@@ -55,7 +66,36 @@ struct Organ {
     std::uint16_t colour;
     std::uint32_t surface;  ///< code point of the surface's id, 0 if none
     Pose pose;
-    glm::dvec3 size;  ///< disc, sphere, circle: diameter in x; surface: scale along each axis
+    glm::dvec3 size;  ///< disc, sphere, circle: diameter in x; surface: scale along left, heading, up
+    Look look = {};
+    std::uint16_t sides = 8;  ///< polygons around a sphere
+};
+
+/// A part of PlantGeometry::mesh that one module drew: `count` indices from mesh.triangles[first], three a triangle.
+struct MeshPiece {
+    enum class Kind : std::uint8_t { cylinder, patch };
+    std::uint32_t module;
+    std::uint32_t first, count;
+    std::uint16_t order;
+    std::uint16_t colour;
+    Look look;
+    Kind kind;
+};
+
+/// Triangles in the world's coordinates, their normals outward; pieces of one cylinder share vertices.
+struct TriangleMesh {
+    std::vector<SurfaceVertex> vertices;
+    std::vector<std::uint32_t> triangles;
+    std::vector<MeshPiece> pieces;
+};
+
+/// A text that the model wrote at a place.
+struct Label {
+    std::uint32_t module;
+    std::uint16_t order;
+    std::uint16_t colour;
+    glm::dvec3 position;
+    std::string text;
 };
 
 struct PlantGeometry {
@@ -63,6 +103,10 @@ struct PlantGeometry {
     std::vector<Polygon> polygons;
     std::vector<glm::dvec3> vertices;
     std::vector<Organ> organs;
+    TriangleMesh mesh;  ///< generalized cylinders and patches
+    std::vector<Label> labels;
+    std::vector<std::uint16_t> textures;   ///< of the internodes; shorter where the last ones have none
+    std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: nobody said
     std::uint32_t axes = 0;
     Box bounds;  ///< of everything drawn, thickness included
 

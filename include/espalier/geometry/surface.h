@@ -50,6 +50,7 @@ struct SurfaceMesh {
     std::vector<SurfaceVertex> vertices;
     std::vector<std::uint32_t> indices;  ///< of all faces, one after the other
     std::vector<std::uint32_t> faces;    ///< number of vertices of each face
+    std::vector<std::uint32_t> patches;  ///< the patch each face belongs to; none of a surface of triangles
 };
 SurfaceMesh mesh_of(const Surface& surface);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/environment/environment.h"
+#include "espalier/geometry/palette.h"
 #include "espalier/lsystem/module_string.h"
 #include "espalier/turtle/interpretation.h"
 
@@ -19,6 +20,7 @@ struct PlantFrame {
     const ModuleString* string = nullptr;
     const Interpretation* interpretation = nullptr;
     std::vector<Quantity> quantities;  ///< "light.mean", ... of this plant, the same names in every frame
+    const Palette* palette = nullptr;  ///< what colour indices look like; null: unknown
 };
 
 struct Frame {
