@@ -240,7 +240,7 @@ private:
 
     const GeneralizedCylinder& cylinder_;
     PlantGeometry& geometry_;
-    TriangleMesh& mesh_;
+    DrawnMesh& mesh_;
     const int sides_;
     const Contour circle_;
     const std::vector<CylinderRing> rings_;

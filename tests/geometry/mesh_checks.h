@@ -18,7 +18,7 @@ struct EdgeCount {
     std::size_t edges = 0, places = 0;
     bool closed = true;
 
-    explicit EdgeCount(const TriangleMesh& mesh) {
+    explicit EdgeCount(const DrawnMesh& mesh) {
         std::map<std::array<double, 3>, int> place_of;
         std::map<std::pair<int, int>, int> balance;
         const auto place = [&](std::uint32_t vertex) {
@@ -39,7 +39,7 @@ struct EdgeCount {
 };
 
 /// By the divergence theorem; positive if the triangles face outward.
-inline double enclosed_volume(const TriangleMesh& mesh) {
+inline double enclosed_volume(const DrawnMesh& mesh) {
     double sum = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
         const glm::dvec3 &a = mesh.vertices[mesh.triangles[i]].position,
@@ -51,7 +51,7 @@ inline double enclosed_volume(const TriangleMesh& mesh) {
 }
 
 /// The smallest cosine between a triangle's normal and those of its vertices.
-inline double worst_normal(const TriangleMesh& mesh) {
+inline double worst_normal(const DrawnMesh& mesh) {
     double worst = 1;
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
         const SurfaceVertex* v[3];

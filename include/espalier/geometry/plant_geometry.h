@@ -83,7 +83,7 @@ struct MeshPiece {
 };
 
 /// Triangles in the world's coordinates, their normals outward; pieces of one cylinder share vertices.
-struct TriangleMesh {
+struct DrawnMesh {
     std::vector<SurfaceVertex> vertices;
     std::vector<std::uint32_t> triangles;
     std::vector<MeshPiece> pieces;
@@ -103,7 +103,7 @@ struct PlantGeometry {
     std::vector<Polygon> polygons;
     std::vector<glm::dvec3> vertices;
     std::vector<Organ> organs;
-    TriangleMesh mesh;  ///< generalized cylinders and patches
+    DrawnMesh mesh;  ///< generalized cylinders and patches
     std::vector<Label> labels;
     std::vector<std::uint16_t> textures;   ///< of the internodes; shorter where the last ones have none
     std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: nobody said
