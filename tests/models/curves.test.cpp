@@ -222,3 +222,35 @@ TEST_CASE("Penrose's tiling: unit edges along multiples of 36 degrees, the same 
         CHECK(found);
     }
 }
+
+TEST_CASE("Row of trees: parts divide when their waiting is over; with right angles it ends 1 ahead on its base line",
+          "[curves]") {
+    struct Part {
+        double length;
+        int wait;
+    };
+    const double p = 0.3, height = std::sqrt(p * (1 - p));
+    std::vector<Part> parts{{1, 0}};
+    LonePlant row("models/curves/row-of-trees.l", {{"ANGLE", "90"}});
+    for (int step = 1; step <= 10; ++step) {
+        std::vector<Part> next;
+        for (const Part& part : parts) {
+            if (part.wait > 0) {
+                next.push_back({part.length, part.wait - 1});
+            } else {
+                for (const auto& [factor, wait] : {Part{p, 2}, Part{height, 1}, Part{height, 1}, Part{1 - p, 0}}) {
+                    next.push_back({part.length * factor, wait});
+                }
+            }
+        }
+        parts = next;
+        row.grow(1);
+        const PlantGeometry& geometry = row.interpretation.geometry;
+        REQUIRE(geometry.internodes.size() == parts.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            CHECK(glm::length(geometry.internodes[i].tip - geometry.internodes[i].base) == Approx(parts[i].length));
+        }
+        CHECK(geometry.internodes.back().tip.x == Approx(1));
+        CHECK(std::abs(geometry.internodes.back().tip.y) < 1e-9);
+    }
+}
