@@ -258,12 +258,13 @@ private:
         if (depth && *depth <= 1) return;
         std::map<LetterId, std::set<LetterId>> pictures;
         for (const Production& production : rules.productions) {
+            if (production.condition) continue;  // which may end it
             for (const ModuleTemplate& module : production.successor) {
                 pictures[production.strict.front().letter].insert(module.letter);
             }
         }
         for (const Production& production : rules.productions) {
-            if (!reaches_itself(pictures, production.strict.front().letter)) continue;
+            if (production.condition || !reaches_itself(pictures, production.strict.front().letter)) continue;
             warn(production.place, fmt::format("the picture of {} contains itself; it ends at the maximum depth only",
                                                described(production.strict.front().letter)));
             return;

@@ -72,6 +72,8 @@ TEST_CASE("a picture that contains itself is found at more than one level", "[la
     const std::string rules = "A --> A\nhomomorphism\nmaximum depth: 5\nA --> FB\nB --> A\n";
     CHECK(warnings(lsystem("", "A", rules)).find("the picture of 'A' contains itself") != std::string::npos);
     CHECK(warnings(lsystem("", "A", "A --> A\nhomomorphism\nA --> FA\n")) == "");
+    const std::string counted = "A --> A\nhomomorphism\nmaximum depth: 5\nA --> B(3)\nB(n) : n > 0 --> FB(n - 1)\n";
+    CHECK(warnings(lsystem("", "A", counted)) == "");
 }
 
 TEST_CASE("questions that nobody answers are named", "[language]") {
