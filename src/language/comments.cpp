@@ -7,6 +7,8 @@
 namespace espalier::language {
 namespace {
 
+constexpr char end_of_file = 0x1A;
+
 class CommentRemover {
 public:
     CommentRemover(const Sources& sources, std::uint32_t file, Mistakes& mistakes)
@@ -46,7 +48,9 @@ private:
     void copy() {
         const char c = peek();
         const bool control = (static_cast<unsigned char>(c) < 0x20 && !is_blank(c) && c != '\n') || c == 0x7F;
-        if (control) {
+        if (c == end_of_file && text_.find_first_not_of(" \t\r\n\x1A", position_) == std::string_view::npos) {
+            // Editors of old left it behind the last line.
+        } else if (control) {
             mistakes_.error(at_, fmt::format("control character {:#04x} in the text", static_cast<unsigned char>(c)));
         } else if (c != '\r' || peek(1) != '\n') {
             out_.append(c, at_);

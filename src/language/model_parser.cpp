@@ -75,6 +75,13 @@ private:
             const std::string keyword = nearest_keyword();
             const bool fits = keyword == "lsystem" || keyword == "module" || keyword == "environment" ||
                               keyword == "const" || keyword.starts_with('#');
+            if (keyword.empty() && !model_.systems.empty()) {
+                if (!std::exchange(outside_reported_, true)) {
+                    mistakes_.warning(in_.here(), "what stands behind 'endlsystem' is passed over");
+                }
+                in_.recover(in_.position());
+                return;
+            }
             mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
                                                     fits ? hint(keyword) : ""));
             if (keyword != "lsystem") {
@@ -96,6 +103,7 @@ private:
         model_.systems.emplace_back();
         system_ = &model_.systems.back();
         axiom_read_ = false;
+        looked_ahead_ = false;
         names_.begin(*system_, model_.systems.size() - 1);
         productions_.take_first_weight();
         const Location begin = in_.here();
@@ -107,7 +115,9 @@ private:
             statement([&] { ended = line(); });
         }
         if (!ended && complete_) mistakes_.warning(in_.here(), "'endlsystem' is missing at the end of the file");
-        if (!axiom_read_) mistakes_.error(begin, "this L-system has no axiom: 'axiom: ...' is missing");
+        // A sub-L-system's axiom is never used.
+        if (!axiom_read_ && model_.systems.size() == 1)
+            mistakes_.error(begin, "this L-system has no axiom: 'axiom: ...' is missing");
         names_.finish();
     }
 
@@ -171,8 +181,7 @@ private:
     }
 
     void production() {
-        if (!axiom_read_) {
-            axiom_read_ = true;  // said once
+        if (!std::exchange(axiom_read_, true) && model_.systems.size() == 1) {  // said once
             mistakes_.error(in_.here(), "a production before the axiom: 'axiom: ...' is missing");
         }
         Production read = productions_.production();
@@ -291,6 +300,7 @@ private:
         } else if (in_.accept_keyword("ring")) {
             system_->ring = true;
             accept_lsystem();
+            in_.accept(":");
             in_.end_statement("'ring lsystem'");
         } else if (in_.accept_keyword("seed")) {
             system_->seed = value_of("seed");
@@ -300,6 +310,8 @@ private:
             filter(LSystem::Filter::ignore, "ignore");
         } else if (in_.accept_keyword("consider")) {
             filter(LSystem::Filter::consider, "consider");
+        } else if (const auto read = definitions_.find(in_.position()); read != definitions_.end()) {
+            in_.seek(read->second);
         } else if (in_.accept_keyword("define")) {
             in_.accept(":");
             declarations_.definitions();
@@ -312,6 +324,7 @@ private:
     bool block_item() {
         const auto accept_block = [&](const char* keyword, Block& block) {
             if (!in_.accept_keyword(keyword)) return false;
+            definitions_ahead();
             const Scanner::Inside inside(in_, Scanner::Inside::braces);
             in_.accept(":");
             block = expressions_.block();
@@ -321,6 +334,24 @@ private:
                            accept_block("end each", system_->end_each) || accept_block("end", system_->end);
         if (found) in_.end_statement("the block");
         return found;
+    }
+
+    // The header's items stand in any order, so that a block may use arrays declared below it.
+    void definitions_ahead() {
+        if (std::exchange(looked_ahead_, true)) return;
+        const std::size_t here = in_.position();
+        for (std::size_t line = in_.next_line(here); line < in_.text_size(); line = in_.next_line(line)) {
+            in_.seek(line);
+            in_.skip_lines();
+            const std::size_t start = in_.position();
+            if (in_.looking_at_keyword("axiom") || in_.looking_at_keyword("endlsystem")) break;
+            if (!in_.accept_keyword("define") || definitions_.contains(start)) continue;
+            in_.accept(":");
+            if (!in_.looking_at("{")) continue;
+            statement([&] { declarations_.definitions(); });
+            definitions_[start] = in_.position();
+        }
+        in_.seek(here);
     }
 
     void filter(LSystem::Filter kind, std::string_view keyword) {
@@ -343,11 +374,14 @@ private:
     DeclarationParser declarations_;
     Model& model_;
     LSystem* system_ = nullptr;
-    RuleSet* rules_ = nullptr;  // null among the productions proper
-    bool complete_;             // nothing was wrong before parsing that may have hidden a part
+    RuleSet* rules_ = nullptr;   // null among the productions proper
+    bool complete_;              // nothing was wrong before parsing that may have hidden a part
+    bool looked_ahead_ = false;  // for definitions, in the L-system at hand
     std::map<int, Location> labels_;
+    std::map<std::size_t, std::size_t> definitions_;  // read ahead: where they begin and end
     bool axiom_read_ = false;
     bool weight_reported_ = false;
+    bool outside_reported_ = false;
 };
 
 }  // namespace

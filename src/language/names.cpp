@@ -13,6 +13,8 @@
 namespace espalier::language {
 namespace {
 
+constexpr std::size_t most_unassigned = 100;  // are warned about
+
 std::optional<double> mathematical_constant(std::string_view name) {
     if (name == "pi") return std::numbers::pi;
     if (name == "e") return std::numbers::e;
@@ -25,6 +27,7 @@ void Names::begin(LSystem& system, std::size_t number) {
     system_ = &system;
     system_number_ = number;
     ids_.clear();
+    array_ids_.clear();
     variables_.clear();
     system.globals.clear();
     for (const char* predefined : {"Q", "Z"}) variables_[variable(predefined)].assigned = true;
@@ -54,14 +57,13 @@ void Names::add_external(std::string_view name) {
 void Names::add_array(ArrayDeclaration array, Location at) {
     const auto index = static_cast<std::uint32_t>(system_->arrays.size());
     if (array.dimensions.empty()) external_elements_.push_back({system_number_, index, 0, at});
+    array_ids_.try_emplace(array.name, index);
     system_->arrays.push_back(std::move(array));
 }
 
 std::optional<std::uint32_t> Names::array(std::string_view name) const {
-    for (std::size_t i = 0; i < system_->arrays.size(); ++i) {
-        if (system_->arrays[i].name == name) return static_cast<std::uint32_t>(i);
-    }
-    return std::nullopt;
+    const auto found = array_ids_.find(std::string(name));
+    return found == array_ids_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::optional<std::uint32_t> Names::subscripted(std::string_view name, Location at) {
@@ -173,7 +175,7 @@ void Names::finish() {
         if (variable.assigned || !variable.read) continue;
         if (mathematical_constant(system_->globals[i])) {
             constants_used = true;
-        } else {
+        } else if (unassigned_.size() < most_unassigned) {
             unassigned_.push_back(
                 {*variable.read, system_->globals[i], unknown(system_->globals[i], &variable.formals)});
         }

@@ -87,6 +87,7 @@ private:
     bool constants_only_ = false;
     std::map<std::string, double, std::less<>> constants_;
     std::unordered_map<std::string, std::uint32_t> ids_;
+    std::unordered_map<std::string, std::uint32_t> array_ids_;
     std::vector<Variable> variables_;
     std::size_t system_number_ = 0;
     std::vector<Unassigned> unassigned_;

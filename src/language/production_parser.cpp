@@ -108,7 +108,10 @@ ModulePattern ProductionParser::pattern(Production& production, bool right_conte
 std::vector<ModuleTemplate> ProductionParser::successor() {
     std::vector<ModuleTemplate> result;
     const auto ended = [&] { return in_.at_end() || in_.peek() == ':'; };
-    if (ended()) in_.expected("a successor ('*' for nothing)");
+    if (ended()) {
+        mistakes_.warning(in_.missing_at(),
+                          "this successor is empty, as if '*' stood here (a line that goes on begins with a TAB)");
+    }
     if (in_.accept("*")) {
         if (!ended()) in_.expected("nothing beside '*', which stands for no module");
         return result;

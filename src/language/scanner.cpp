@@ -12,7 +12,7 @@ void Scanner::skip() {
     while (position_ < text_.size()) {
         const char c = text_[position_];
         if (c != '\n' && !is_blank(c)) return;
-        if (c == '\n' && !(inside_ > 0 ? !ends_inside(position_) : continues(position_))) return;
+        if (c == '\n' && !(inside_ > 0 ? !ends_inside(position_, inside_braces_ > 0) : continues(position_))) return;
         ++position_;
     }
 }
@@ -119,12 +119,15 @@ bool Scanner::line_has_arrow(std::size_t position) const {
 }
 
 bool Scanner::statement_has_arrow() {
-    int open = 0;
+    int braces = 0;
+    int parentheses = 0;
     for (std::size_t i = position_; i < text_.size(); ++i) {
         const char c = text_[i];
         if (arrow_at(i) > 0) return true;
-        open += c == '{' || c == '(' ? 1 : c == '}' || c == ')' ? -1 : 0;
-        if (c == '\n' && (open > 0 ? ends_inside(i) : !continues(i))) return false;
+        braces += c == '{' ? 1 : c == '}' ? -1 : 0;
+        parentheses += c == '(' ? 1 : c == ')' ? -1 : 0;
+        const bool inside = braces > 0 || parentheses > 0;
+        if (c == '\n' && (inside ? ends_inside(i, braces > 0) : !continues(i))) return false;
     }
     return false;
 }
@@ -142,10 +145,10 @@ bool Scanner::continues(std::size_t newline) {
     return decision_;
 }
 
-bool Scanner::ends_inside(std::size_t newline) const {
+bool Scanner::ends_inside(std::size_t newline, bool in_braces) const {
     const std::string_view line = text(newline + 1, end_of_line(newline + 1));
     if (fits_no_block(line)) return true;
-    if (line.empty() || is_blank(line.front()) || inside_braces_ > 0) return false;
+    if (line.empty() || is_blank(line.front()) || in_braces) return false;
     int open = 0;
     for (std::size_t i = 0; i < line.size() && open >= 0; ++i) {
         if (open == 0 && arrow_at(newline + 1 + i) > 0) return true;

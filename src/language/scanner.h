@@ -76,10 +76,12 @@ public:
     [[noreturn]] void expected(std::string_view what, std::string_view hint = {}) const;
 
     /// Whether the line after `newline` shows that a '}' or ')' is missing.
-    bool ends_inside(std::size_t newline) const;
+    bool ends_inside(std::size_t newline, bool in_braces) const;
     /// After a mistake: goes to the end of the statement that began at `start`.
     void recover(std::size_t start);
     std::size_t end_of_line(std::size_t position) const;
+    std::size_t next_line(std::size_t position) const { return end_of_line(position) + 1; }
+    std::size_t text_size() const { return text_.size(); }
     bool line_has_arrow(std::size_t position) const;
     /// Whether an arrow stands between here and the end of the statement.
     bool statement_has_arrow();

@@ -39,7 +39,7 @@ void ExpressionParser::recover_in_block() {
     for (int braces = 0; !in_.at_end_of_text(); in_.take(1)) {
         const char c = in_.peek();
         if (c == '}' && braces == 0) return;
-        if (c == '\n' && in_.ends_inside(in_.position())) return;
+        if (c == '\n' && in_.ends_inside(in_.position(), true)) return;
         braces += c == '{' ? 1 : c == '}' ? -1 : 0;
         if ((c == ';' || c == '}') && braces == 0) {
             in_.take(1);
