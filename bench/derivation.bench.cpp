@@ -1,43 +1,20 @@
-// Derivation: a bare D0L plant, a parametric tree, signals with two-sided context; each beside plain C++ for the rule.
-// Items are modules written (visited, where the string does not grow).
-#include "lsystem/model_builder.h"
+// Derivation: a bare D0L plant and a parametric tree, each beside plain C++ for its rule; a stochastic bush.
+// Items are modules written.
+#include "growing.h"
 
-#include <tbb/global_control.h>
-
-#include <benchmark/benchmark.h>
-#include <cstring>
 #include <string>
 
-using namespace espalier;
-using namespace espalier::test;
-
+namespace espalier::bench {
 namespace {
 
-/// Derives `steps` steps again and again in reused memory, counting the modules of every new string.
-void derive(benchmark::State& state, ModelBuilder& model, int steps, bool lineage, bool visits = false) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0)));
-    Derivation derivation(model.compiled(), {1, 0, lineage, std::size_t(-1), {}});
-    ModuleString string, next;
-    std::int64_t modules = 0;
-    for (auto _ : state) {
-        derivation.start(string);
-        for (int k = 0; k < steps; ++k) {
-            if (visits) modules += static_cast<std::int64_t>(string.size());
-            derivation.step(string, next);
-            std::swap(string, next);
-            if (!visits) modules += static_cast<std::int64_t>(string.size());
-        }
-        benchmark::DoNotOptimize(string.letters.data());
-    }
-    state.SetItemsProcessed(modules);
-}
+using namespace test;
 
 void bare_plant(benchmark::State& state) {
     ModelBuilder model;
     model.system().axiom = model.word("X");
     model.rule("X", "F-[[X]+X]+F[+FX]-X");
     model.rule("F", "FF");
-    derive(state, model, 10, false);
+    derive(state, model, {.steps = 10});
 }
 BENCHMARK(bare_plant)->Arg(1)->Arg(2)->UseRealTime();
 
@@ -46,7 +23,7 @@ void bare_plant_with_lineage(benchmark::State& state) {
     model.system().axiom = model.word("X");
     model.rule("X", "F-[[X]+X]+F[+FX]-X");
     model.rule("F", "FF");
-    derive(state, model, 10, true);
+    derive(state, model, {.steps = 10, .lineage = true});
 }
 BENCHMARK(bare_plant_with_lineage)->Arg(1)->UseRealTime();
 
@@ -75,37 +52,17 @@ BENCHMARK(bare_plant_plain)->UseRealTime();
 
 constexpr double r1 = 0.9, r2 = 0.6, wr = 0.707;
 
-/// Honda's monopodial tree (ABOP figure 2.6).
-void make_honda(ModelBuilder& model) {
-    model.system().axiom = {model.module("A", {number(1), number(10)})};
-    const auto rule = [&](const char* strict, const char* turn, double angle, const char* lateral, const char* apex) {
-        std::vector<ModuleTemplate> successor = {
-            model.module("!", {formal(1)}),
-            model.module("F", {formal(0)}),
-            model.module("[", {}),
-            model.module(turn, {number(angle)}),
-            model.module(lateral, {formal(0) * number(r2), formal(1) * number(wr)}),
-            model.module("]", {})};
-        if (std::string(strict) == "A") successor.push_back(model.module("/", {number(137.5)}));
-        successor.push_back(model.module(apex, {formal(0) * number(r1), formal(1) * number(wr)}));
-        model.rule({{strict, 2}}, std::move(successor));
-    };
-    rule("A", "&", 45, "B", "A");
-    rule("B", "-", 45, "C", "C");
-    rule("C", "+", 45, "B", "B");
-}
-
 void honda_tree(benchmark::State& state) {
     ModelBuilder model;
     make_honda(model);
-    derive(state, model, 19, false);
+    derive(state, model, {.steps = 19});
 }
 BENCHMARK(honda_tree)->Arg(1)->Arg(2)->UseRealTime();
 
 void honda_tree_with_lineage(benchmark::State& state) {
     ModelBuilder model;
     make_honda(model);
-    derive(state, model, 19, true);
+    derive(state, model, {.steps = 19, .lineage = true});
 }
 BENCHMARK(honda_tree_with_lineage)->Arg(1)->UseRealTime();
 
@@ -115,13 +72,14 @@ void honda_tree_with_conditions(benchmark::State& state) {
     make_honda(model);
     for (Production& production : model.system().productions) {
         production.condition = number(0) < formal(0) * formal(1);
-        production.successor.back().arguments[0] = formal(0) * number(r1) * number(1);
+        production.successor.back().arguments[0] = formal(0) * number(0.9) * number(1);
     }
-    derive(state, model, 19, false);
+    derive(state, model, {.steps = 19});
 }
 BENCHMARK(honda_tree_with_conditions)->Arg(1)->UseRealTime();
 
 void honda_tree_plain(benchmark::State& state) {
+    constexpr double r1 = 0.9, r2 = 0.6, wr = 0.707;
     ModuleString string, next;
     Alphabet alphabet;
     enum { A = 3, B, C, turn_a, turn_b, turn_c, roll, width, forward };
@@ -167,23 +125,6 @@ void honda_tree_plain(benchmark::State& state) {
 }
 BENCHMARK(honda_tree_plain)->UseRealTime();
 
-/// Two-sided contexts on a branching string (ABOP figure 1.31 a, Hogeweg and Hesper 1974).
-void two_sided_context(benchmark::State& state) {
-    ModelBuilder model;
-    model.system().axiom = model.word("F1F1F1");
-    model.system().filter = LSystem::Filter::ignore;
-    for (const char* turn : {"+", "-", "F"}) model.system().filtered.push_back(model.model().alphabet.symbol(turn));
-    const char* successors[] = {"0", "1[+F1F1]", "1", "1", "0", "1F1", "0", "0"};
-    for (int k = 0; k < 8; ++k) {
-        const std::string bits[] = {k & 4 ? "1" : "0", k & 2 ? "1" : "0", k & 1 ? "1" : "0"};
-        model.rule(bits[0], bits[1], bits[2], successors[k]);
-    }
-    model.rule("+", "-");
-    model.rule("-", "+");
-    derive(state, model, 50, false, true);
-}
-BENCHMARK(two_sided_context)->Arg(1)->Arg(2)->UseRealTime();
-
 void stochastic_bush(benchmark::State& state) {
     ModelBuilder model;
     model.system().seed = number(1);
@@ -198,8 +139,52 @@ void stochastic_bush(benchmark::State& state) {
     };
     model.rule({{"A", 1}}, branch(30, 0.7)).weight = number(2);
     model.rule({{"A", 1}}, branch(-30, 0.5)).weight = number(1);
-    derive(state, model, 18, true);
+    derive(state, model, {.steps = 18, .lineage = true});
 }
 BENCHMARK(stochastic_bush)->Arg(1)->UseRealTime();
 
+/// Bytes held for a whole tree, over what its content takes: 2 a symbol and 8 a parameter.
+void bytes_per_module(benchmark::State& state) {
+    ModelBuilder model;
+    make_honda(model);
+    double ratio = 0;
+    for (auto _ : state) {
+        Derivation derivation(model.compiled());
+        const ModuleString string = grow(derivation, 18);
+        ratio = double(string.bytes()) / double(2 * string.size() + 8 * string.parameters.size());
+    }
+    state.counters["value"] = ratio;
+}
+BENCHMARK(bytes_per_module)->UseRealTime();
+
+using Measure = Row::Measure;
+using Goal = Row::Goal;
+const Row bare{"bare D0L plant, against plain C++ with std::string",
+               "bare_plant/1/real_time",
+               "bare_plant_plain/real_time",
+               Measure::rate,
+               Goal::at_least,
+               2};
+const Row honda{"parametric tree, against C++ written for its rule",
+                "honda_tree/1/real_time",
+                "honda_tree_plain/real_time",
+                Measure::rate,
+                Goal::at_least,
+                0.5};
+const Row honda_2{"parametric tree with 2 threads, against the same on one",
+                  "honda_tree/2/real_time",
+                  "honda_tree_plain/real_time",
+                  Measure::rate,
+                  Goal::at_least,
+                  0.9};
+const Row bush{"stochastic bush, against the parametric tree",
+               "stochastic_bush/1/real_time",
+               "honda_tree/1/real_time",
+               Measure::rate,
+               Goal::at_least,
+               0.5};
+const Row bytes{
+    "bytes per module, against its content", "bytes_per_module/real_time", "", Measure::value, Goal::at_most, 1.25};
+
 }  // namespace
+}  // namespace espalier::bench

@@ -1,0 +1,32 @@
+// Growing a model again and again in reused memory, and the trees that several benchmarks share.
+#pragma once
+
+#include "lsystem/model_builder.h"
+#include "table.h"
+
+#include <tbb/global_control.h>
+
+#include <benchmark/benchmark.h>
+
+namespace espalier::bench {
+
+/// What is counted: the modules of every new string, or those of every string that was read.
+enum class Counts { written, visits };
+
+struct Growing {
+    int steps = 0;
+    bool lineage = false;
+    Counts counts = Counts::written;
+};
+
+/// With as many threads as the benchmark's argument says.
+void derive(benchmark::State& state, test::ModelBuilder& model, const Growing& growing);
+
+/// Honda's monopodial tree (ABOP figure 2.6): A(l, w), B(l, w), C(l, w).
+void make_honda(test::ModelBuilder& model);
+
+inline tbb::global_control threads(const benchmark::State& state) {
+    return {tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(state.range(0))};
+}
+
+}  // namespace espalier::bench

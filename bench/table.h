@@ -1,0 +1,29 @@
+// The table of goals: every line is a benchmark beside its yardstick of the same run, and what their ratio must reach.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace espalier::bench {
+
+/// Defining one adds a line to the table. `work` and `yardstick` are names of benchmarks as they are printed.
+struct Row {
+    enum class Measure {
+        rate,   ///< items per second of the work, divided by the yardstick's
+        time,   ///< seconds of the work, divided by the yardstick's
+        value,  ///< the counter "value" of the work; no yardstick
+    };
+    enum class Goal { at_least, at_most };
+
+    Row(std::string title, std::string work, std::string yardstick, Measure measure, Goal goal, double limit);
+
+    std::string title, work, yardstick;
+    Measure measure;
+    Goal goal;
+    double limit;
+};
+
+/// In order of the files' names and of definition.
+const std::vector<Row>& rows();
+
+}  // namespace espalier::bench
