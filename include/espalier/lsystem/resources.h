@@ -22,6 +22,7 @@ public:
     double operator()(double x) const;
 
 private:
+    glm::dvec2 at_parameter(double d) const;
     double exact(double x) const;
 
     std::vector<glm::dvec2> points_;
