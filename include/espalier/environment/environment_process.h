@@ -39,6 +39,7 @@ struct EnvironmentContext {
     std::uint64_t seed = 0;
     std::uint32_t plants = 0;              ///< how many plants the world has
     std::size_t memory = std::size_t(-1);  ///< bytes a process's fields may take; more is an error before allocating
+    std::vector<Diagnostic>* warnings = nullptr;  ///< where lines of a parameter file that are passed over are told
 };
 
 /// One quantity of statistics.csv, "light.mean" being quantity "mean" of process "light".

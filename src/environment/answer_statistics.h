@@ -1,0 +1,34 @@
+// Sums of the answers that each plant got: what most processes report in statistics.csv.
+#pragma once
+
+#include "espalier/environment/environment_process.h"
+
+#include <span>
+#include <vector>
+
+namespace espalier {
+
+class AnswerStatistics {
+public:
+    explicit AnswerStatistics(std::uint32_t plants) : totals_(plants) {}
+
+    void clear();
+    void add(std::uint32_t plant, double value);
+    /// After clear: parameter `index` of every answer that has it.
+    void sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index = 0);
+
+    /// mean, min, max and queries of one plant.
+    std::vector<Quantity> quantities(std::uint32_t plant) const;
+    /// For answers of 1 and 0: how many of each, under these names.
+    std::vector<Quantity> counts(std::uint32_t plant, const char* ones, const char* zeros) const;
+
+private:
+    struct Totals {
+        double sum = 0, count = 0, least = 0, most = 0, ones = 0;
+    };
+    Totals of(std::uint32_t plant) const { return plant < totals_.size() ? totals_[plant] : Totals(); }
+
+    std::vector<Totals> totals_;
+};
+
+}  // namespace espalier

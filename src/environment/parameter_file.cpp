@@ -1,0 +1,194 @@
+#include "parameter_file.h"
+
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t most_lines = 100000;
+
+std::vector<std::string> words_of(const std::string& text, bool split_at_x) {
+    const std::string separators = split_at_x ? " ,;:\tx" : " ,;:\t";
+    std::vector<std::string> words;
+    std::size_t begin = text.find_first_not_of(separators);
+    while (begin != std::string::npos) {
+        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+        begin = text.find_first_not_of(separators, end);
+    }
+    return words;
+}
+
+bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* other) { return word == other; });
+}
+
+void require_in(double value, Range range, const std::string& key, const Place& place) {
+    const bool low = range.open_below ? value <= range.lowest : value < range.lowest;
+    if (std::isfinite(value) && !low && value <= range.highest) return;
+    const char* bound = range.open_below ? "greater than" : "at least";
+    throw UserError(place, fmt::format("'{}' must be a number {} {:g} and at most {:g}, not {:g}", key, bound,
+                                       range.lowest, range.highest, value));
+}
+
+}  // namespace
+
+std::string scene_key(const std::string& key) {
+    std::string name;
+    for (const char c : key) {
+        const bool letter = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        if (!letter && (name.empty() || name.back() == '_')) continue;
+        name += !letter ? '_' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    while (!name.empty() && name.back() == '_') name.pop_back();
+    return name;
+}
+
+ParameterFile::ParameterFile(const Settings& table, const EnvironmentContext& context, std::vector<std::string> keys)
+    : table_(table), warnings_(context.warnings), keys_(std::move(keys)) {
+    table_.flag_or("verbose", false);
+    keys_.emplace_back("verbose");
+    if (const auto path = table_.path_if_any("parameters")) path_ = *path;
+    if (has_file()) read();
+}
+
+void ParameterFile::read() {
+    const std::string text = read_text(path_);
+    std::size_t begin = 0;
+    for (int number = 1; begin < text.size(); ++number) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        std::string line = text.substr(begin, end - begin);
+        begin = end + 1;
+        while (!line.empty() && line.back() == '\r') line.pop_back();
+        if (line.find_first_not_of(" \t") == std::string::npos) continue;
+        const std::size_t colon = std::min(line.find_first_of("\t:"), line.size());
+        lines_.push_back(
+            {line.substr(0, colon), line.substr(std::min(colon + 1, line.size())), Place{path_.string(), number, 1}});
+        if (lines_.size() > most_lines) {
+            throw UserError(lines_.back().place, fmt::format("more than {} lines of parameters", most_lines));
+        }
+        const std::string& key = lines_.back().key;
+        if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) continue;
+        warn(lines_.back(),
+             fmt::format("the parameter '{}' is unknown and passed over{}", key, did_you_mean(key, keys_)));
+    }
+}
+
+// A key given twice: the last one counts, as if the program had read line after line.
+const ParameterFile::Line* ParameterFile::last(const std::string& key) const {
+    const auto found = std::find_if(lines_.rbegin(), lines_.rend(), [&](const Line& line) { return line.key == key; });
+    return found == lines_.rend() ? nullptr : &*found;
+}
+
+Place ParameterFile::place(const std::string& key) const {
+    if (table_.has(scene_key(key))) return table_.place(scene_key(key));
+    const Line* line = last(key);
+    return line ? line->place : table_.place();
+}
+
+// As atof reads: what follows the number is left over, and what is no number is 0.
+double ParameterFile::number_of(const std::string& word, const Line& line, Range range) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (*end != '\0') warn(line, fmt::format("'{}' is read as the number {:g}", word, value));
+    require_in(value, range, line.key, line.place);
+    return value;
+}
+
+std::vector<double> ParameterFile::numbers_of(const Line& line, bool split_at_x, Range range) {
+    std::vector<double> numbers;
+    for (const std::string& word : words_of(line.value, split_at_x)) numbers.push_back(number_of(word, line, range));
+    return numbers;
+}
+
+double ParameterFile::number(const std::string& key, double fallback, Range range) {
+    if (const Line* line = last(key)) {
+        const std::vector<std::string> words = words_of(line->value, false);
+        if (!words.empty()) fallback = number_of(words[0], *line, range);
+    }
+    return table_.number_or(scene_key(key), fallback, range);
+}
+
+std::int64_t ParameterFile::whole(const std::string& key, std::int64_t fallback, Range range) {
+    return static_cast<std::int64_t>(number(key, static_cast<double>(fallback), range));
+}
+
+std::vector<double> ParameterFile::numbers(const std::string& key, std::vector<double> fallback, Range range) {
+    if (const Line* line = last(key)) {
+        const std::vector<double> given = numbers_of(*line, true, range);
+        std::copy_n(given.begin(), std::min(given.size(), fallback.size()), fallback.begin());
+    }
+    const std::vector<double> numbers = table_.numbers_or(scene_key(key), fallback);
+    if (numbers.size() != fallback.size()) {
+        throw UserError(place(key), fmt::format("'{}' must have {} numbers, not {}", scene_key(key), fallback.size(),
+                                                numbers.size()));
+    }
+    for (const double value : numbers) require_in(value, range, scene_key(key), place(key));
+    return numbers;
+}
+
+bool ParameterFile::flag(const std::string& key, bool fallback, std::initializer_list<const char*> on,
+                         std::initializer_list<const char*> off) {
+    if (const Line* line = last(key)) {
+        const std::vector<std::string> words = words_of(line->value, true);
+        const std::string word = words.empty() ? "" : words[0];
+        if (is_one_of(word, on)) {
+            fallback = true;
+        } else if (is_one_of(word, off)) {
+            fallback = false;
+        } else if (!word.empty()) {
+            warn(*line, fmt::format("'{}' is neither on nor off here and changes nothing: write '{}'", word,
+                                    *(fallback ? off : on).begin()));
+        }
+    }
+    return table_.flag_or(scene_key(key), fallback);
+}
+
+std::optional<std::filesystem::path> ParameterFile::file(const std::string& key) {
+    const Line* line = last(key);
+    const std::vector<std::string> words = line ? words_of(line->value, false) : std::vector<std::string>();
+    const std::string name = words.empty() ? "" : words[0];
+    const std::string used = table_.text_or(scene_key(key), name);
+    if (used.empty()) return std::nullopt;
+    if (table_.has(scene_key(key))) return table_.path(scene_key(key));
+    return path_.parent_path() / used;
+}
+
+std::vector<std::vector<double>> ParameterFile::repeated(const std::string& key, std::size_t fewest, std::size_t most) {
+    std::vector<Line> given;
+    for (const Line& line : lines_) {
+        if (line.key == key) given.push_back(line);
+    }
+    std::vector<std::string> texts;
+    for (const Line& line : given) texts.push_back(line.value);
+    texts = table_.texts_or(scene_key(key), texts);
+    if (table_.has(scene_key(key))) {
+        given.clear();
+        for (const std::string& text : texts) given.push_back({scene_key(key), text, place(key)});
+    }
+    std::vector<std::vector<double>> all;
+    for (const Line& line : given) {
+        std::vector<double> numbers = numbers_of(line, true, Range::any());
+        if (numbers.size() < fewest) {
+            throw UserError(line.place,
+                            fmt::format("'{}' needs {} numbers or more, not {}", line.key, fewest, numbers.size()));
+        }
+        numbers.resize(std::min(numbers.size(), most));
+        all.push_back(std::move(numbers));
+    }
+    return all;
+}
+
+void ParameterFile::warn(const Line& line, const std::string& message) {
+    if (!warnings_) return;
+    warnings_->push_back({Diagnostic::Severity::warning, line.place, message, line.key + ":" + line.value});
+}
+
+}  // namespace espalier

@@ -1,0 +1,95 @@
+// honda81: a branch ends where another of at least its vigour stands too near.
+// Honda, Tomlinson & Fisher 1981, Computer simulation of branch interaction and regulation by unequal flow rates in
+// botanical trees.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/parameter_file.h"
+#include "environment/point_grid.h"
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace espalier {
+namespace {
+
+class Honda81 final : public EnvironmentProcess {
+public:
+    Honda81(Settings& settings, const EnvironmentContext& context, Fields&) : statistics_(context.plants) {
+        ParameterFile file(settings, context, {"radius", "3d case"});
+        radius_ = file.number("radius", 0, Range::not_negative());
+        flat_ = !file.flag("3d case", false);
+    }
+
+    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        points_.clear();
+        std::map<double, std::vector<std::uint32_t>> groups;
+        for (std::uint32_t i = 0; i < queries.size(); ++i) {
+            const glm::dvec3& place = queries[i].pose.position;
+            points_.emplace_back(place.x, flat_ ? 0 : place.y, place.z);
+            groups[queries[i].parameters.size() > 1 ? queries[i].parameters[1] : 0].push_back(i);
+        }
+        for (auto& group : groups) answer_group(queries, group.second, answers);
+        statistics_.sum_up(queries, answers);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        return statistics_.counts(plant, "free", "dominated");
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // Every step begins anew.
+    void save(std::ostream&) const override {}
+    void restore(std::istream&) override {}
+
+private:
+    // A cell's diagonal is the radius, and within a cell the most vigorous come first. So all but the very first of a
+    // cell are dominated at their first look, and the time is linear however the points crowd.
+    void answer_group(std::span<const Query> queries, std::vector<std::uint32_t>& members, std::span<Answer> answers) {
+        const auto vigour = [&](std::uint32_t i) { return queries[i].parameters[0]; };
+        std::stable_sort(members.begin(), members.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return vigour(a) > vigour(b); });
+        const PointGrid grid(points_, members, radius_ * (flat_ ? std::sqrt(0.5) : std::sqrt(1.0 / 3)));
+        const auto answer_one = [&](std::size_t k) {
+            const std::uint32_t i = members[k];
+            bool dominated = false;
+            const auto visit = [&](std::uint32_t other) {
+                if (vigour(other) < vigour(i)) return true;
+                dominated = other != i && glm::distance(points_[other], points_[i]) <= radius_;
+                return !dominated;
+            };
+            if (grid.visit_cell(points_[i], visit)) grid.visit_around(points_[i], radius_, visit);
+            answers[i][0] = dominated ? 0 : 1;
+        };
+        tbb::parallel_for(std::size_t{0}, members.size(), answer_one);
+    }
+
+    double radius_;
+    bool flat_;
+    std::vector<glm::dvec3> points_;
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<Honda81> entry{
+    {"honda81", "branches end near others of at least their vigour (Honda, Tomlinson & Fisher 1981)",
+     R"(?name(vigour)        -> 0 if another query of the group with at least this vigour stands within `radius`, else 1
+?name(vigour, group) -> the same among the queries of this group only; without a group it is 0
+Further parameters (20 in all at most) stay as they are.
+
+radius    m, 0: distance of the two places themselves, not of discs around them. 0: only the very same place counts
+3d_case   false: heights do not matter, places are compared by x and z; true: in space
+parameters  a file with `radius: r` and `3d case: on`, as cpfg's program honda81 reads it
+
+Two of equal vigour within the radius both get 0. Answers do not depend on the order of the queries.
+Statistics of a plant: free and dominated, the number of answers 1 and 0.
+)"}};
+
+}  // namespace
+}  // namespace espalier
