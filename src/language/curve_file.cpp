@@ -1,0 +1,111 @@
+#include "espalier/base/file.h"
+#include "espalier/language/line_reader.h"
+#include "espalier/language/side_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t least_points = 4;
+constexpr int most_samples = 100000;
+
+const std::array<std::pair<std::string_view, SpaceCurve::Type>, 5> types{{
+    {"bspline-closed", SpaceCurve::Type::closed},
+    {"bspline-endpoint", SpaceCurve::Type::end_point},
+    {"bspline-phantom", SpaceCurve::Type::phantom},
+    {"bezier", SpaceCurve::Type::bezier},
+    {"bezier-surface", SpaceCurve::Type::bezier},
+}};
+
+class CurveReader {
+public:
+    CurveReader(std::string_view text, const std::string& name) : lines_(TextCursor(text, name)) {}
+
+    SpaceCurve read(int samples) {
+        const TextCursor start = lines_.text();
+        if (samples > most_samples) start.fail(fmt::format("at most {} samples of a curve", most_samples));
+        while (!lines_.at_end() && !begins_with_number()) read_setting();
+        if (!count_) lines_.text().fail("here 'points:' should stand");
+        for (int i = 0; i < *count_ && take_point(); ++i) {
+        }
+        if (points_.size() < least_points) {
+            start.fail(fmt::format("a curve needs at least {} points, not {}", least_points, points_.size()));
+        }
+        // Of the patches of a surface the language reaches the first row of the first.
+        if (is_surface_) points_.resize(least_points);
+        return SpaceCurve(std::move(points_), type_, samples);
+    }
+
+private:
+    bool begins_with_number() const {
+        TextCursor text = lines_.text();
+        text.skip(TextCursor::blanks);
+        return text.number().has_value();
+    }
+
+    // Where a curve stands, its range and its version are not used; neither are lines that nobody knows.
+    void read_setting() {
+        if (lines_.next_is("points:")) {
+            count_ = lines_.take_integer("points:", int(least_points), LineReader::most_lines);
+        } else if (lines_.next_is("dimension:") || lines_.next_is("dim:")) {
+            dimension_ = lines_.take_integer(lines_.next_is("dim:") ? "dim:" : "dimension:", 2, 4);
+        } else if (lines_.next_is("type:")) {
+            TextCursor line = lines_.take_line("type:");
+            line.skip(TextCursor::blanks);
+            const std::string_view word = line.word();
+            type_ = SpaceCurve::Type::b_spline;
+            for (const auto& [name, type] : types) {
+                if (word == name) type_ = type;
+            }
+            is_surface_ = word == "bezier-surface";
+        } else {
+            lines_.take_line();
+        }
+    }
+
+    // False for a line with another number of columns, which ends the points.
+    bool take_point() {
+        if (lines_.at_end()) return false;
+        const TextCursor start = lines_.text();
+        TextCursor line = lines_.take_line();
+        std::vector<double> columns;
+        line.skip(TextCursor::blanks);
+        while (const std::optional<double> number = line.number()) {
+            columns.push_back(*number);
+            line.skip(TextCursor::blanks);
+        }
+        if (int(columns.size()) != dimension_) return false;
+        columns.resize(3 + (dimension_ == 4), 0);
+        const double multiplicity = dimension_ == 4 ? columns[3] : 1;
+        if (!(multiplicity >= 1 && double(points_.size()) + multiplicity <= LineReader::most_points)) {
+            start.fail(fmt::format("the multiplicity of a point is at least 1, and all together at most {}",
+                                   LineReader::most_points));
+        }
+        points_.insert(points_.end(), std::size_t(multiplicity), {columns[0], columns[1], columns[2]});
+        return true;
+    }
+
+    LineReader lines_;
+    std::optional<int> count_;
+    int dimension_ = 2;
+    SpaceCurve::Type type_ = SpaceCurve::Type::b_spline;
+    bool is_surface_ = false;
+    std::vector<glm::dvec3> points_;
+};
+
+}  // namespace
+
+SpaceCurve read_curve_text(std::string_view text, const std::string& name, int samples) {
+    return CurveReader(text, name).read(samples);
+}
+
+SpaceCurve read_curve_file(const std::filesystem::path& path, int samples) {
+    return read_curve_text(read_text(path), path.string(), samples);
+}
+
+}  // namespace espalier

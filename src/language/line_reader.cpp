@@ -1,0 +1,62 @@
+#include "espalier/language/line_reader.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace espalier {
+
+void LineReader::pass_over_blanks() {
+    text_.skip(TextCursor::white_space);
+}
+
+TextCursor LineReader::take_line() {
+    if (at_end()) text_.fail("the file ends too early");
+    const TextCursor line = text_.line();
+    pass_over_blanks();
+    return line;
+}
+
+TextCursor LineReader::take_line(std::string_view key) {
+    if (at_end()) text_.fail(fmt::format("the file ends where '{}' should stand", key));
+    if (!next_is(key)) text_.fail(fmt::format("here '{}' should stand", key));
+    TextCursor line = take_line();
+    line.accept(key);
+    return line;
+}
+
+int LineReader::take_integer(std::string_view key, int least, int most) {
+    TextCursor line = take_line(key);
+    return espalier::take_integer(line, key, least, most);
+}
+
+void LineReader::pass_over_editor_lines() {
+    if (next_is("b")) {
+        take_line();
+        take_line();
+    }
+    if (!next_is("markers:")) return;
+    for (int left = take_integer("markers:", 0, most_lines); left > 0; --left) take_line();
+}
+
+int take_integer(TextCursor& line, std::string_view what, int least, int most) {
+    line.skip(TextCursor::blanks);
+    const TextCursor start = line;
+    const std::optional<int> number = line.integer();
+    if (number && *number >= least && *number <= most) return *number;
+    const bool any = least == std::numeric_limits<int>::min();
+    start.fail(any ? fmt::format("'{}' needs a whole number", what)
+                   : fmt::format("'{}' needs a whole number from {} to {}", what, least, most));
+}
+
+std::vector<double> numbers_of(TextCursor line) {
+    std::vector<double> numbers;
+    for (line.skip(TextCursor::blanks); !line.at_end(); line.skip(TextCursor::blanks)) {
+        const std::optional<double> number = line.number();
+        if (!number) line.fail(fmt::format("'{}' is no number", TextCursor(line).word()));
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
+}  // namespace espalier

@@ -1,0 +1,110 @@
+#include "espalier/language/text_cursor.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace espalier {
+namespace {
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
+struct TextCursor::Source {
+    std::string text, name;                        // a plain file's
+    std::optional<PreprocessedText> preprocessed;  // or this
+
+    Place place(std::size_t offset) const {
+        if (preprocessed) return preprocessed->place(offset);
+        const auto begin = text.begin(), here = begin + std::ptrdiff_t(offset);
+        const std::size_t line_start = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
+        return {name, int(std::count(begin, here, '\n')) + 1, int(offset - line_start) + 1};
+    }
+    std::string line(std::size_t offset) const {
+        if (preprocessed) return preprocessed->source_line(offset);
+        const std::size_t start = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
+        std::string line = text.substr(start, text.find('\n', offset) - start);
+        if (line.ends_with('\r')) line.pop_back();
+        return line;
+    }
+};
+
+TextCursor::TextCursor(std::string_view text, std::string name)
+    : source_(std::make_shared<const Source>(Source{std::string(text), std::move(name), std::nullopt})),
+      end_(text.size()) {}
+
+TextCursor::TextCursor(const PreprocessedText& text)
+    : source_(std::make_shared<const Source>(Source{{}, {}, text})), end_(text.text().size()) {}
+
+std::string_view TextCursor::text() const {
+    return source_->preprocessed ? source_->preprocessed->text() : source_->text;
+}
+
+void TextCursor::skip(std::string_view characters) {
+    while (!at_end() && characters.find(next()) != std::string_view::npos) ++at_;
+}
+
+bool TextCursor::accept(std::string_view literal) {
+    if (!rest().starts_with(literal)) return false;
+    at_ += literal.size();
+    return true;
+}
+
+std::optional<double> TextCursor::number() {
+    std::string_view digits = rest();
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    const std::size_t sign = digits.starts_with('-') && digits.data() == rest().data() ? 1 : 0;
+    // Neither "inf" nor "nan" is a number here.
+    const std::size_t first = digits.substr(sign).starts_with('.') ? sign + 1 : sign;
+    if (first >= digits.size() || !is_digit(digits[first])) return std::nullopt;
+    double value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const float kept = static_cast<float>(value);
+    if (error != std::errc() || !std::isfinite(kept)) return std::nullopt;
+    at_ += std::size_t(end - rest().data());
+    return kept;
+}
+
+std::optional<int> TextCursor::integer() {
+    std::string_view digits = rest();
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('-') && digits.data() != rest().data()) return std::nullopt;
+    int value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc()) return std::nullopt;
+    at_ += std::size_t(end - rest().data());
+    return value;
+}
+
+std::string_view TextCursor::word(std::string_view ends) {
+    const std::string_view left = rest();
+    const std::string_view word = left.substr(0, left.find_first_of(ends));
+    at_ += word.size();
+    return word;
+}
+
+TextCursor TextCursor::line() {
+    TextCursor line = *this;
+    line.end_ = std::min(text().find('\n', at_), end_);
+    at_ = std::min(line.end_ + 1, end_);
+    if (line.end_ > line.at_ && text()[line.end_ - 1] == '\r') --line.end_;
+    return line;
+}
+
+Place TextCursor::place() const {
+    return source_->place(at_);
+}
+
+Diagnostic TextCursor::diagnostic(const std::string& message, Diagnostic::Severity severity) const {
+    return {severity, place(), message, source_->line(at_)};
+}
+
+void TextCursor::fail(const std::string& message) const {
+    throw UserError({diagnostic(message)});
+}
+
+}  // namespace espalier
