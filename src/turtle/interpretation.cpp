@@ -32,6 +32,7 @@ public:
         } else {
             walk_string<false>();
         }
+        walk_.finish();
     }
 
 private:

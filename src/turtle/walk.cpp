@@ -41,6 +41,7 @@ Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings&
       geometry_(result.geometry),
       queries_(result.queries),
       plant_(plant),
+      radius_of_width_(settings_.line_style == LineStyle::pixel ? 0 : 0.5),
       default_rotation_(settings_.angle),
       older_tropism_(glm::normalize(settings_.tropism_direction)) {
     turtle.pose = settings.pose;
@@ -51,6 +52,11 @@ Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings&
     turtle.elasticity = settings.initial_elasticity;
     for (const Tropism& tropism : settings.tropisms) elasticities.push_back(tropism.elasticity);
     known_rotations_.fill({0, Rotation()});
+    Brush brush;
+    brush.sides = std::max(settings.contour_sides, 3);
+    brush.follows_roll = settings.twist_of_cylinders;
+    brushes_.push_back(brush);
+    geometry_.shapes = settings.shapes;
 }
 
 void Walk::move(double distance, bool draws, bool records_vertex) {
@@ -60,15 +66,21 @@ void Walk::move(double distance, bool draws, bool records_vertex) {
     if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
     if (!finite(turtle.pose.position)) fail("the turtle's position is not a number any more");
     if (records_vertex) record_vertex();
+    if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
     if (!draws) {
         turtle.on_axis = false;
         return;
     }
     if (!turtle.on_axis) begin_axis();
-    const double base_radius = turtle.node_width / 2, tip_radius = turtle.width / 2;
+    if (!settings.tapered_lines) turtle.node_width = turtle.width;
+    const double base_radius = radius(turtle.node_width), tip_radius = radius(turtle.width);
     geometry_.internodes.push_back({module_, turtle.axis, turtle.order, std::uint16_t(turtle.colour), base,
                                     turtle.pose.position, base_radius, tip_radius});
     turtle.node_width = turtle.width;
+    if (turtle.texture != 0) {
+        geometry_.textures.resize(geometry_.internodes.size());
+        geometry_.textures.back() = turtle.texture;
+    }
     add_ball(geometry_.bounds, base, base_radius);
     add_ball(geometry_.bounds, turtle.pose.position, tip_radius);
 }
@@ -98,6 +110,7 @@ void Walk::push() {
     stack_.push_back(turtle);
     elasticity_stack_.insert(elasticity_stack_.end(), elasticities.begin(), elasticities.end());
     turtle.on_axis = false;
+    turtle.branches_off = true;
     if (turtle.order < std::numeric_limits<std::uint16_t>::max()) ++turtle.order;
 }
 
@@ -105,6 +118,7 @@ void Walk::pop() {
     if (stack_.empty()) fail("']' closes a branch that no '[' opened");
     turtle = stack_.back();
     stack_.pop_back();
+    if (systems_.size() > turtle.systems) systems_.resize(turtle.systems);
     const auto first = elasticity_stack_.end() - std::ptrdiff_t(elasticities.size());
     std::copy(first, elasticity_stack_.end(), elasticities.begin());
     elasticity_stack_.erase(first, elasticity_stack_.end());
@@ -116,7 +130,7 @@ void Walk::set_width(double width) {
 }
 
 void Walk::set_scale(double scale) {
-    if (!std::isfinite(scale) || scale == 0) fail("the turtle's scale must be a number other than 0");
+    if (!std::isfinite(scale)) fail("the turtle's scale is not a number");
     turtle.scale = scale;
 }
 
@@ -136,7 +150,7 @@ void Walk::close_polygon() {
     const std::size_t count = open_vertices_.size() - polygon.first;
     if (polygon.filled && count >= 3) {
         geometry_.polygons.push_back({polygon.module, std::uint32_t(geometry_.vertices.size()), std::uint32_t(count),
-                                      turtle.order, std::uint16_t(turtle.colour)});
+                                      turtle.order, std::uint16_t(turtle.colour), look()});
         for (std::size_t i = polygon.first; i < open_vertices_.size(); ++i) {
             geometry_.vertices.push_back(open_vertices_[i]);
             geometry_.bounds.add(open_vertices_[i]);
@@ -149,14 +163,30 @@ void Walk::record_vertex() {
     if (!open_polygons_.empty()) open_vertices_.push_back(turtle.pose.position);
 }
 
-void Walk::place(Organ::Shape shape, const Pose& pose, const glm::dvec3& size, std::uint32_t surface) {
-    if (!finite(size)) fail("the size of an organ is not a number");
-    geometry_.organs.push_back({module_, shape, turtle.order, std::uint16_t(turtle.colour), surface, pose, size});
-    if (shape == Organ::Shape::surface) {
-        geometry_.bounds.add(pose.position);
-    } else {
-        add_ball(geometry_.bounds, pose.position, std::abs(size.x) / 2);
-    }
+void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
+    if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
+    geometry_.organs.push_back({module_, shape, turtle.order, std::uint16_t(turtle.colour), 0, pose,
+                                glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
+    add_ball(geometry_.bounds, pose.position, std::abs(diameter) / 2);
+}
+
+Look Walk::look() const {
+    return {std::uint16_t(turtle.back_colour), turtle.texture};
+}
+
+void Walk::enter_system(double scale) {
+    systems_.push_back({turtle.scale, turtle.width});
+    turtle.systems = std::uint32_t(systems_.size());
+    set_scale(turtle.scale * scale);
+    set_width(turtle.width * scale);
+}
+
+void Walk::leave_system() {
+    if (systems_.empty()) return;
+    turtle.scale = systems_.back().scale;
+    turtle.width = systems_.back().width;
+    systems_.pop_back();
+    turtle.systems = std::uint32_t(systems_.size());
 }
 
 void Walk::ask(QueryKind kind) {

@@ -26,8 +26,9 @@ struct CylinderPoint {
     const Contour* contour = nullptr;  ///< null: the circle. Outlives the drawing
     int strips = 1;                    ///< between the control point before and this one
     double tangent_before = 1.2, tangent_after = 1.2;
-    std::optional<RadiusTangents> radius;  ///< none: the radius goes smoothly from point to point without overshooting
-    bool follows_roll = false;             ///< `up` is the pose's own here instead of twisting least
+    std::optional<RadiusTangents> radius =
+        {};                     ///< none: the radius goes smoothly from point to point without overshooting
+    bool follows_roll = false;  ///< `up` is the pose's own here instead of twisting least
 };
 
 struct GeneralizedCylinder {

@@ -30,7 +30,7 @@ struct InterpretOptions {
 };
 
 /// Walks `string` once. `derivation` gives modules their pictures (homomorphism); may be null.
-/// `result`'s memory is reused. Throws RunError for a stack that is popped empty, a scale of 0, a NaN position.
+/// `result`'s memory is reused. Throws RunError for a stack that is popped empty and for numbers that are none.
 void interpret(const Model& model, const SymbolTable& symbols, const ModuleString& string,
                const TurtleSettings& settings, const Derivation* derivation, const InterpretOptions& options,
                Interpretation& result);

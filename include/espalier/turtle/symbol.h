@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,8 +45,43 @@ public:
     void close_polygon();
     void record_vertex();
 
-    /// Puts an organ at `pose`; `size` in metres, the scale already in it.
-    void place(Organ::Shape shape, const Pose& pose, const glm::dvec3& size, std::uint32_t surface = 0);
+    /// Puts a disc, sphere or circle at `pose`; `diameter` in metres, the scale already in it.
+    void place(Organ::Shape shape, const Pose& pose, double diameter);
+    /// Draws the surface of this id, stretched along left, heading and up, and moves to its end point.
+    void place_surface(std::uint32_t id, const glm::dvec3& factors);
+
+    /// Begins a generalized cylinder here. `strips`: between control points that do not say.
+    void begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double> strips);
+    /// A control point of the open cylinder, `strips` from the one before. In a branch the first begins a cylinder of
+    /// its own, from the last control point of the axis that bears the branch.
+    void control_point(std::optional<double> strips);
+    void end_cylinder(std::optional<double> strips);
+    bool in_cylinder_braces() const { return !open_polygons_.empty() && !open_polygons_.back().filled; }
+
+    /// Patches whose control points are positions of the turtle, by number.
+    void begin_patch(double id, BicubicPatch::Basis basis);
+    void patch_point(double id, double row, double column);
+    void draw_patch(double id, double rows, double columns);
+
+    /// The first value is the number of a text, printf's format for the others.
+    void write_label(std::span<const double> values);
+
+    /// Scales lengths and widths until the sub-L-system is left.
+    void enter_system(double scale);
+    void leave_system();
+
+    const Brush& brush() const { return brushes_[turtle.brush]; }
+    /// Changes the brush from here on, until the end of the branch.
+    template <class Change>
+    void change_brush(Change change) {
+        Brush brush = brushes_[turtle.brush];
+        change(brush);
+        turtle.brush = std::uint32_t(brushes_.size());
+        brushes_.push_back(brush);
+    }
+
+    /// Draws what the string left open.
+    void finish();
 
     /// Sends the current module's parameters; does nothing inside a picture, whose answers nobody could read.
     void ask(QueryKind kind);
@@ -63,12 +99,32 @@ private:
         std::uint32_t module;
         bool filled;
     };
+    struct OpenCylinder {
+        GeneralizedCylinder cylinder;
+        int strips;
+        bool last_is_marked;  ///< by a symbol of its own; the end of an F gives way to one in the same place
+    };
+    struct OpenPatch {
+        BicubicPatch::Basis basis;
+        glm::dvec3 origin;
+        std::array<std::array<std::optional<glm::dvec3>, 5>, 5> points;  ///< counted from 0 or from 1
+    };
+    struct SystemScale {
+        double scale, width;
+    };
     struct KnownRotation {
         double degrees;
         Rotation rotation;
     };
 
     void begin_axis();
+    void record_control_point(std::optional<double> strips, bool marked);
+    void branch_cylinder();
+    void draw_cylinder(std::int32_t number);
+    void require_room() const;
+    const Contour* contour() const;
+    Look look() const;
+    double radius(double width) const { return radius_of_width_ * width; }
 
     const Model& model_;
     const ModuleString& string_;
@@ -86,6 +142,11 @@ private:
     std::vector<double> elasticity_stack_;
     std::vector<OpenPolygon> open_polygons_;
     std::vector<glm::dvec3> open_vertices_;
+    std::vector<Brush> brushes_;
+    std::vector<OpenCylinder> cylinders_;
+    std::map<double, OpenPatch> patches_;
+    std::vector<SystemScale> systems_;
+    const double radius_of_width_;
     const Rotation default_rotation_;
     const glm::dvec3 older_tropism_;
     std::array<KnownRotation, 16> known_rotations_;  // angles repeat; sines are dear

@@ -1,11 +1,13 @@
 // The turtle: a pose that moves and turns, with width, colour and scale.
 #pragma once
 
+#include "espalier/geometry/generalized_cylinder.h"
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/geometry/shapes.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,11 +44,20 @@ struct TurtleSettings {
     glm::dvec3 tropism_direction{0, 1, 0};  ///< of any length but 0
     double initial_elasticity = 0;
     double elasticity_increment = 0;
-    LineStyle line_style = LineStyle::pixel;
-    int contour_sides = 8;                 ///< polygons around cylinders and spheres, at least 3
-    bool tapered_lines = true;             ///< a segment's end may be thinner than its start
+    LineStyle line_style = LineStyle::cylinder;  ///< of pixel lines the radius is 0. A view file begins with pixel
+    int contour_sides = 8;                       ///< polygons around cylinders and spheres, at least 3
+    bool tapered_lines = true;                   ///< a segment's end may be thinner than its start
     bool twist_of_cylinders = false;       ///< generalized cylinders follow the turtle's roll instead of twisting least
     std::shared_ptr<const Shapes> shapes;  ///< surfaces, contours, textures; null if there are none
+};
+
+/// How generalized cylinders and spheres are drawn from here on.
+struct Brush {
+    int contour = 0;  ///< number of the cross-section; 0: the circle
+    int sides = 8;
+    double tangent_before = 1.2, tangent_after = 1.2;
+    std::optional<RadiusTangents> radius;
+    bool follows_roll = false;
 };
 
 /// What `[` saves and `]` restores, but for the elasticities, which the walk keeps on a stack of their own.
@@ -57,10 +68,15 @@ struct TurtleState {
     int colour = 128;
     int back_colour = 128;
     std::uint32_t axis = 0;
-    std::uint16_t order = 0;  ///< depth of branching, at most 65535
-    bool on_axis = false;     ///< the axis has an internode that ends here
-    double node_width = 1;    ///< width at the end of that internode
-    double elasticity = 0;    ///< of the older tropism
+    std::uint16_t order = 0;     ///< depth of branching, at most 65535
+    bool on_axis = false;        ///< the axis has an internode that ends here
+    bool branches_off = false;   ///< the open cylinder is that of the axis this one branches off
+    std::uint16_t texture = 0;   ///< 0: none
+    std::uint32_t brush = 0;     ///< which of the walk's brushes
+    std::uint32_t systems = 0;   ///< sub-L-systems entered
+    std::int32_t cylinder = -1;  ///< which of the walk's generalized cylinders is open; -1: none
+    double node_width = 1;       ///< width at the end of that internode
+    double elasticity = 0;       ///< of the older tropism
 };
 
 /// The cosine and sine of an angle in radians. Quarter turns are exact, so that right angles stay right.

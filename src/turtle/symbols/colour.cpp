@@ -1,4 +1,4 @@
-// Colour indices, front and back. They stay within their colour map of 256.
+// Colour indices, front and back, which stay within their colour map of 256; and the texture.
 #include "espalier/turtle/symbol.h"
 
 #include <cmath>
@@ -19,28 +19,36 @@ void change_colour(Walk& walk, int& colour, std::span<const double> parameters, 
 }
 
 const Symbol next{";",
-                  {0, 1},
+                  {},
                   ";(index): set the colour index; without parameter, add the increment",
                   [](Walk& walk, std::span<const double> parameters) {
                       change_colour(walk, walk.turtle.colour, parameters, walk.settings.colour_increment);
                   }};
 
 const Symbol previous{",",
-                      {0, 1},
+                      {},
                       ",(index): set the colour index; without parameter, subtract the increment",
                       [](Walk& walk, std::span<const double> parameters) {
                           change_colour(walk, walk.turtle.colour, parameters, -walk.settings.colour_increment);
                       }};
 
 const Symbol next_back{
-    "@;", {0, 1}, "@;(index): as ; for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
+    "@;", {}, "@;(index): as ; for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
         change_colour(walk, walk.turtle.back_colour, parameters, walk.settings.back_colour_increment);
     }};
 
 const Symbol previous_back{
-    "@,", {0, 1}, "@,(index): as , for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
+    "@,", {}, "@,(index): as , for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
         change_colour(walk, walk.turtle.back_colour, parameters, -walk.settings.back_colour_increment);
     }};
+
+const Symbol texture{"@Tx",
+                     {1},
+                     "@Tx(number): the texture of surfaces and cylinders from here on; 0 is none",
+                     [](Walk& walk, std::span<const double> parameters) {
+                         const bool possible = parameters[0] >= 0 && parameters[0] < 65536;
+                         walk.turtle.texture = possible ? std::uint16_t(parameters[0]) : 0;
+                     }};
 
 }  // namespace
 }  // namespace espalier

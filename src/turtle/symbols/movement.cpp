@@ -9,24 +9,23 @@ double distance(std::span<const double> parameters) {
 }
 
 const Symbol draw{"F",
-                  {0, 1},
+                  {},
                   "F(length): move forward and draw; marks a polygon vertex. Length 1, times the scale",
                   [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); }};
 
 const Symbol draw_unmarked{
-    "G",
-    {0, 1},
-    "G(length): move forward and draw, marking no vertex",
-    [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, false); }};
+    "G", {}, "G(length): move forward and draw, marking no vertex", [](Walk& walk, std::span<const double> parameters) {
+        walk.move(distance(parameters), true, false);
+    }};
 
 const Symbol skip{"f",
-                  {0, 1},
+                  {},
                   "f(length): move forward without drawing; marks a polygon vertex",
                   [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, true); }};
 
 const Symbol skip_unmarked{
     "g",
-    {0, 1},
+    {},
     "g(length): move forward without drawing, marking no vertex",
     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); }};
 

@@ -13,8 +13,8 @@ Pose facing_the_screen(const Walk& walk) {
     return pose;
 }
 
-glm::dvec3 diameter(const Walk& walk, std::span<const double> parameters) {
-    return glm::dvec3(parameters.empty() ? walk.turtle.width : parameters[0] * walk.turtle.scale);
+double diameter(const Walk& walk, std::span<const double> parameters) {
+    return parameters.empty() ? walk.turtle.width : parameters[0] * walk.turtle.scale;
 }
 
 /// The first code point of UTF-8 text.
@@ -29,42 +29,40 @@ std::uint32_t code_point(const std::string& text) {
 }
 
 void place_surface(Walk& walk, std::span<const double> parameters) {
-    glm::dvec3 size(walk.turtle.scale);
-    if (parameters.size() == 1) size *= parameters[0];
-    if (parameters.size() == 3) size *= glm::dvec3(parameters[0], parameters[1], parameters[2]);
-    walk.place(Organ::Shape::surface, walk.turtle.pose, size, code_point(walk.symbol()));
+    glm::dvec3 factors(parameters.empty() ? 1 : parameters[0]);
+    if (parameters.size() >= 3) factors = {parameters[0], parameters[1], parameters[2]};
+    walk.place_surface(code_point(walk.symbol()), factors);
 }
 
 const Symbol screen_disc{"@o",
-                         {0, 1},
+                         {},
                          "@o(diameter): a disc that faces the screen; the line width without parameter",
                          [](Walk& walk, std::span<const double> parameters) {
                              walk.place(Organ::Shape::disc, facing_the_screen(walk), diameter(walk, parameters));
                          }};
 
 const Symbol disc{"@c",
-                  {0, 1},
+                  {},
                   "@c(diameter): a disc in the plane of heading and left",
                   [](Walk& walk, std::span<const double> parameters) {
                       walk.place(Organ::Shape::disc, walk.turtle.pose, diameter(walk, parameters));
                   }};
 
-const Symbol sphere{"@O", {0, 1}, "@O(diameter): a sphere", [](Walk& walk, std::span<const double> parameters) {
+const Symbol sphere{"@O", {}, "@O(diameter): a sphere", [](Walk& walk, std::span<const double> parameters) {
                         walk.place(Organ::Shape::sphere, walk.turtle.pose, diameter(walk, parameters));
                     }};
 
 const Symbol screen_circle{
-    "@bo", {0, 1}, "@bo(diameter): the outline of @o", [](Walk& walk, std::span<const double> parameters) {
+    "@bo", {}, "@bo(diameter): the outline of @o", [](Walk& walk, std::span<const double> parameters) {
         walk.place(Organ::Shape::circle, facing_the_screen(walk), diameter(walk, parameters));
     }};
 
-const Symbol circle{
-    "@bc", {0, 1}, "@bc(diameter): the outline of @c", [](Walk& walk, std::span<const double> parameters) {
-        walk.place(Organ::Shape::circle, walk.turtle.pose, diameter(walk, parameters));
-    }};
+const Symbol circle{"@bc", {}, "@bc(diameter): the outline of @c", [](Walk& walk, std::span<const double> parameters) {
+                        walk.place(Organ::Shape::circle, walk.turtle.pose, diameter(walk, parameters));
+                    }};
 
 const Symbol surface{
-    "~*", {0, 1, 3}, "~x(scale) or ~x(sx, sy, sz): the surface x, recorded as an organ", place_surface};
+    "~*", {}, "~x(scale) or ~x(sx, sy, sz): draw the surface x and move to its end point", place_surface};
 
 }  // namespace
 }  // namespace espalier

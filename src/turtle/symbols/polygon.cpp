@@ -1,24 +1,45 @@
-// Polygons: { opens one, F, f and . mark its vertices, } fills it. They may stand inside one another, and a polygon
-// may reach across branches.
+// Polygons and generalized cylinders in braces: { opens one, F, f and . mark a polygon's vertices, } fills it. They may
+// stand inside one another, and a polygon may reach across branches. With a type the brace begins a generalized
+// cylinder, whose control points F and . mark.
 #include "espalier/turtle/symbol.h"
+
+#include <optional>
 
 namespace espalier {
 namespace {
 
-// With parameters these belong to generalized cylinders, whose points are no polygon's vertices.
-const Symbol open{"{", {}, "{: begin a polygon", [](Walk& walk, std::span<const double> parameters) {
-                      walk.open_polygon(parameters.empty());
+std::optional<double> second(std::span<const double> parameters) {
+    return parameters.size() > 1 ? std::optional(parameters[1]) : std::nullopt;
+}
+
+const Symbol open{"{",
+                  {},
+                  "{: begin a polygon. {(curve, strips): begin a generalized cylinder; 1 open Hermite curve, 2 closed, "
+                  "3 open B-spline, 4 closed",
+                  [](Walk& walk, std::span<const double> parameters) {
+                      const bool is_curve = !parameters.empty() && parameters[0] >= 1 && parameters[0] < 5;
+                      walk.open_polygon(!is_curve);
+                      if (!is_curve) return;
+                      walk.begin_cylinder(GeneralizedCylinder::Curve(int(parameters[0])), second(parameters));
                   }};
 
 const Symbol close{"}",
                    {},
-                   "}: end the polygon and fill it; fewer than three vertices draw nothing",
-                   [](Walk& walk, std::span<const double>) { walk.close_polygon(); }};
+                   "}: end the polygon and fill it; fewer than three vertices draw nothing. Ends a cylinder begun by {",
+                   [](Walk& walk, std::span<const double> parameters) {
+                       if (walk.in_cylinder_braces()) walk.end_cylinder(second(parameters));
+                       walk.close_polygon();
+                   }};
 
-const Symbol vertex{
-    ".", {0}, ".: mark a vertex of the open polygon where the turtle is", [](Walk& walk, std::span<const double>) {
-        walk.record_vertex();
-    }};
+const Symbol vertex{".",
+                    {},
+                    ".: mark a vertex of the open polygon where the turtle is; .(strips): a control point of the open "
+                    "cylinder",
+                    [](Walk& walk, std::span<const double> parameters) {
+                        if (!parameters.empty()) return walk.control_point(parameters[0]);
+                        if (walk.in_cylinder_braces()) return walk.control_point({});
+                        walk.record_vertex();
+                    }};
 
 }  // namespace
 }  // namespace espalier

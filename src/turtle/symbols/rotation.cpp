@@ -26,23 +26,23 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
 }
 
 const Symbol left{
-    "+", {0, 1}, "+(angle): turn left, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
+    "+", {}, "+(angle): turn left, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
         turn_left(walk.turtle.pose, walk.rotation(parameters));
     }};
 
 const Symbol right{
-    "-", {0, 1}, "-(angle): turn right, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
+    "-", {}, "-(angle): turn right, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
         turn_left(walk.turtle.pose, walk.rotation(parameters).inverse());
     }};
 
 const Symbol down{
     "&",
-    {0, 1},
+    {},
     "&(angle): pitch the heading towards up, about left. Degrees",
     [](Walk& walk, std::span<const double> parameters) { pitch_down(walk.turtle.pose, walk.rotation(parameters)); }};
 
 const Symbol up{"^",
-                {0, 1},
+                {},
                 "^(angle): pitch the heading away from up, about left. Degrees",
                 [](Walk& walk, std::span<const double> parameters) {
                     pitch_down(walk.turtle.pose, walk.rotation(parameters).inverse());
@@ -50,12 +50,12 @@ const Symbol up{"^",
 
 const Symbol roll{
     "/",
-    {0, 1},
+    {},
     "/(angle): roll left towards up, about the heading. Degrees",
     [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle.pose, walk.rotation(parameters)); }};
 
 const Symbol roll_back{"\\",
-                       {0, 1},
+                       {},
                        "\\(angle): roll left away from up, about the heading. Degrees",
                        [](Walk& walk, std::span<const double> parameters) {
                            roll_left(walk.turtle.pose, walk.rotation(parameters).inverse());
@@ -71,7 +71,7 @@ const Symbol horizontal{"@v",
                         [](Walk& walk, std::span<const double>) { level(walk.turtle.pose); }};
 
 const Symbol absolute{
-    "@R", {2, 3, 6}, "@R(x, y, z, ux, uy, uz): head to (x, y, z), up (ux, uy, uz) if perpendicular", set_heading};
+    "@R", {2, 3, 4, 5, 6}, "@R(x, y, z, ux, uy, uz): head to (x, y, z), up (ux, uy, uz) if perpendicular", set_heading};
 
 }  // namespace
 }  // namespace espalier

@@ -13,14 +13,14 @@ const Symbol set{"@D", {1}, "@D(scale): set the scale", [](Walk& walk, std::span
                  }};
 
 const Symbol multiply{"@Di",
-                      {0, 1},
+                      {},
                       "@Di(factor): multiply the scale; by the scene's multiplier without parameter",
                       [](Walk& walk, std::span<const double> parameters) {
                           walk.set_scale(walk.turtle.scale * factor(walk, parameters));
                       }};
 
 const Symbol divide{"@Dd",
-                    {0, 1},
+                    {},
                     "@Dd(factor): divide the scale; by the scene's multiplier without parameter",
                     [](Walk& walk, std::span<const double> parameters) {
                         walk.set_scale(walk.turtle.scale / factor(walk, parameters));

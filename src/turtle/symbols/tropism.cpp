@@ -32,7 +32,7 @@ const Symbol more_shortly{
     }};
 
 const Symbol older{"_",
-                   {0, 1},
+                   {},
                    "_(elasticity): set the elasticity of the older tropism; without parameter, add its increment",
                    [](Walk& walk, std::span<const double> parameters) {
                        double& elasticity = walk.turtle.elasticity;

@@ -9,14 +9,14 @@ void change_width(Walk& walk, std::span<const double> parameters, double increme
 }
 
 const Symbol wider{"#",
-                   {0, 1},
+                   {},
                    "#(width): set the line width, times the scale; without parameter, widen by the increment",
                    [](Walk& walk, std::span<const double> parameters) {
                        change_width(walk, parameters, walk.settings.line_width_increment);
                    }};
 
 const Symbol narrower{"!",
-                      {0, 1},
+                      {},
                       "!(width): set the line width, times the scale; without parameter, narrow by the increment",
                       [](Walk& walk, std::span<const double> parameters) {
                           change_width(walk, parameters, -walk.settings.line_width_increment);

@@ -1,0 +1,20 @@
+// Sub-L-systems: what stands between ? and $ is drawn in a scale of its own.
+#include "espalier/turtle/symbol.h"
+
+namespace espalier {
+namespace {
+
+const Symbol enter{"?",
+                   {1, 2},
+                   "?(id, scale): enter sub-L-system id; lengths and widths are multiplied by scale until $",
+                   [](Walk& walk, std::span<const double> parameters) {
+                       walk.enter_system(parameters.size() > 1 ? parameters[1] : 1);
+                   }};
+
+const Symbol leave{
+    "$", {0}, "$: leave the sub-L-system; scale and width are as before it", [](Walk& walk, std::span<const double>) {
+        walk.leave_system();
+    }};
+
+}  // namespace
+}  // namespace espalier

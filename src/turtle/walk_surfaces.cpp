@@ -1,0 +1,113 @@
+// Surfaces as a walk meets them: those of the view file, and those whose control points the turtle walks to.
+#include "espalier/turtle/symbol.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+constexpr double finest = 64;  // quadrilaterals along a side of a patch
+
+int precision(double wanted) {
+    return std::isnan(wanted) ? 1 : int(std::clamp(wanted, 1.0, finest));
+}
+
+/// Of a row or column: 0 to 4, whichever way the model counts; -1 if it is neither.
+int index_of(double number) {
+    return number >= 0 && number < 5 ? int(number) : -1;
+}
+
+}  // namespace
+
+void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
+    const glm::dvec3 size = factors * turtle.scale;
+    if (!std::isfinite(size.x + size.y + size.z)) fail("the size of a surface is not a number");
+    Organ organ{module_, Organ::Shape::surface, turtle.order, std::uint16_t(turtle.colour),
+                id,      turtle.pose,           size,         look()};
+    if (!settings.shapes) {  // nobody said what surfaces look like: the organ shows where they would be
+        geometry_.organs.push_back(organ);
+        geometry_.bounds.add(turtle.pose.position);
+        return;
+    }
+    const auto found = settings.shapes->surfaces.find(id);
+    if (found == settings.shapes->surfaces.end()) return;
+    const Surface& surface = found->second;
+    const Pose pose = turtle.pose;
+    const auto in_world = [&](const glm::dvec3& point, const glm::dvec3& scale) {
+        return pose.position + scale.x * point.x * pose.left + scale.y * point.y * pose.heading +
+               scale.z * point.z * pose.up;
+    };
+    if (size.x * size.y * size.z != 0) {
+        if (surface.texture) organ.look.texture = std::uint16_t(std::max(*surface.texture, 0));
+        geometry_.organs.push_back(organ);
+        for (const BicubicPatch& patch : surface.patches) {
+            for (const auto& row : patch.points) {
+                for (const glm::dvec3& point : row) geometry_.bounds.add(in_world(point, size));
+            }
+        }
+        for (const auto& triangle : surface.triangles) {
+            for (const SurfaceVertex& vertex : triangle) geometry_.bounds.add(in_world(vertex.position, size));
+        }
+    }
+    // All three coordinates go with the first factor.
+    const glm::dvec3 end = in_world(surface.end, glm::dvec3(size.x));
+    if (end != pose.position) jump(end);
+}
+
+void Walk::begin_patch(double id, BicubicPatch::Basis basis) {
+    if (std::isnan(id)) return;
+    OpenPatch& patch = patches_[std::trunc(id)];
+    patch = {basis, turtle.pose.position, {}};
+}
+
+void Walk::patch_point(double id, double row, double column) {
+    const auto patch = patches_.find(std::trunc(id));
+    const int i = index_of(row), j = index_of(column);
+    if (patch == patches_.end() || i < 0 || j < 0) return;
+    patch->second.points[std::size_t(i)][std::size_t(j)] = turtle.pose.position;
+}
+
+void Walk::draw_patch(double id, double rows, double columns) {
+    const auto open = patches_.find(std::trunc(id));
+    if (open == patches_.end()) return;
+    const auto& points = open->second.points;
+    // A model that counts from 1 fills row 4 or column 4, and neither row 0 nor column 0.
+    bool has_first = false, has_last = false;
+    for (std::size_t k = 0; k < 5; ++k) {
+        has_first = has_first || points[0][k] || points[k][0];
+        has_last = has_last || points[4][k] || points[k][4];
+    }
+    const std::size_t first = has_last && !has_first ? 1 : 0;
+    Surface surface;
+    BicubicPatch& patch = surface.patches.emplace_back();
+    patch.basis = open->second.basis;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            patch.points[i][j] = points[i + first][j + first].value_or(open->second.origin);
+        }
+    }
+    surface.precision_s = precision(rows);
+    surface.precision_t = precision(columns);
+
+    const SurfaceMesh mesh = mesh_of(surface);
+    DrawnMesh& drawn = geometry_.mesh;
+    const auto origin = std::uint32_t(drawn.vertices.size());
+    const auto first_index = std::uint32_t(drawn.triangles.size());
+    for (const SurfaceVertex& vertex : mesh.vertices) {
+        drawn.vertices.push_back(vertex);
+        geometry_.bounds.add(vertex.position);
+    }
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 4) {
+        const auto corner = [&](std::size_t k) { return origin + mesh.indices[i + k]; };
+        drawn.triangles.insert(drawn.triangles.end(),
+                               {corner(0), corner(1), corner(2), corner(0), corner(2), corner(3)});
+    }
+    drawn.pieces.push_back({module_, first_index, std::uint32_t(drawn.triangles.size()) - first_index, turtle.order,
+                            std::uint16_t(turtle.colour), look(), MeshPiece::Kind::patch});
+    require_room();
+}
+
+}  // namespace espalier
