@@ -1,0 +1,216 @@
+// Models that live by collision and by questions to the turtle: Ulam, Honda 1981, canalisation, queries.
+#include "catch.h"
+#include "experiments/growth.h"
+#include "models/measure.h"
+
+#include <bit>
+#include <set>
+
+using namespace espalier;
+
+namespace {
+
+int count(const World& world, const std::string& symbol, std::size_t plant = 0) {
+    return static_cast<int>(parameters_of(world.string(plant), world.model(plant).alphabet, symbol).size());
+}
+
+// Cells after 0, 1, ... steps of a scene.
+std::vector<int> cells_of(const std::string& scene, int steps, const SceneOptions& options = {}) {
+    const Scene read = read_scene(source_path(scene), options);
+    World world(read);
+    world.start();
+    std::vector<int> cells = {count(world, "K")};
+    for (int step = 0; step < steps; ++step) {
+        world.step();
+        cells.push_back(count(world, "K"));
+    }
+    return cells;
+}
+
+SceneOptions overriding(std::vector<std::pair<std::string, std::string>> overrides) {
+    SceneOptions options;
+    options.overrides = std::move(overrides);
+    return options;
+}
+
+int forks_of(const std::string& scene, int steps, const std::string& radius) {
+    SceneOptions options = overriding({{"environment.collisions.radius", radius}});
+    options.steps = steps;
+    return count(*grown(scene, options), "N");
+}
+
+// Where the modules of one symbol stand that are followed by ?E.
+std::vector<glm::dvec3> places_of(const World& world, const std::string& symbol) {
+    std::vector<glm::dvec3> places;
+    const ModuleString& string = world.string(0);
+    for (const Query& query : world.interpretation(0).queries) {
+        // symbol ? E
+        if (world.model(0).alphabet.name(string.letters[query.module - 2]) == symbol)
+            places.push_back(query.pose.position);
+    }
+    return places;
+}
+
+}  // namespace
+
+TEST_CASE("ulam: the published counts of cells, and births by the binary digits of the step", "[environment]") {
+    const std::vector<int> cells = cells_of("environments/ulam.toml", 15);
+    CHECK(cells == std::vector<int>{1, 5, 9, 21, 25, 37, 49, 85, 89, 101, 113, 149, 161, 197, 233, 341});
+    for (unsigned n = 2; n <= cells.size(); ++n) {
+        int births = 4;
+        for (int ones = std::popcount(n - 1); ones > 1; --ones) births *= 3;
+        CHECK(cells[n - 1] - cells[n - 2] == births);
+    }
+}
+
+TEST_CASE("ulam-branching: the published counts of the variant whose wishes refuse each other", "[environment]") {
+    CHECK(cells_of("environments/ulam-branching.toml", 16) ==
+          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 193});
+}
+
+TEST_CASE("cells: the published counts of every rule, on squares and on hexagons", "[environment]") {
+    CHECK(cells_of("environments/cells.toml", 15) ==
+          std::vector<int>{1, 5, 9, 21, 25, 37, 49, 85, 89, 101, 113, 149, 161, 197, 233, 341});
+    CHECK(cells_of("environments/cells.toml", 8, overriding({{"plant.0.define.SIDES", "6"}})) ==
+          std::vector<int>{1, 7, 13, 31, 37, 55, 85, 139, 145});
+    CHECK(cells_of("environments/cells.toml", 16, overriding({{"environment.cells.rule", "\"births\""}})) ==
+          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 157, 169, 181, 201});
+    CHECK(cells_of("environments/cells.toml", 16, overriding({{"environment.cells.rule", "\"wishes\""}})) ==
+          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 193});
+    CHECK(cells_of("environments/cells.toml", 16,
+                   overriding({{"environment.cells.rule", "\"wishes\""}, {"plant.0.define.PERSISTENT", "1"}})) ==
+          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 185});
+}
+
+TEST_CASE("terminalia: 635, 230 and 107 forks after seven steps for the radii 0, 0.3 and 0.5", "[environment]") {
+    CHECK(forks_of("environments/terminalia.toml", 7, "0") == 635);
+    CHECK(forks_of("environments/terminalia.toml", 7, "0.3") == 230);
+    CHECK(forks_of("environments/terminalia.toml", 7, "0.5") == 107);
+}
+
+TEST_CASE("terminalia: without radius 5 * 2^k apices; with it no fork within the radius of an older end",
+          "[environment]") {
+    SceneOptions free = overriding({{"environment.collisions.radius", "0"}});
+    free.steps = 5;
+    CHECK(count(*grown("environments/terminalia.toml", free), "A") == 5 * 32);
+
+    const Scene scene = read_scene(source_path("environments/terminalia.toml"), {});
+    World world(scene);
+    world.start();
+    std::vector<glm::dvec3> older;
+    std::size_t forks = 0;
+    for (int step = 0; step < 7; ++step) {
+        world.step();
+        // Forks come in the order of the string, old and new; the new ones are those that were no end before.
+        std::vector<glm::dvec3> ends = places_of(world, "N");
+        for (const glm::dvec3& fork : ends) {
+            const bool is_old = std::any_of(older.begin(), older.end(),
+                                            [&](const glm::dvec3& end) { return glm::distance(fork, end) < 1e-9; });
+            if (is_old) continue;
+            ++forks;
+            for (const glm::dvec3& end : older) CHECK(glm::distance(fork, end) > 0.5);
+        }
+        for (const glm::dvec3& end : places_of(world, "K")) ends.push_back(end);
+        older = std::move(ends);
+    }
+    CHECK(forks == 107);
+}
+
+TEST_CASE("terminalia: of two tiers each forks less than alone and leans away; far apart they are as alone",
+          "[environment]") {
+    SceneOptions options;
+    options.steps = 10;
+    const auto alone = grown("environments/terminalia.toml", options);
+    const auto both = grown("environments/terminalia-two-tiers.toml", options);
+    const int forks = count(*alone, "N");
+    for (std::size_t tier = 0; tier < 2; ++tier) CHECK(count(*both, "N", tier) <= 0.75 * forks);
+
+    SceneOptions apart = overriding({{"plant.0.positions.0.0", "-50"}, {"plant.0.positions.1.0", "50"}});
+    apart.steps = 10;
+    const auto separate = grown("environments/terminalia-two-tiers.toml", apart);
+    for (std::size_t tier = 0; tier < 2; ++tier) CHECK(count(*separate, "N", tier) == forks);
+
+    // Mean place of what each tier drew, from its own centre, along x.
+    const auto lean = [](const World& world, std::size_t tier, double centre) {
+        double sum = 0;
+        const auto& internodes = world.interpretation(tier).geometry.internodes;
+        for (const Internode& internode : internodes) sum += internode.tip.x - centre;
+        return sum / static_cast<double>(internodes.size());
+    };
+    CHECK(lean(*both, 0, -1.1) < lean(*alone, 0, 0) - 0.3);
+    CHECK(lean(*both, 1, 1.1) > lean(*alone, 0, 0) + 0.3);
+}
+
+TEST_CASE("canalisation: the number of free organs is mostly a Fibonacci number", "[environment]") {
+    const std::set<int> fibonacci = {1, 2, 3, 5, 8, 13, 21, 34, 55, 89};
+    const auto scene = read_scene(source_path("environments/canalisation.toml"), {});
+    World world(scene);
+    world.start();
+    int fibonacci_steps = 0, steps = 0;
+    std::set<int> met;
+    for (int step = 1; step <= 200; ++step) {
+        world.step();
+        if (step < 20) continue;
+        const auto answers = values_of(world.string(0), world.model(0).alphabet, "E");
+        const int free = static_cast<int>(std::count(answers.begin(), answers.end(), 1.0));
+        ++steps;
+        if (fibonacci.count(free) == 1) {
+            ++fibonacci_steps;
+            met.insert(free);
+        }
+    }
+    CHECK(fibonacci_steps > 0.85 * steps);
+    CHECK(met.count(8) + met.count(13) + met.count(21) == 3);
+}
+
+namespace {
+
+// A turtle of its own, by rotation matrices about the world's axes: the columns of `frame` are heading, left and up.
+struct PlainTurtle {
+    glm::dvec3 position{0, 0, 0};
+    glm::dmat3 frame{glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1)};
+
+    // Turns column `a` towards column `b`.
+    void turn(int a, int b, double degrees) {
+        const double angle = degrees * std::numbers::pi / 180;
+        const glm::dvec3 from = frame[a], to = frame[b];
+        frame[a] = std::cos(angle) * from + std::sin(angle) * to;
+        frame[b] = std::cos(angle) * to - std::sin(angle) * from;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("queries: every answer is what an independent turtle finds at that place, for 100 seeds", "[environment]") {
+    int checked = 0;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        LonePlant plant("models/environment/queries.l", {}, seed);
+        plant.grow(8);
+        const Alphabet& alphabet = plant.model->alphabet;
+        const auto offsets = parameter_offsets(plant.string, alphabet);
+        std::vector<PlainTurtle> stack = {PlainTurtle{}};
+        for (std::size_t i = 0; i < plant.string.size(); ++i) {
+            const std::string& symbol = alphabet.name(plant.string.letters[i]);
+            const double* parameter = plant.string.parameters.data() + offsets[i];
+            PlainTurtle& turtle = stack.back();
+            if (symbol == "F" || symbol == "f") turtle.position += parameter[0] * turtle.frame[0];
+            if (symbol == "+") turtle.turn(0, 1, parameter[0]);
+            if (symbol == "&") turtle.turn(0, 2, parameter[0]);
+            if (symbol == "^") turtle.turn(0, 2, -parameter[0]);
+            if (symbol == "/") turtle.turn(1, 2, parameter[0]);
+            if (symbol == "\\") turtle.turn(1, 2, -parameter[0]);
+            if (symbol == "|") turtle.turn(0, 1, 180);
+            if (symbol == "[") stack.push_back(PlainTurtle(turtle));
+            if (symbol == "]") stack.pop_back();
+            if (alphabet.arity(plant.string.letters[i]) != 3) continue;
+            const glm::dvec3 answer(parameter[0], parameter[1], parameter[2]);
+            const glm::dvec3 expected = symbol == "P"   ? turtle.position
+                                        : symbol == "H" ? turtle.frame[0]
+                                        : symbol == "L" ? turtle.frame[1]
+                                                        : turtle.frame[2];
+            CHECK(glm::distance(answer, expected) < 1e-9);
+            ++checked;
+        }
+    }
+    CHECK(checked > 1000);
+}

@@ -1,0 +1,196 @@
+// Phyllotaxis: where organs stand, and which Fibonacci numbers the eye counts.
+#include "catch.h"
+#include "experiments/growth.h"
+#include "models/measure.h"
+
+#include <set>
+
+using namespace espalier;
+
+namespace {
+
+const std::set<int> fibonacci = {1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144};
+constexpr double golden_angle = 137.50776405003785;
+
+std::vector<glm::dvec3> positions_of(const LonePlant& plant) {
+    std::vector<glm::dvec3> positions;
+    for (const Organ& organ : plant.interpretation.geometry.organs) positions.push_back(organ.pose.position);
+    return positions;
+}
+
+// How many numbers away the nearest organs of organ `i` are, nearest first.
+std::vector<int> nearest_differences(const std::vector<glm::dvec3>& organs, std::size_t i, std::size_t count) {
+    std::vector<std::pair<double, int>> others;
+    for (std::size_t j = 0; j < organs.size(); ++j) {
+        if (j != i) others.emplace_back(glm::distance(organs[i], organs[j]), std::abs(int(i) - int(j)));
+    }
+    std::sort(others.begin(), others.end());
+    std::vector<int> differences;
+    for (std::size_t k = 0; k < count; ++k) differences.push_back(others[k].second);
+    return differences;
+}
+
+double smallest_distance(const std::vector<glm::dvec3>& organs, std::size_t from, std::size_t to) {
+    double smallest = 1e9;
+    for (std::size_t i = from; i < to; ++i) {
+        for (std::size_t j = 0; j < i; ++j) smallest = std::min(smallest, glm::distance(organs[i], organs[j]));
+    }
+    return smallest;
+}
+
+// Distances on the surface of a cylinder of radius 1 about the y axis.
+double smallest_surface_distance(const std::vector<glm::dvec3>& organs) {
+    double smallest = 1e9;
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const glm::dvec3 a(organs[i].x, 0, organs[i].z), b(organs[j].x, 0, organs[j].z);
+            const double arc = degrees_between(a, b) * std::numbers::pi / 180;
+            smallest = std::min(smallest, std::hypot(arc, organs[i].y - organs[j].y));
+        }
+    }
+    return smallest;
+}
+
+double azimuth_between(const glm::dvec3& a, const glm::dvec3& b) {
+    return degrees_between({a.x, 0, a.z}, {b.x, 0, b.z});
+}
+
+}  // namespace
+
+TEST_CASE("disc: organ n stands at n times the divergence and the root of n", "[phyllotaxis]") {
+    LonePlant disc("models/phyllotaxis/disc.l", {{"ORGANS", "300"}});
+    disc.grow(300);
+    const std::vector<glm::dvec3> organs = positions_of(disc);
+    REQUIRE(organs.size() == 300);
+    for (std::size_t n = 0; n < organs.size(); ++n) {
+        const double radius = 0.5 * std::sqrt(static_cast<double>(n));
+        const double angle = 137.508 * static_cast<double>(n + 1) * std::numbers::pi / 180;
+        CHECK(glm::distance(organs[n], glm::dvec3(-std::sin(angle), std::cos(angle), 0) * radius) < 1e-9);
+    }
+}
+
+TEST_CASE("disc: at the golden angle neighbours are Fibonacci numbers apart and never near; beside it they crowd",
+          "[phyllotaxis]") {
+    LonePlant disc("models/phyllotaxis/disc.l", {{"ORGANS", "400"}});
+    LonePlant beside("models/phyllotaxis/disc.l", {{"ORGANS", "400"}, {"DIVERGENCE", "137.3"}});
+    disc.grow(400);
+    beside.grow(400);
+    const std::vector<glm::dvec3> organs = positions_of(disc);
+    for (std::size_t i = 100; i < 300; ++i) {
+        for (int difference : nearest_differences(organs, i, 3)) CHECK(fibonacci.count(difference) == 1);
+    }
+    const double smallest = smallest_distance(organs, 100, 400);
+    CHECK(smallest > 0.75);
+    CHECK(smallest_distance(positions_of(beside), 100, 400) < 0.85 * smallest);
+}
+
+TEST_CASE("sunflower-head: buds, florets and rays by number; rays look outwards", "[phyllotaxis]") {
+    LonePlant head("models/phyllotaxis/sunflower-head.l");
+    head.grow(534);
+    const PlantGeometry& geometry = head.interpretation.geometry;
+    CHECK(geometry.organs.size() == 500);
+    CHECK(geometry.internodes.size() == 300);
+    REQUIRE(geometry.polygons.size() == 34);
+    for (const Polygon& polygon : geometry.polygons) {
+        const glm::dvec3 base = geometry.vertices[polygon.first], tip = geometry.vertices[polygon.first + 2];
+        CHECK(glm::length(glm::dvec2(tip)) > glm::length(glm::dvec2(base)) + 2);
+        CHECK(glm::length(glm::dvec2(base)) > 0.25 * std::sqrt(500) - 1e-9);
+    }
+}
+
+TEST_CASE("zinnia: petals turn by the divergence, and lean out and lengthen from the middle to the rim",
+          "[phyllotaxis]") {
+    LonePlant head("models/phyllotaxis/zinnia.l");
+    head.grow(150);
+    const PlantGeometry& geometry = head.interpretation.geometry;
+    REQUIRE(geometry.polygons.size() == 150);
+    double length = 0, rise = 1;
+    glm::dvec3 before(0);
+    for (const Polygon& polygon : geometry.polygons) {
+        const auto* vertices = &geometry.vertices[polygon.first];
+        const glm::dvec3 petal = 0.5 * (vertices[2] + vertices[3]) - vertices[0];
+        CHECK(glm::length(petal) > length);
+        CHECK(petal.y / glm::length(petal) < rise + 1e-9);
+        length = glm::length(petal);
+        rise = petal.y / length;
+        if (polygon.first > 0) CHECK(azimuth_between(before, vertices[0]) == Approx(137.508).margin(1e-3));
+        before = vertices[0];
+        if (before.x == 0 && before.z == 0) before = vertices[2];
+    }
+}
+
+TEST_CASE("ridley: heights are i A / (2 PI R), and only the golden angle keeps distance", "[phyllotaxis]") {
+    const double area = 0.05, rise = area / (2 * std::numbers::pi);
+    for (auto [divergence, published] :
+         {std::pair{golden_angle, 0.957}, std::pair{golden_angle - 0.5, 0.78}, std::pair{golden_angle + 0.5, 0.65}}) {
+        LonePlant plant("models/phyllotaxis/ridley.l", {{"DIVERGENCE", std::to_string(divergence)}, {"ORGANS", "300"}});
+        plant.grow(300);
+        const std::vector<glm::dvec3> organs = positions_of(plant);
+        REQUIRE(organs.size() == 300);
+        for (std::size_t i = 0; i < organs.size(); ++i) {
+            CHECK(organs[i].y == Approx(static_cast<double>(i) * rise).margin(1e-12));
+            CHECK(std::hypot(organs[i].x, organs[i].z) == Approx(1));
+        }
+        CHECK(smallest_surface_distance(organs) / std::sqrt(area) == Approx(published).margin(0.006));
+    }
+}
+
+TEST_CASE("cylinder: one organ a step, and neighbours that are Fibonacci numbers apart", "[phyllotaxis]") {
+    for (const char* rise : {"0.067", "0.2", "0.6"}) {
+        LonePlant plant("models/phyllotaxis/cylinder.l", {{"H", rise}, {"RADIUS", "3"}});
+        plant.grow(150);
+        const PlantGeometry& geometry = plant.interpretation.geometry;
+        REQUIRE(geometry.polygons.size() == 150);
+        std::vector<glm::dvec3> organs;
+        for (const Polygon& polygon : geometry.polygons) organs.push_back(geometry.vertices[polygon.first]);
+        for (std::size_t i = 1; i < organs.size(); ++i) {
+            CHECK(organs[i].y - organs[i - 1].y == Approx(std::stod(rise)));
+            CHECK(azimuth_between(organs[i - 1], organs[i]) == Approx(137.5281));
+        }
+        for (int difference : nearest_differences(organs, 75, 4)) CHECK(fibonacci.count(difference) == 1);
+    }
+}
+
+TEST_CASE("pineapple: the spirals through an organ at half height are 8 and 13", "[phyllotaxis]") {
+    LonePlant fruit("models/phyllotaxis/pineapple.l");
+    fruit.grow(175);
+    const std::vector<glm::dvec3> scales = positions_of(fruit);
+    REQUIRE(scales.size() == 130);
+    std::set<int> found;
+    for (int difference : nearest_differences(scales, 65, 4)) found.insert(difference);
+    CHECK(found == std::set<int>{8, 13});
+    CHECK(fruit.interpretation.geometry.polygons.size() == 130 + 45);
+}
+
+TEST_CASE("cone: scales shrink towards the tip, and have area by their size", "[phyllotaxis]") {
+    LonePlant cone("models/phyllotaxis/cone.l", {{"SIZE", "0.55"}, {"LENGTH", "7"}});
+    cone.grow(300);
+    const auto sizes = values_of(cone.string, cone.model->alphabet, "K");
+    REQUIRE(sizes.size() > 60);
+    const std::size_t widest = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    for (std::size_t i = widest + 1; i < sizes.size(); ++i) CHECK(sizes[i] < sizes[i - 1]);
+    const PlantGeometry& geometry = cone.interpretation.geometry;
+    for (std::size_t i = 1; i < sizes.size(); ++i) {
+        const double climb =
+            geometry.vertices[geometry.polygons[i].first].y - geometry.vertices[geometry.polygons[i - 1].first].y;
+        const double radius = sizes[i - 1] / 0.55;
+        CHECK(climb * 2 * std::numbers::pi * radius == Approx(sizes[i - 1] * sizes[i - 1]));
+    }
+}
+
+TEST_CASE("rose: one petal a step, the older the more open and the larger", "[phyllotaxis]") {
+    LonePlant rose("models/phyllotaxis/rose.l", {{"PETALS", "34"}, {"GROWN", "26"}});
+    rose.grow(20);
+    const std::vector<double> ages = values_of(rose.string, rose.model->alphabet, "P");
+    REQUIRE(ages.size() == 20);
+    for (std::size_t i = 0; i < ages.size(); ++i) CHECK(ages[i] == 19 - static_cast<double>(i));
+    const PlantGeometry& geometry = rose.interpretation.geometry;
+    double size = 1e9;
+    for (const Polygon& polygon : geometry.polygons) {
+        const double length = glm::distance(geometry.vertices[polygon.first], geometry.vertices[polygon.first + 2]);
+        CHECK(length < size);
+        size = length;
+    }
+    rose.grow(60);
+    for (double age : values_of(rose.string, rose.model->alphabet, "P")) CHECK(age == 26);
+}
