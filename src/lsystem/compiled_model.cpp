@@ -28,7 +28,7 @@ Plan plan_of(const CompiledProduction& production) {
     return plan;
 }
 
-Plans make_plans(const CompiledModel& model) {
+Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
     const Alphabet& alphabet = model.source->alphabet;
     Plans plans;
@@ -52,18 +52,35 @@ Plans make_plans(const CompiledModel& model) {
     return plans;
 }
 
+/// True if a `%` may come to stand in the string.
+bool writes_cut(const Model& model) {
+    const auto cuts = [](const std::vector<ModuleTemplate>& modules) {
+        return std::any_of(modules.begin(), modules.end(),
+                           [](const ModuleTemplate& module) { return module.letter == Alphabet::cut; });
+    };
+    const auto any = [&](const std::vector<Production>& rules) {
+        return std::any_of(rules.begin(), rules.end(),
+                           [&](const Production& production) { return cuts(production.successor); });
+    };
+    return cuts(model.main().axiom) || std::any_of(model.systems.begin(), model.systems.end(), [&](const auto& system) {
+               return any(system.productions) || any(system.decomposition.productions);
+           });
+}
+
 /// Compiles one L-system of a model.
-class ModelCompiler {
+class SystemCompiler {
 public:
-    explicit ModelCompiler(std::shared_ptr<const Model> model)
-        : model_(std::move(model)),
-          system_(model_->main()),
-          programs_(system_, model_->quirks),
-          compiled_(std::make_shared<CompiledModel>()) {
+    SystemCompiler(const Model& model, std::size_t index)
+        : model_(&model),
+          system_(model.systems[index]),
+          programs_(system_, index > 0, model.quirks),
+          compiled_(std::make_unique<CompiledSystem>()) {
         compiled_->source = model_;
+        compiled_->system = &system_;
+        compiled_->index = index;
     }
 
-    std::shared_ptr<const CompiledModel> compile();
+    std::unique_ptr<CompiledSystem> compile();
 
 private:
     void compile_arrays();
@@ -81,15 +98,15 @@ private:
     void place_registers();
     void place_registers(CompiledRules& rules);
     void find_ignored();
-    bool writes_cut() const;
+    void name_variables();
 
-    std::shared_ptr<const Model> model_;
+    const Model* model_;
     const LSystem& system_;
     ProgramCompiler programs_;
-    std::shared_ptr<CompiledModel> compiled_;
+    std::unique_ptr<CompiledSystem> compiled_;
 };
 
-std::shared_ptr<const CompiledModel> ModelCompiler::compile() {
+std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compile_arrays();
     compile_blocks();
     compiled_->rules = compile_rules(system_.productions, system_.seed.has_value(), false);
@@ -103,15 +120,16 @@ std::shared_ptr<const CompiledModel> ModelCompiler::compile() {
     compile_depth(system_.homomorphism, compiled_->homomorphism);
     compiled_->plans = make_plans(*compiled_);
     compiled_->ring = system_.ring;
-    compiled_->may_cut = writes_cut() && !compiled_->rules.has(Alphabet::cut);
+    compiled_->may_cut = writes_cut(*model_) && !compiled_->rules.has(Alphabet::cut);
     find_ignored();
+    name_variables();
     place_registers();
-    return compiled_;
+    return std::move(compiled_);
 }
 
-void ModelCompiler::compile_arrays() {
+void SystemCompiler::compile_arrays() {
     for (const ArrayDeclaration& declared : system_.arrays) {
-        CompiledArray array{declared.name, {}, {}};
+        CompiledArray array{declared.name, {}, {}, declared.external && compiled_->index > 0};
         double elements = 1;
         for (const Expression& dimension : declared.dimensions) {
             const std::optional<double> size = programs_.fold(dimension);
@@ -131,8 +149,8 @@ void ModelCompiler::compile_arrays() {
             throw UserError(declared.place, fmt::format("array '{}' has {:g} elements, but {} values are given",
                                                         declared.name, elements, declared.values.size()));
         }
-        array.values.assign(static_cast<std::size_t>(elements), 0);
-        for (std::size_t k = 0; k < declared.values.size(); ++k) {
+        if (!array.external) array.values.assign(static_cast<std::size_t>(elements), 0);
+        for (std::size_t k = 0; k < declared.values.size() && !array.external; ++k) {
             const std::optional<double> value = programs_.fold(declared.values[k]);
             if (!value) throw UserError(declared.values[k].place, "an array's initial values must be constants");
             array.values[k] = *value;
@@ -141,7 +159,7 @@ void ModelCompiler::compile_arrays() {
     }
 }
 
-void ModelCompiler::compile_blocks() {
+void SystemCompiler::compile_blocks() {
     compiled_->start = programs_.block(system_.start);
     compiled_->start_each = programs_.block(system_.start_each);
     compiled_->end_each = programs_.block(system_.end_each);
@@ -152,7 +170,7 @@ void ModelCompiler::compile_blocks() {
     if (system_.seed) compiled_->seed = programs_.value(*system_.seed);
 }
 
-CompiledRules ModelCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic, bool single) {
+CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic, bool single) {
     CompiledRules rules;
     rules.stochastic = stochastic;
     for (const Production& production : productions) {
@@ -176,7 +194,7 @@ CompiledRules ModelCompiler::compile_rules(const std::vector<Production>& produc
     return rules;
 }
 
-void ModelCompiler::compile_depth(const RuleSet& source, CompiledRules& rules) {
+void SystemCompiler::compile_depth(const RuleSet& source, CompiledRules& rules) {
     rules.warnings = source.warnings;
     if (source.maximum_depth) {
         const std::optional<double> depth = programs_.fold(*source.maximum_depth);
@@ -193,7 +211,7 @@ void ModelCompiler::compile_depth(const RuleSet& source, CompiledRules& rules) {
     }
 }
 
-std::vector<CompiledPattern> ModelCompiler::patterns(const std::vector<ModulePattern>& source) {
+std::vector<CompiledPattern> SystemCompiler::patterns(const std::vector<ModulePattern>& source) {
     std::vector<CompiledPattern> compiled;
     for (const ModulePattern& pattern : source) {
         const int arity = pattern.skip_branch ? 0 : model_->alphabet.arity(pattern.letter);
@@ -204,7 +222,7 @@ std::vector<CompiledPattern> ModelCompiler::patterns(const std::vector<ModulePat
     return compiled;
 }
 
-CompiledProduction ModelCompiler::compile_production(const Production& production) {
+CompiledProduction SystemCompiler::compile_production(const Production& production) {
     CompiledProduction compiled;
     compiled.source = &production;
     compiled.left = patterns(production.left);
@@ -237,7 +255,7 @@ CompiledProduction ModelCompiler::compile_production(const Production& productio
 }
 
 // Each strict module in turn hands its identity to the first successor module of its symbol that nobody has claimed.
-void ModelCompiler::descend(CompiledProduction& production) const {
+void SystemCompiler::descend(CompiledProduction& production) const {
     production.descents.resize(production.length);
     for (std::uint32_t s = 0; s < production.strict.size(); ++s) {
         const SymbolId symbol = model_->alphabet.symbol_of(production.strict[s].letter);
@@ -277,7 +295,7 @@ bool reads_formals_of(const Block& block, const std::vector<CompiledPattern>& pa
     });
 }
 
-void ModelCompiler::find_lanes(CompiledProduction& production) const {
+void SystemCompiler::find_lanes(CompiledProduction& production) const {
     production.affine = production.strict.size() == 1;
     for (const auto* context : {&production.left, &production.right}) {
         production.reads_context |= reads_formals_of(production.source->after, *context);
@@ -298,7 +316,7 @@ void ModelCompiler::find_lanes(CompiledProduction& production) const {
 
 // Only forms that a multiplication followed by an addition computes with the very same rounding.
 // Adding -0.0 changes no number, not even -0.0.
-std::optional<Lane> ModelCompiler::lane(const Expression& expression, const CompiledPattern& strict) const {
+std::optional<Lane> SystemCompiler::lane(const Expression& expression, const CompiledPattern& strict) const {
     if (const std::optional<double> constant = programs_.fold(expression)) {
         // 0 times a value, plus -0.0, may be 0.0.
         if (!std::isfinite(*constant) || (*constant == 0 && std::signbit(*constant))) return std::nullopt;
@@ -325,7 +343,7 @@ std::optional<Lane> ModelCompiler::lane(const Expression& expression, const Comp
 }
 
 // l * m + c, c + l * m, l * m - c and c - l, where c is not 0.
-std::optional<Lane> ModelCompiler::sum_lane(const Expression& expression, const CompiledPattern& strict) const {
+std::optional<Lane> SystemCompiler::sum_lane(const Expression& expression, const CompiledPattern& strict) const {
     const bool subtracts = expression.op == Operator::subtract;
     for (const int side : {0, 1}) {
         const std::optional<double> constant = programs_.fold(expression.operands[side]);
@@ -341,7 +359,7 @@ std::optional<Lane> ModelCompiler::sum_lane(const Expression& expression, const 
     return std::nullopt;
 }
 
-void ModelCompiler::index(CompiledRules& rules) const {
+void SystemCompiler::index(CompiledRules& rules) const {
     const std::size_t letters = model_->alphabet.size();
     rules.first.assign(letters + 1, 0);
     for (const CompiledProduction& production : rules.productions) ++rules.first[production.strict[0].letter + 1];
@@ -355,7 +373,7 @@ void ModelCompiler::index(CompiledRules& rules) const {
     for (std::size_t l = 0; l < letters; ++l) rules.always[l] = always(rules, static_cast<LetterId>(l));
 }
 
-std::int32_t ModelCompiler::always(const CompiledRules& rules, LetterId letter) const {
+std::int32_t SystemCompiler::always(const CompiledRules& rules, LetterId letter) const {
     if (!rules.has(letter)) return -1;
     if (rules.first[letter + 1] - rules.first[letter] >= no_letter) {
         throw UserError(fmt::format("'{}' has more than {} productions", model_->alphabet.name(letter), no_letter - 1));
@@ -369,7 +387,7 @@ std::int32_t ModelCompiler::always(const CompiledRules& rules, LetterId letter) 
     return unconditional && (alone || !rules.stochastic) ? static_cast<std::int32_t>(candidate) : -1;
 }
 
-void ModelCompiler::find_ignored() {
+void SystemCompiler::find_ignored() {
     const Alphabet& alphabet = model_->alphabet;
     std::vector<bool> listed(alphabet.symbol_count());
     for (const SymbolId symbol : system_.filtered) listed[symbol] = true;
@@ -381,19 +399,20 @@ void ModelCompiler::find_ignored() {
     }
 }
 
-bool ModelCompiler::writes_cut() const {
-    const auto cuts = [](const std::vector<ModuleTemplate>& modules) {
-        return std::any_of(modules.begin(), modules.end(),
-                           [](const ModuleTemplate& module) { return module.letter == Alphabet::cut; });
-    };
-    const auto successor_cuts = [&](const Production& production) { return cuts(production.successor); };
-    const auto any = [&](const std::vector<Production>& rules) {
-        return std::any_of(rules.begin(), rules.end(), successor_cuts);
-    };
-    return cuts(system_.axiom) || any(system_.productions) || any(system_.decomposition.productions);
+void SystemCompiler::name_variables() {
+    for (std::uint32_t g = 0; g < system_.globals.size(); ++g) {
+        const std::string& name = system_.globals[g];
+        compiled_->global_indices.emplace(name, g);
+        if (compiled_->index > 0 && programs_.is_external(g)) compiled_->external_globals.push_back({g, name});
+    }
+    for (std::uint32_t a = 0; a < compiled_->arrays.size(); ++a) {
+        const CompiledArray& array = compiled_->arrays[a];
+        compiled_->array_indices.emplace(array.name, a);
+        if (array.external) compiled_->external_arrays.push_back({a, array.name});
+    }
 }
 
-void ModelCompiler::place_registers(CompiledRules& rules) {
+void SystemCompiler::place_registers(CompiledRules& rules) {
     for (CompiledProduction& production : rules.productions) {
         for (Program* program : {&production.before, &production.condition, &production.after, &production.successor,
                                  &production.weight}) {
@@ -402,7 +421,7 @@ void ModelCompiler::place_registers(CompiledRules& rules) {
     }
 }
 
-void ModelCompiler::place_registers() {
+void SystemCompiler::place_registers() {
     place_registers(compiled_->rules);
     place_registers(compiled_->decomposition);
     place_registers(compiled_->homomorphism);
@@ -416,8 +435,23 @@ void ModelCompiler::place_registers() {
 
 }  // namespace
 
+Variables CompiledSystem::variables() const {
+    Variables fresh;
+    fresh.globals.assign(std::max<std::size_t>(2, system->globals.size()), 0);
+    for (const CompiledArray& array : arrays) fresh.arrays.push_back(array.values);
+    return fresh;
+}
+
 std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model) {
-    return ModelCompiler(std::move(model)).compile();
+    auto compiled = std::make_shared<CompiledModel>();
+    for (std::size_t k = 0; k < model->systems.size(); ++k) {
+        compiled->systems.push_back(SystemCompiler(*model, k).compile());
+    }
+    compiled->enclosure = enclosure_of(model->alphabet);
+    compiled->nested = compiled->enclosure.open != no_letter || compiled->enclosure.open_scaled != no_letter;
+    compiled->source = std::move(model);
+    require_lenders(*compiled);
+    return compiled;
 }
 
 const Model& source_of(const CompiledModel& compiled) {
@@ -425,11 +459,11 @@ const Model& source_of(const CompiledModel& compiled) {
 }
 
 bool has_order(const CompiledModel& compiled) {
-    return compiled.ordered();
+    return compiled.nested || compiled.main().ordered();
 }
 
 bool draws_random_numbers(const CompiledModel& compiled) {
-    return compiled.draws();
+    return compiled.any(&CompiledSystem::draws);
 }
 
 }  // namespace espalier

@@ -6,10 +6,13 @@
 #include "machine.h"
 #include "program.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace espalier {
@@ -97,15 +100,26 @@ struct Plans {
     bool all_known = true;     ///< no letter needs choosing
 };
 
-class CompiledModel {
+/// A variable or array that the surrounding L-system lends, by name.
+struct External {
+    std::uint32_t index = 0;
+    std::string name;
+};
+
+/// One L-system of a model.
+class CompiledSystem {
 public:
-    std::shared_ptr<const Model> source;
+    const Model* source = nullptr;
+    const LSystem* system = nullptr;
+    std::size_t index = 0;  ///< among the model's L-systems; 0 is the main one
     CompiledRules rules, decomposition, homomorphism;
     Plans plans;  ///< of `rules`
     Program start, start_each, end_each, end;
     Program axiom, length, seed;
     std::vector<LetterId> axiom_letters;
     std::vector<CompiledArray> arrays;
+    std::vector<External> external_globals, external_arrays;
+    std::map<std::string, std::uint32_t> global_indices, array_indices;  ///< what it may lend
     std::vector<double> constants;
     std::size_t registers = 0;
     std::uint32_t formals = 0;
@@ -114,6 +128,8 @@ public:
     bool may_cut = false;  ///< `%` can stand in the string and is no production's business
 
     Machine machine() const { return Machine(constants, registers, arrays, source->quirks); }
+    /// Globals and arrays as declared, external ones not yet lent.
+    Variables variables() const;
     bool ordered() const {
         return rules.effects.assigns || rules.effects.ordered || decomposition.effects.assigns ||
                decomposition.effects.ordered;
@@ -123,6 +139,42 @@ public:
     }
     /// Pictures take random numbers, which are those of the module they are of.
     bool picture_draws() const { return homomorphism.effects.draws || homomorphism.stochastic; }
+    bool uses_context() const { return rules.uses_context || decomposition.uses_context; }
+    bool binds_context() const { return rules.binds_context || decomposition.binds_context; }
 };
+
+/// Lends `own`, the variables of `system`, what it takes from the L-system around it. Throws RunError if that has it
+/// not.
+void borrow(const CompiledSystem& system, Variables& own, const CompiledSystem& around, Variables& theirs);
+
+/// The modules ?(id), ?(id, scale) and $ that hold sub-L-systems.
+struct Enclosure {
+    LetterId open = no_letter, open_scaled = no_letter, close = no_letter;
+
+    bool opens(LetterId letter) const { return letter == open || letter == open_scaled; }
+};
+
+Enclosure enclosure_of(const Alphabet& alphabet);
+
+class CompiledModel {
+public:
+    std::shared_ptr<const Model> source;
+    std::vector<std::unique_ptr<const CompiledSystem>> systems;
+    Enclosure enclosure;
+    /// The string may hold sub-L-systems.
+    bool nested = false;
+
+    const CompiledSystem& main() const { return *systems.front(); }
+    /// The L-system of a number; null if there is none.
+    const CompiledSystem* labelled(double id) const;
+    /// "1, 2 and 7", for messages.
+    std::string labels() const;
+    bool any(bool (CompiledSystem::*property)() const) const {
+        return std::any_of(systems.begin(), systems.end(), [&](const auto& system) { return ((*system).*property)(); });
+    }
+};
+
+/// Throws UserError for external variables that no other L-system can lend.
+void require_lenders(const CompiledModel& model);
 
 }  // namespace espalier

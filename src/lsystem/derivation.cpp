@@ -1,6 +1,6 @@
 #include "espalier/base/excerpt.h"
 
-#include "derivation_state.h"
+#include "painter.h"
 
 #include <fmt/format.h>
 
@@ -18,23 +18,29 @@ constexpr double most_steps = 1e9;
 
 Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given)
     : model(std::move(compiled)),
+      main(model->main()),
       settings(std::move(given)),
-      lineage(settings.lineage || model->draws() || model->picture_draws()),
-      block_machine(model->machine()),
+      lineage(settings.lineage || model->nested || model->any(&CompiledSystem::draws) ||
+              model->any(&CompiledSystem::picture_draws)),
+      files(settings.input_folder, settings.output_folder),
+      block_machine(main.machine()),
       machines([this] {
-          Machine machine = model->machine();
+          Machine machine = main.machine();
           machine.attach(&variables, &services, Stream::derivation);
           return machine;
       }) {
     if (!settings.print) settings.print = [](const std::string& text) { std::fputs(text.c_str(), stderr); };
     services.print = settings.print;
+    services.warn = [this](const Place& place, const std::string& message) { warn_once(place, message); };
+    services.resources = model->source->resources.get();
+    services.files = &files;
     services.seed = settings.seed;
     services.plant = settings.plant;
     block_machine.attach(&variables, &services, Stream::blocks);
     reset();
-    if (!model->length.empty()) {
+    if (!main.length.empty()) {
         double steps = 0;
-        in_block("the derivation length", [&] { steps = block_machine.evaluate(model->length); });
+        in_block(block_machine, "the derivation length", [&] { steps = block_machine.evaluate(main.length); });
         if (!(steps >= 0 && steps <= most_steps)) {
             throw RunError(fmt::format("{}: a derivation length of {:g} is out of range", model->source->name, steps));
         }
@@ -44,36 +50,43 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
 }
 
 void Derivation::State::reset() {
-    variables.globals.assign(std::max<std::size_t>(2, model->source->main().globals.size()), 0);
-    variables.arrays.clear();
-    for (const CompiledArray& array : model->arrays) variables.arrays.push_back(array.values);
+    variables = main.variables();
     variables.globals[1] = length;
+    sub_systems.clear();
+    files.reset();
+    ++generation;
     step = 0;
     services.stopped = false;
     services.salt = 0;
     block_draws = RandomDraws(key(Stream::blocks), 0, 0);
-    if (model->seed.empty()) return;
+    if (main.seed.empty()) return;
     double seed = 0;
-    in_block("the seed", [&] { seed = block_machine.evaluate(model->seed); });
+    in_block(block_machine, "the seed", [&] { seed = block_machine.evaluate(main.seed); });
     services.salt = std::bit_cast<std::uint64_t>(seed);
     block_draws = RandomDraws(key(Stream::blocks), 0, 0);
 }
 
-void Derivation::State::in_block(const char* name, const std::function<void()>& work) {
-    block_machine.draw_with(block_draws);
+void Derivation::State::in_block(Machine& machine, const std::string& name, const std::function<void()>& work) {
+    machine.draw_with(block_draws);
     try {
         work();
     } catch (const EvaluationError& error) {
         throw RunError(fmt::format("{}{}{}, in {} at step {}{}", to_string(error.place),
                                    error.place.known() ? ": " : "", error.what(), name, step, excerpt(error.place)));
     }
-    block_draws = block_machine.draws();
+    block_draws = machine.draws();
 }
 
 void Derivation::State::run_block(const Program& block, const char* name) {
     if (block.empty()) return;
-    in_block(name, [&] { block_machine.run(block); });
+    in_block(block_machine, name, [&] { block_machine.run(block); });
     follow_length();
+}
+
+void Derivation::State::warn_once(const Place& place, const std::string& message) {
+    const std::lock_guard lock(warning);
+    if (!warned.insert({place.file, {place.line, place.column}}).second) return;
+    settings.print(fmt::format("{}{}warning: {}\n", to_string(place), place.known() ? ": " : "", message));
 }
 
 // A model may assign Z itself, and anything.
@@ -87,16 +100,16 @@ void Derivation::State::follow_length() {
 }
 
 void Derivation::State::evaluate_axiom(ModuleString& string) {
-    const CompiledModel& compiled = *model;
-    std::size_t parameters = compiled.axiom.results.size();
+    const CompiledSystem& compiled = main;
+    const std::size_t parameters = compiled.axiom.results.size();
     const std::size_t bytes = bytes_needed(compiled.axiom_letters.size(), parameters, lineage);
     if (bytes > settings.memory) {
         throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, settings.memory));
     }
     resize(string, compiled.axiom_letters.size(), parameters, lineage);
     std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
-    const std::vector<ModuleTemplate>& modules = compiled.source->main().axiom;
-    in_block("the axiom", [&] {
+    const std::vector<ModuleTemplate>& modules = compiled.system->axiom;
+    in_block(block_machine, "the axiom", [&] {
         block_machine.run(compiled.axiom);
         std::size_t k = 0;
         for (const ModuleTemplate& module : modules) {
@@ -120,23 +133,35 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
     }
 }
 
-// `%` deletes everything from itself to the end of its branch, or of the string.
+// `%` deletes everything from itself to the end of its branch, to `$`, or to the end of the string.
+std::size_t Derivation::State::end_of_cut(const ModuleString& from, std::size_t cut) const {
+    const auto& partner = scratch.links.partner;
+    const std::uint32_t open = partner[cut];
+    const std::uint32_t close = open == BranchLinks::none ? BranchLinks::none : partner[open];
+    const std::size_t stop = close == BranchLinks::none ? from.size() : close;
+    if (model->enclosure.close == no_letter) return stop;
+    for (std::size_t i = cut + 1; i < stop; ++i) {
+        if (from.letters[i] == model->enclosure.close) return i;
+        if (from.letters[i] != Alphabet::open_bracket) continue;
+        if (partner[i] == BranchLinks::none) return stop;
+        i = partner[i];
+    }
+    return stop;
+}
+
 void Derivation::State::find_kept(const ModuleString& from) {
     scratch.kept.clear();
     std::size_t begin = 0;
     const LetterId* const letters = from.letters.data();
     const LetterId* const end = letters + from.size();
-    if (model->may_cut) {
+    if (main.may_cut) {
         const LetterId* at = std::find(letters, end, Alphabet::cut);
         if (at != end) link_branches(from, scratch.links);
         while (at != end) {
             const auto cut = static_cast<std::size_t>(at - letters);
-            const std::uint32_t open = scratch.links.partner[cut];
-            const std::uint32_t close = open == BranchLinks::none ? BranchLinks::none : scratch.links.partner[open];
-            const std::size_t stop = close == BranchLinks::none ? from.size() : close;
             if (cut > begin) scratch.kept.emplace_back(begin, cut);
-            begin = stop;
-            at = std::find(letters + stop, end, Alphabet::cut);
+            begin = end_of_cut(from, cut);
+            at = std::find(letters + begin, end, Alphabet::cut);
         }
     }
     if (begin < from.size()) scratch.kept.emplace_back(begin, from.size());
@@ -147,13 +172,13 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
         throw RunError("the string has no identities: derive from a string that start() or step() made");
     }
     if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
-    find_kept(from);
+    if (!model->nested) find_kept(from);
     StringView view{&from, nullptr, nullptr};
-    if (model->rules.uses_context || model->decomposition.uses_context) {
+    if (model->any(&CompiledSystem::uses_context)) {
         link_branches(from, scratch.links);
         view.partner = scratch.links.partner.data();
     }
-    if (model->rules.binds_context || model->decomposition.binds_context) {
+    if (model->any(&CompiledSystem::binds_context)) {
         scratch.offsets.resize(from.size());
         const auto arities = model->source->alphabet.arities();
         std::size_t at = 0;
@@ -164,15 +189,30 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
         if (at != from.parameters.size()) throw RunError("the string's parameters do not fit its modules");
         view.offsets = scratch.offsets.data();
     }
-    return {*model, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch.kept};
+    return {main, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch.kept};
 }
 
 void Derivation::State::warn_of_depth() {
-    if (!depth_limit || warned_of_depth || !model->decomposition.warnings || !model->decomposition.explicit_depth)
+    if (!depth_limit || warned_of_depth) return;
+    for (const auto& system : model->systems) {
+        const CompiledRules& rules = system->decomposition;
+        if (rules.empty() || !rules.warnings || !rules.explicit_depth) continue;
+        warned_of_depth = true;
+        settings.print(fmt::format("{}: warning: decomposition stopped at its maximum depth of {} in step {}\n",
+                                   model->source->name, rules.maximum_depth, step));
         return;
-    warned_of_depth = true;
-    settings.print(fmt::format("{}: warning: decomposition stopped at its maximum depth of {} in step {}\n",
-                               model->source->name, model->decomposition.maximum_depth, step));
+    }
+}
+
+void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
+    const StepInput input = prepare(from);
+    if (main.ordered() || main.rules.several_strict || !main.decomposition.empty()) {
+        rewrite_in_one_pass(input, scratch, machines, services, to, depth_limit);
+        follow_length();
+        warn_of_depth();
+    } else {
+        rewrite_in_two_passes(input, scratch, machines, to);
+    }
 }
 
 Derivation::Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings)
@@ -184,25 +224,23 @@ Derivation& Derivation::operator=(Derivation&&) noexcept = default;
 
 void Derivation::start(ModuleString& string) {
     state_->reset();
-    state_->run_block(state_->model->start, "the Start block");
+    state_->run_block(state_->main.start, "the Start block");
     state_->evaluate_axiom(string);
+    state_->files.flush_all();
 }
 
 void Derivation::step(const ModuleString& from, ModuleString& to) {
     State& state = *state_;
-    const CompiledModel& model = *state.model;
     state.variables.globals[0] = ++state.step;
-    state.run_block(model.start_each, "the StartEach block");
-    const StepInput input = state.prepare(from);
-    if (model.ordered() || model.rules.several_strict || !model.decomposition.empty()) {
-        rewrite_in_one_pass(input, state.scratch, state.machines, state.services, to, state.depth_limit);
-        state.follow_length();
-        state.warn_of_depth();
-    } else {
-        rewrite_in_two_passes(input, state.scratch, state.machines, to);
-    }
-    state.run_block(model.end_each, "the EndEach block");
-    if (steps_done() == length()) state.run_block(model.end, "the End block");
+    ++state.generation;
+    state.run_block(state.main.start_each, "the StartEach block");
+    if (state.model->nested)
+        state.rewrite_nested(from, to);
+    else
+        state.rewrite(from, to);
+    state.run_block(state.main.end_each, "the EndEach block");
+    if (steps_done() == length()) state.run_block(state.main.end, "the End block");
+    state.files.flush_all();
 }
 
 int Derivation::steps_done() const {

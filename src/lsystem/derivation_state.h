@@ -3,29 +3,19 @@
 
 #include "espalier/lsystem/derivation.h"
 
-#include "expansion.h"
+#include "files.h"
 #include "rewriting.h"
+#include "sub_systems.h"
 
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <set>
 
 namespace espalier {
 
-/// Draws the pictures of modules, one painter per thread.
-struct Painter {
-    explicit Painter(const CompiledModel& model)
-        : machine(model.machine()), matcher(model, machine), expansion(model.homomorphism, matcher, machine) {}
-    Painter(const Painter&) = delete;
-
-    Machine machine;
-    Matcher matcher;
-    Expansion expansion;
-    ModuleStack stack;
-    // What the blocks of a picture assign, seed or stop holds for that picture only.
-    Variables variables;
-    Services services;
-};
+class Painter;
 
 struct Derivation::State {
     State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given);
@@ -34,27 +24,39 @@ struct Derivation::State {
     void run_block(const Program& block, const char* name);
     void follow_length();
     /// Runs what belongs to no module; its draws form one sequence from the beginning of the growth.
-    void in_block(const char* name, const std::function<void()>& work);
+    void in_block(Machine& machine, const std::string& name, const std::function<void()>& work);
     RandomKey key(Stream stream) const { return RandomKey(settings.seed, settings.plant, stream, services.salt); }
     void evaluate_axiom(ModuleString& string);
     void find_kept(const ModuleString& from);
+    std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;
     StepInput prepare(const ModuleString& from);
+    void rewrite(const ModuleString& from, ModuleString& to);
+    /// The same where the string holds sub-L-systems.
+    void rewrite_nested(const ModuleString& from, ModuleString& to);
     void warn_of_depth();
+    void warn_once(const Place& place, const std::string& message);
 
     std::shared_ptr<const CompiledModel> model;
+    const CompiledSystem& main;
     DerivationSettings settings;
     bool lineage;
+    ModelFiles files;
     Services services;
     Variables variables;
+    SubSystems sub_systems;
     Machine block_machine;
     RandomDraws block_draws{RandomKey(), 0, 0};
     std::uint32_t step = 0;
     int length = 0;
     Scratch scratch;
     Machines machines;
+    /// Grows with every change of variables, so that painters know what they have seen.
+    std::uint64_t generation = 0;
     mutable tbb::enumerable_thread_specific<std::unique_ptr<Painter>> painters;
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
+    std::mutex warning;
+    std::set<std::pair<std::string, std::pair<int, int>>> warned;
 };
 
 }  // namespace espalier

@@ -60,6 +60,9 @@ public:
     template <class Emitter>
     void run(ModuleStack& stack, const Site& origin, std::uint32_t step, Emitter&& emit);
 
+    /// Takes the last module from the stack and pushes what replaces it. Returns the module if nothing does.
+    const ModuleStack::Entry* replace(ModuleStack& stack, const Site& origin, std::uint32_t step);
+
     /// Evaluates the successor of a production whose formals are bound and pushes it, last module first.
     void push_successor(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
                         std::uint32_t depth, ModuleStack& stack);
@@ -74,6 +77,7 @@ private:
     Matcher& matcher_;
     Machine& machine_;
     std::vector<double> values_, successor_;
+    ModuleStack::Entry entry_;
     LetterId letter_ = no_letter;
     bool reached_limit_ = false;
 };
@@ -81,26 +85,7 @@ private:
 template <class Emitter>
 void Expansion::run(ModuleStack& stack, const Site& origin, std::uint32_t step, Emitter&& emit) {
     while (!stack.empty()) {
-        const ModuleStack::Entry entry = stack.pop(values_);
-        letter_ = entry.letter;
-        const CompiledProduction* production = nullptr;
-        Site site = origin;
-        if (rules_.has(entry.letter)) {
-            if (entry.depth >= rules_.maximum_depth) {
-                reached_limit_ |= entry.depth > 0 && rules_.always[entry.letter] >= 0;
-            } else {
-                site.letter = entry.letter;
-                site.values = values_.data();
-                site.drawer = mix(entry.lineage.identity, entry.depth + 1);
-                production = matcher_.choose(rules_, site);
-            }
-        }
-        if (!production) {
-            emit(entry, values_.data());
-            continue;
-        }
-        matcher_.begin_successor(*production, site);
-        push_successor(*production, &entry.lineage, step, entry.depth + 1, stack);
+        if (const ModuleStack::Entry* finished = replace(stack, origin, step)) emit(*finished, values_.data());
     }
 }
 

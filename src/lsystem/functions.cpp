@@ -83,6 +83,11 @@ Arguments arguments_of(Function function) {
         case Function::nran:
         case Function::bran:
         case Function::biran:
+        case Function::file_open:
+        case Function::func:
+        case Function::curve_x:
+        case Function::curve_y:
+        case Function::curve_z:
             return {2, 2};
         case Function::clamp:
         case Function::lerp:
@@ -93,10 +98,14 @@ Arguments arguments_of(Function function) {
         case Function::max:
         case Function::print:
             return {1, -1};
+        case Function::file_print:
+        case Function::file_scan:
+            return {2, -1};
         case Function::get_derivation_length:
             return {0, 0};
         case Function::stop:
         case Function::display:
+        case Function::view_extent:
             return {0, 1};
         default:
             return {1, 1};
@@ -109,6 +118,11 @@ bool is_pure(Function function) {
 
 bool draws(Function function) {
     return function >= Function::ran && function <= Function::biran;
+}
+
+bool has_order(Function function) {
+    return function >= Function::srand && function < Function::func && function != Function::display &&
+           function != Function::get_derivation_length;
 }
 
 double apply(Operator op, double a, double b) {

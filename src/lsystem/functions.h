@@ -27,6 +27,8 @@ Arguments arguments_of(Function function);
 /// A function of its arguments alone, so that it may be folded.
 bool is_pure(Function function);
 bool draws(Function function);
+/// Its calls have an order that matters: it prints, uses files, seeds, stops or changes the derivation length.
+bool has_order(Function function);
 
 /// The value of an operator other than / and %, which may fail, and && and ||, which may not evaluate both sides.
 double apply(Operator op, double a, double b);

@@ -1,6 +1,7 @@
 // How much a model may ask for before it is stopped: seconds, where others would hang.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace espalier {
@@ -9,10 +10,14 @@ namespace espalier {
 inline constexpr std::uint64_t most_turns = 1'000;
 inline constexpr double most_tosses = 1e3;
 inline constexpr double most_elements = 1e5;
+inline constexpr std::size_t most_file_bytes = 1 << 16;
 #else
-inline constexpr std::uint64_t most_turns = 100'000'000;  ///< of all loops of one block
-inline constexpr double most_tosses = 1e8;                ///< of one biran()
-inline constexpr double most_elements = 1e9;              ///< of one array
+inline constexpr std::uint64_t most_turns = 100'000'000;              ///< of all loops of one block
+inline constexpr double most_tosses = 1e8;                            ///< of one biran()
+inline constexpr double most_elements = 1e9;                          ///< of one array
+inline constexpr std::size_t most_file_bytes = std::size_t{1} << 30;  ///< of all files a model writes
 #endif
+
+inline constexpr std::size_t most_open_files = 1000;
 
 }  // namespace espalier

@@ -1,6 +1,7 @@
 #include "machine.h"
 
 #include "limits.h"
+#include "side_values.h"
 
 #include <fmt/format.h>
 
@@ -89,6 +90,12 @@ void Machine::run(const Program& program) {
             case Opcode::store_global:
                 variables_->globals[i.a] = r[i.target];
                 break;
+            case Opcode::load_external:
+                r[i.target] = *variables_->external_globals[i.a];
+                break;
+            case Opcode::store_external:
+                *variables_->external_globals[i.a] = r[i.target];
+                break;
             case Opcode::load_element:
                 r[i.target] = *element(i, place());
                 break;
@@ -108,8 +115,15 @@ void Machine::run(const Program& program) {
                 if (++turns > most_turns) refuse_loop(place());
                 break;
             case Opcode::print:
-                print(program.prints[i.a]);
-                r[i.target] = 0;
+                r[i.target] = print(program.prints[i.a], place());
+                break;
+            case Opcode::file_open: {
+                const OpenCall& file = program.opens[i.a];
+                r[i.target] = services_->files->open(*file.name, *file.mode, place());
+                break;
+            }
+            case Opcode::file_scan:
+                r[i.target] = scan(program.scans[i.a], place());
                 break;
         }
     }
@@ -130,12 +144,27 @@ double Machine::call(const Instruction& instruction, const Place& place) {
             services_->stopped = true;
             return 0;
         case Function::get_derivation_length:
-            return variables_->globals[1];
+            return variables_->length();
         case Function::set_derivation_length:
             if (!(values[0] >= 0 && values[0] <= 1e9)) {
                 throw EvaluationError(place, fmt::format("a derivation length of {:g} is out of range", values[0]));
             }
-            return variables_->globals[1] = std::trunc(values[0]);
+            return variables_->length() = std::trunc(values[0]);
+        case Function::func:
+        case Function::curve_x:
+        case Function::curve_y:
+        case Function::curve_z:
+        case Function::curve_gal:
+            return side_value(services_->resources, instruction.function, values,
+                              [&](const std::string& message) { services_->warn(place, message); });
+        case Function::view_extent:
+            if (!services_->resources)
+                services_->warn(place, "the view's extents are those of no view file: give it with --view");
+            return extent_of_view(services_->resources ? *services_->resources : Resources(), instruction.b);
+        case Function::file_close:
+            return services_->files->close(values[0]) ? 0 : warn_of_file(instruction.function, values[0], place);
+        case Function::file_flush:
+            return services_->files->flush(values[0]) ? 0 : warn_of_file(instruction.function, values[0], place);
         default:
             return 0;
     }
@@ -156,15 +185,34 @@ double* Machine::element(const Instruction& instruction, const Place& place) {
         }
         index = index * array.dimensions[k] + static_cast<std::size_t>(subscript);
     }
+    if (array.external) return &(*variables_->external_arrays[instruction.a])[index];
     return &variables_->arrays[instruction.a][index];
 }
 
-void Machine::print(const PrintCall& call) {
+double Machine::print(const PrintCall& call, const Place& place) {
     std::vector<PrintFormat::Value> values;
     for (const PrintCall::Argument& argument : call.arguments) {
         values.push_back({argument.text ? 0 : registers_[argument.reg], argument.text});
     }
-    services_->print(call.format.fill(values));
+    const std::string text = call.format.fill(values);
+    if (!call.file) {
+        services_->print(text);
+    } else if (const double file = registers_[*call.file]; !services_->files->print(file, text, place)) {
+        return warn_of_file(Function::file_print, file, place);
+    }
+    return static_cast<double>(text.size());
+}
+
+double Machine::scan(const ScanCall& call, const Place& place) {
+    const double file = registers_[call.file];
+    const int read = services_->files->scan(file, call.format, registers_.data() + call.first);
+    return read == -2 ? warn_of_file(Function::file_scan, file, place) : read;
+}
+
+/// The value of a call for a file that is not open, -1 as in C.
+double Machine::warn_of_file(Function function, double file, const Place& place) {
+    services_->warn(place, fmt::format("{}: no file {:g} is open for that", name_of(function), file));
+    return -1;
 }
 
 }  // namespace espalier

@@ -3,6 +3,7 @@
 
 #include "espalier/base/random.h"
 
+#include "files.h"
 #include "functions.h"
 #include "program.h"
 
@@ -16,17 +17,27 @@ struct CompiledArray {
     std::string name;
     std::vector<std::size_t> dimensions;
     std::vector<double> values;  ///< all of them, as declared
+    bool external = false;       ///< the elements are the surrounding L-system's
 };
 
 /// A plant's memory: globals (0 = current step, 1 = derivation length) and arrays.
 struct Variables {
     std::vector<double> globals;
     std::vector<std::vector<double>> arrays;
+    // Of an L-system inside others, by index: where its external globals and arrays are kept.
+    std::vector<double*> external_globals;
+    std::vector<std::vector<double>*> external_arrays;
+
+    double& length() { return external_globals.empty() ? globals[1] : *external_globals[1]; }
 };
 
 /// What programs may ask of the derivation they run in.
 struct Services {
     std::function<void(const std::string&)> print;
+    /// Says once for each place what is wrong there, though the run goes on.
+    std::function<void(const Place&, const std::string&)> warn;
+    const Resources* resources = nullptr;  ///< null: no side files
+    ModelFiles* files = nullptr;
     std::uint64_t seed = 0;
     std::uint32_t plant = 0;
     std::uint64_t salt = 0;  ///< what srand() or `seed:` last said
@@ -62,7 +73,9 @@ public:
 private:
     double call(const Instruction& instruction, const Place& place);
     double* element(const Instruction& instruction, const Place& place);
-    void print(const PrintCall& call);
+    double print(const PrintCall& call, const Place& place);
+    double scan(const ScanCall& call, const Place& place);
+    double warn_of_file(Function function, double file, const Place& place);
 
     std::vector<double> registers_;
     std::size_t first_formal_;

@@ -79,7 +79,7 @@ void Matcher::begin_successor(const CompiledProduction& production, const Site& 
 }
 
 bool Matcher::match_strict(const CompiledProduction& production, const Site& site) const {
-    if (production.strict.size() > size_ - site.first) return false;
+    if (production.strict.size() > limit_ - site.first) return false;
     for (std::size_t k = 1; k < production.strict.size(); ++k) {
         if (letters_[site.first + k] != production.strict[k].letter) return false;
     }

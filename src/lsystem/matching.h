@@ -28,8 +28,8 @@ struct Site {
 
 class Matcher {
 public:
-    Matcher(const CompiledModel& model, Machine& machine) : model_(model), machine_(machine) {}
-    Matcher(const CompiledModel& model, const StringView& string, Machine& machine) : Matcher(model, machine) {
+    Matcher(const CompiledSystem& model, Machine& machine) : model_(model), machine_(machine) {}
+    Matcher(const CompiledSystem& model, const StringView& string, Machine& machine) : Matcher(model, machine) {
         view(string);
     }
 
@@ -37,8 +37,10 @@ public:
     void view(const StringView& string) {
         view_ = string;
         letters_ = string.string->letters.data();
-        size_ = string.string->size();
+        size_ = limit_ = string.string->size();
     }
+    /// Strict predecessors end before this module: what stands beyond belongs to another L-system.
+    void limit(std::size_t module) { limit_ = module; }
 
     /// Draws of tests are numbered from 0, those of successors from `successor_draws`.
     static constexpr std::uint32_t successor_draws = 0x80000000;
@@ -66,11 +68,11 @@ private:
     void bind_context(const CompiledPattern& pattern, std::size_t module, const Site& site);
     std::size_t end_of_branch(std::size_t module) const;
 
-    const CompiledModel& model_;
+    const CompiledSystem& model_;
     Machine& machine_;
     StringView view_;
     const LetterId* letters_ = nullptr;
-    std::size_t size_ = 0;
+    std::size_t size_ = 0, limit_ = 0;
     RandomKey key_;
     std::uint32_t step_ = 0;
     struct Weighted {

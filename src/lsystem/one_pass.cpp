@@ -1,100 +1,72 @@
 // One pass over the string, appending: for models whose productions have an order, consume blocks of modules,
 // or decompose what they write.
-#include "expansion.h"
-#include "rewriting.h"
+#include "one_pass.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 
 namespace espalier {
+
+GrowingString::GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
+    : string_(string), input_(input), bytes_(bytes) {
+    string_.clear();
+    bytes_ += string_.bytes();
+}
+
+void GrowingString::grow(std::size_t arity) {
+    const std::size_t modules = std::max<std::size_t>(1024, string_.letters.size() * 2);
+    const std::size_t parameters = std::max<std::size_t>(
+        string_.parameters.capacity(), string_.parameters.capacity() - string_.parameters.size() < arity
+                                           ? std::max<std::size_t>(1024, (string_.parameters.size() + arity) * 2)
+                                           : 0);
+    const std::size_t before = string_.bytes();
+    const std::size_t after = bytes_needed(modules, parameters, input_.lineage);
+    const std::size_t total = bytes_ += after > before ? after - before : 0;
+    if (total > input_.memory || modules >= BranchLinks::none) refuse_memory(input_, modules, total, uses);
+    string_.letters.reserve(modules);
+    string_.parameters.reserve(parameters);
+    if (!input_.lineage) return;
+    string_.identities.reserve(modules);
+    string_.parents.reserve(modules);
+    string_.births.reserve(modules);
+}
+
+OnePass::OnePass(const StepInput& input, Machine& machine, Services& services, GrowingString& out)
+    : input_(input),
+      model_(input.model),
+      machine_(machine),
+      services_(services),
+      out_(out),
+      matcher_(input.model, input.view, machine),
+      rewriting_(model_.rules, matcher_, machine),
+      decomposition_(model_.decomposition, matcher_, machine) {
+    matcher_.set_draws(input.key, input.step);
+    if (model_.index == 0) out_.uses.resize(model_.rules.productions.size());
+}
+
 namespace {
 
-/// A string that grows within the step's memory.
-class GrowingString {
+/// Whether what a successor writes stands within a sub-L-system that the same successor opened.
+class Inside {
 public:
-    GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
-        : string_(string), input_(input), bytes_(bytes) {
-        string_.clear();
-        bytes_ += string_.bytes();
-    }
-
-    void append(LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
-        if (string_.letters.size() == string_.letters.capacity() ||
-            string_.parameters.capacity() - string_.parameters.size() < arity) {
-            grow(arity);
+    bool any() const { return open_ > 0; }
+    void pass(LetterId letter, const Enclosure& enclosure) {
+        if (letter == Alphabet::open_bracket) {
+            ++level_;
+        } else if (letter == Alphabet::close_bracket) {
+            if (level_-- == opened_at_) open_ = 0;
+        } else if (enclosure.opens(letter)) {
+            if (open_++ == 0) opened_at_ = level_;
+        } else if (letter == enclosure.close && open_ > 0) {
+            --open_;
         }
-        string_.letters.push_back(letter);
-        string_.parameters.insert(string_.parameters.end(), values, values + arity);
-        if (!input_.lineage) return;
-        string_.identities.push_back(lineage.identity);
-        string_.parents.push_back(lineage.parent);
-        string_.births.push_back(lineage.birth);
     }
-
-    std::vector<std::uint64_t> uses;  ///< of each production, for the message when memory runs out
 
 private:
-    void grow(std::size_t arity) {
-        const std::size_t modules = std::max<std::size_t>(1024, string_.letters.size() * 2);
-        const std::size_t parameters = std::max<std::size_t>(
-            string_.parameters.capacity(), string_.parameters.capacity() - string_.parameters.size() < arity
-                                               ? std::max<std::size_t>(1024, (string_.parameters.size() + arity) * 2)
-                                               : 0);
-        const std::size_t before = string_.bytes();
-        const std::size_t after = bytes_needed(modules, parameters, input_.lineage);
-        const std::size_t total = bytes_ += after > before ? after - before : 0;
-        if (total > input_.memory || modules >= BranchLinks::none) refuse_memory(input_, modules, total, uses);
-        string_.letters.reserve(modules);
-        string_.parameters.reserve(parameters);
-        if (!input_.lineage) return;
-        string_.identities.reserve(modules);
-        string_.parents.reserve(modules);
-        string_.births.reserve(modules);
-    }
-
-    ModuleString& string_;
-    const StepInput& input_;
-    std::atomic<std::size_t>& bytes_;
+    int level_ = 0, opened_at_ = 0, open_ = 0;
 };
 
-/// Rewrites one range of the string in order.
-class OnePass {
-public:
-    OnePass(const StepInput& input, Machine& machine, Services& services, GrowingString& out)
-        : input_(input),
-          model_(input.model),
-          machine_(machine),
-          services_(services),
-          out_(out),
-          matcher_(input.model, input.view, machine),
-          rewriting_(model_.rules, matcher_, machine),
-          decomposition_(model_.decomposition, matcher_, machine) {
-        matcher_.set_draws(input.key, input.step);
-        out_.uses.resize(model_.rules.productions.size());
-    }
-
-    /// Returns where it ended: a predecessor of several modules that names `%` may reach beyond `end`.
-    std::size_t run(std::size_t begin, std::size_t end, std::size_t parameters_at);
-    bool reached_limit() const { return decomposition_.reached_limit(); }
-
-private:
-    std::size_t rewrite(const Site& site);
-    Lineage lineage(std::size_t module) const;
-    void decompose(const Site& site);
-    void follow_reseeding();
-
-    const StepInput& input_;
-    const CompiledModel& model_;
-    Machine& machine_;
-    Services& services_;
-    GrowingString& out_;
-    Matcher matcher_;
-    Expansion rewriting_, decomposition_;
-    ModuleStack stack_;
-    std::vector<Lineage> strict_;
-    bool decomposing_ = false;
-};
+}  // namespace
 
 Lineage OnePass::lineage(std::size_t module) const {
     if (!input_.lineage) return {};
@@ -128,7 +100,7 @@ std::size_t OnePass::rewrite(const Site& site) {
     const CompiledProduction* production = matcher_.choose(model_.rules, site);
     const std::size_t width = production ? production->strict.size() : 1;
     if (production) {
-        ++out_.uses[static_cast<std::size_t>(production - model_.rules.productions.data())];
+        if (model_.index == 0) ++out_.uses[static_cast<std::size_t>(production - model_.rules.productions.data())];
         matcher_.begin_successor(*production, site);
         strict_.clear();
         for (std::size_t k = 0; k < width; ++k) strict_.push_back(lineage(site.first + k));
@@ -148,19 +120,41 @@ std::size_t OnePass::rewrite(const Site& site) {
     return width;
 }
 
+void OnePass::run_within(std::size_t begin, std::size_t end, std::size_t parameters_at, const Enclosure& enclosure) {
+    enclosure_ = &enclosure;
+    matcher_.limit(end);
+    set_draws();
+    run(begin, end, parameters_at);
+}
+
 void OnePass::decompose(const Site& site) {
     decomposing_ = true;
-    decomposition_.run(stack_, site, input_.step, [&](const ModuleStack::Entry& entry, const double* values) {
-        out_.append(entry.letter, values, entry.arity, entry.lineage);
-    });
+    Inside inside;
+    while (!stack_.empty()) {
+        if (inside.any()) {
+            const ModuleStack::Entry entry = stack_.pop(values_);
+            out_.append(entry.letter, values_.data(), entry.arity, entry.lineage);
+            inside.pass(entry.letter, *enclosure_);
+            continue;
+        }
+        const ModuleStack::Entry* finished = decomposition_.replace(stack_, site, input_.step);
+        if (!finished) continue;
+        out_.append(finished->letter, decomposition_.values(), finished->arity, finished->lineage);
+        if (enclosure_) inside.pass(finished->letter, *enclosure_);
+    }
     follow_reseeding();
 }
 
 // srand() in a production begins the stream anew for all modules that follow, too.
 void OnePass::follow_reseeding() {
-    if (!machine_.reseeded()) return;
+    if (machine_.reseeded()) set_draws();
+}
+
+void OnePass::set_draws() {
     matcher_.set_draws(RandomKey(services_.seed, services_.plant, Stream::derivation, services_.salt), input_.step);
 }
+
+namespace {
 
 void run_in_order(const StepInput& input, Scratch& scratch, Machine& machine, Services& services, ModuleString& to,
                   std::atomic<bool>& limit) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace espalier {
@@ -70,6 +71,16 @@ Effects& Effects::operator|=(const Effects& other) {
     return *this;
 }
 
+// The step and the derivation length are everybody's.
+ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, bool quirks) : system_(system), quirks_(quirks) {
+    external_.assign(system.globals.size(), false);
+    if (!inner) return;
+    for (std::size_t g = 0; g < system.globals.size(); ++g) {
+        const auto& names = system.external_globals;
+        external_[g] = g < 2 || std::find(names.begin(), names.end(), system.globals[g]) != names.end();
+    }
+}
+
 void ProgramCompiler::begin() {
     program_ = {};
     next_temporary_ = 0;
@@ -90,7 +101,11 @@ Program ProgramCompiler::value(const Expression& expression) {
 Program ProgramCompiler::arguments(const std::vector<ModuleTemplate>& modules) {
     begin();
     for (const ModuleTemplate& module : modules) {
-        for (const Expression& argument : module.arguments) program_.results.push_back(reg(compile(argument)));
+        for (const Expression& argument : module.arguments) {
+            const bool text = argument.kind == Expression::Kind::text;
+            const Operand value = text ? Operand{true, double(argument.index), 0} : compile(argument);
+            program_.results.push_back(reg(value));
+        }
     }
     return finish({});
 }
@@ -133,7 +148,9 @@ ProgramCompiler::Operand ProgramCompiler::compile(const Expression& expression) 
         case Expression::Kind::formal:
             return {false, 0, formal_kind | expression.index};
         case Expression::Kind::global:
-            return emit({Opcode::load_global, Function::sin, 0, temporary(), expression.index, 0}, expression.place);
+            return emit({external_.at(expression.index) ? Opcode::load_external : Opcode::load_global, Function::sin, 0,
+                         temporary(), expression.index, 0},
+                        expression.place);
         case Expression::Kind::element: {
             const std::uint32_t first = subscripts(expression);
             const auto count = static_cast<std::uint16_t>(expression.operands.size());
@@ -203,16 +220,13 @@ void ProgramCompiler::require_arguments(const Expression& expression) const {
 
 ProgramCompiler::Operand ProgramCompiler::function(const Expression& expression) {
     const Function function = expression.function;
-    if (function >= Function::file_open && function <= Function::file_flush) {
-        throw UserError(expression.place,
-                        fmt::format("{} is not available: models cannot read or write files yet", name_of(function)));
-    }
-    if (function >= Function::func) {
-        throw UserError(expression.place,
-                        fmt::format("{} is not available: side files are not read yet", name_of(function)));
+    if (function == Function::in_blob) {
+        throw UserError(expression.place, "inblob is not available: files of blobs are not read");
     }
     require_arguments(expression);
-    if (function == Function::print) return print(expression);
+    if (function == Function::print || function == Function::file_print) return print(expression);
+    if (function == Function::file_open) return open_file(expression);
+    if (function == Function::file_scan) return scan_file(expression);
     const auto count = static_cast<std::uint16_t>(expression.operands.size());
     std::uint32_t first = 0;
     if (count == 1) {
@@ -226,22 +240,28 @@ ProgramCompiler::Operand ProgramCompiler::function(const Expression& expression)
         }
     }
     if (draws(function)) program_.effects.draws = true;
-    if (!is_pure(function) && !draws(function)) program_.effects.ordered = true;
-    return emit({Opcode::call, function, count, temporary(), first, 0}, expression.place);
+    if (has_order(function)) program_.effects.ordered = true;
+    return emit({Opcode::call, function, count, temporary(), first, expression.index}, expression.place);
 }
 
 ProgramCompiler::Operand ProgramCompiler::print(const Expression& expression) {
-    const Expression& format = expression.operands[0];
-    if (format.kind != Expression::Kind::text) throw UserError(format.place, "printf needs a format in quotes");
-    PrintCall call{PrintFormat(format.text, format.place), {}};
-    if (expression.operands.size() - 1 < call.format.conversions()) {
-        throw UserError(expression.place, fmt::format("the format asks for {} values, but printf is given {}",
-                                                      call.format.conversions(), expression.operands.size() - 1));
+    const std::size_t at = expression.function == Function::file_print ? 1 : 0;
+    const char* const name = name_of(expression.function);
+    const Expression& format = expression.operands[at];
+    if (format.kind != Expression::Kind::text) {
+        throw UserError(format.place, fmt::format("{} needs a format in quotes", name));
     }
-    for (std::size_t k = 1; k < expression.operands.size(); ++k) {
-        const Expression& operand = expression.operands[k];
+    PrintCall call{PrintFormat(format.text, format.place), {}, std::nullopt};
+    if (at > 0) call.file = reg(compile(expression.operands[0]));
+    const std::size_t given = expression.operands.size() - at - 1;
+    if (given < call.format.conversions()) {
+        throw UserError(expression.place, fmt::format("the format asks for {} values, but {} is given {}",
+                                                      call.format.conversions(), name, given));
+    }
+    for (std::size_t k = 0; k < given; ++k) {
+        const Expression& operand = expression.operands[at + 1 + k];
         const bool text = operand.kind == Expression::Kind::text;
-        if (k <= call.format.conversions() && text != call.format.wants_text(k - 1)) {
+        if (k < call.format.conversions() && text != call.format.wants_text(k)) {
             throw UserError(operand.place, text ? "a text needs %s" : "%s needs a text in quotes");
         }
         if (text)
@@ -252,7 +272,53 @@ ProgramCompiler::Operand ProgramCompiler::print(const Expression& expression) {
     program_.effects.ordered = true;
     program_.prints.push_back(std::move(call));
     const auto index = static_cast<std::uint32_t>(program_.prints.size() - 1);
-    return emit({Opcode::print, Function::print, 0, temporary(), index, 0}, expression.place);
+    return emit({Opcode::print, expression.function, 0, temporary(), index, 0}, expression.place);
+}
+
+ProgramCompiler::Operand ProgramCompiler::open_file(const Expression& expression) {
+    for (const Expression& operand : expression.operands) {
+        if (operand.kind != Expression::Kind::text) throw UserError(operand.place, "fopen needs texts in quotes");
+    }
+    program_.effects.ordered = true;
+    program_.opens.push_back({&expression.operands[0].text, &expression.operands[1].text});
+    const auto index = static_cast<std::uint32_t>(program_.opens.size() - 1);
+    return emit({Opcode::file_open, Function::file_open, 0, temporary(), index, 0}, expression.place);
+}
+
+// Subscripts of the targets are evaluated before anything is read, as C does.
+ProgramCompiler::Operand ProgramCompiler::scan_file(const Expression& expression) {
+    const Expression& format = expression.operands[1];
+    if (format.kind != Expression::Kind::text) throw UserError(format.place, "fscanf needs a format in quotes");
+    ScanCall call{ScanFormat(format.text, format.place), reg(compile(expression.operands[0])), 0};
+    const std::size_t given = expression.operands.size() - 2;
+    if (given != call.format.conversions()) {
+        throw UserError(expression.place, fmt::format("the format asks for {} values, but fscanf is given {} variables",
+                                                      call.format.conversions(), given));
+    }
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t k = 0; k < given; ++k) {
+        const Expression& operand = expression.operands[2 + k];
+        if (operand.kind != Expression::Kind::address) {
+            throw UserError(operand.place, "fscanf needs the address of a variable: write '&' before it");
+        }
+        const Expression& target = operand.operands[0];
+        chosen.push_back(target.kind == Expression::Kind::element ? subscripts(target) : 0);
+    }
+    const std::uint32_t first = call.first = temporaries(given + 1);
+    program_.effects.ordered = true;
+    program_.scans.push_back(std::move(call));
+    const auto index = static_cast<std::uint32_t>(program_.scans.size() - 1);
+    const Operand count = emit({Opcode::file_scan, Function::file_scan, 0, temporary(), index, 0}, expression.place);
+    std::vector<std::size_t> done;
+    for (std::uint32_t k = 0; k < given; ++k) {
+        const std::uint32_t position = constant_kind | pool_.index(k);
+        const std::uint32_t read = temporary();
+        emit({Opcode::less, Function::sin, 0, read, position, count.reg}, expression.place);
+        done.push_back(emit_jump(Opcode::jump_if_false, read, expression.place));
+        store(expression.operands[2 + k].operands[0], chosen[k], first + k, expression.place);
+    }
+    for (const std::size_t jump : done) land(jump);
+    return count;
 }
 
 std::uint32_t ProgramCompiler::subscripts(const Expression& element) {
@@ -273,20 +339,24 @@ std::uint32_t ProgramCompiler::subscripts(const Expression& element) {
 
 ProgramCompiler::Operand ProgramCompiler::assign(const Expression& expression) {
     const Expression& target = expression.operands[0];
+    const std::uint32_t first = target.kind == Expression::Kind::element ? subscripts(target) : 0;
+    const std::uint32_t value = reg(compile(expression.operands[1]));
+    store(target, first, value, expression.place);
+    return {false, 0, value};
+}
+
+void ProgramCompiler::store(const Expression& target, std::uint32_t subscripts, std::uint32_t value,
+                            const Place& place) {
     program_.effects.assigns = true;
     if (target.kind == Expression::Kind::global) {
-        const std::uint32_t value = reg(compile(expression.operands[1]));
-        emit({Opcode::store_global, Function::sin, 0, value, target.index, 0}, expression.place);
-        return {false, 0, value};
-    }
-    if (target.kind != Expression::Kind::element) {
+        const Opcode op = external_.at(target.index) ? Opcode::store_external : Opcode::store_global;
+        emit({op, Function::sin, 0, value, target.index, 0}, place);
+    } else if (target.kind == Expression::Kind::element) {
+        const auto count = static_cast<std::uint16_t>(target.operands.size());
+        emit({Opcode::store_element, Function::sin, count, value, target.index, subscripts}, target.place);
+    } else {
         throw UserError(target.place, "only variables and array elements can be assigned");
     }
-    const std::uint32_t first = subscripts(target);
-    const std::uint32_t value = reg(compile(expression.operands[1]));
-    const auto count = static_cast<std::uint16_t>(target.operands.size());
-    emit({Opcode::store_element, Function::sin, count, value, target.index, first}, target.place);
-    return {false, 0, value};
 }
 
 void ProgramCompiler::statements(const Block& block) {
@@ -412,6 +482,11 @@ void ProgramCompiler::place_registers(Program& program, std::uint32_t formals) c
     for (std::uint32_t& result : program.results) placed(result);
     for (PrintCall& call : program.prints) {
         for (PrintCall::Argument& argument : call.arguments) placed(argument.reg);
+        if (call.file) placed(*call.file);
+    }
+    for (ScanCall& call : program.scans) {
+        placed(call.file);
+        placed(call.first);
     }
 }
 

@@ -4,6 +4,7 @@
 #include "espalier/lsystem/lsystem.h"
 
 #include "print_format.h"
+#include "scan_format.h"
 
 #include <bit>
 #include <cstdint>
@@ -34,7 +35,9 @@ enum class Opcode : std::uint8_t {
     is_true,  // target = a != 0
     call,     // target = function(count registers from a)
     load_global,
-    store_global,  // a = index of the global; store takes `target`
+    store_global,   // a = index of the global; store takes `target`
+    load_external,  // a = index of a global that belongs to the surrounding L-system
+    store_external,
     load_element,
     store_element,  // a = array, subscripts in count registers from b
     jump,
@@ -42,6 +45,8 @@ enum class Opcode : std::uint8_t {
     jump_if_true,  // to instruction b, testing register a
     repeat,        // one more turn of a loop
     print,         // PrintCall a
+    file_open,     // OpenCall a
+    file_scan,     // ScanCall a
 };
 
 /// Registers: the model's constants, then the formals of the production at hand, then temporaries.
@@ -59,12 +64,25 @@ struct PrintCall {
         std::uint32_t reg = 0;
     };
     std::vector<Argument> arguments;
+    std::optional<std::uint32_t> file;  ///< register of the file's handle; none: the terminal
+};
+
+struct OpenCall {
+    const std::string* name = nullptr;
+    const std::string* mode = nullptr;
+};
+
+/// Values go to registers from `first`.
+struct ScanCall {
+    ScanFormat format;
+    std::uint32_t file = 0;
+    std::uint32_t first = 0;
 };
 
 /// What a program does besides computing values.
 struct Effects {
     bool assigns = false;  ///< writes globals or arrays
-    bool ordered = false;  ///< prints, seeds, stops or changes the derivation length
+    bool ordered = false;  ///< prints, uses files, seeds, stops or changes the derivation length
     bool draws = false;    ///< takes random numbers
     bool loops = false;
 
@@ -76,6 +94,8 @@ struct Program {
     std::vector<const Place*> places;  ///< of each instruction
     std::vector<std::uint32_t> results;
     std::vector<PrintCall> prints;
+    std::vector<OpenCall> opens;
+    std::vector<ScanCall> scans;
     Effects effects;
 
     bool empty() const { return code.size() <= 1 && results.empty(); }
@@ -100,7 +120,10 @@ private:
 /// Throws UserError for what cannot be evaluated.
 class ProgramCompiler {
 public:
-    ProgramCompiler(const LSystem& system, bool quirks) : system_(system), quirks_(quirks) {}
+    /// `inner`: the L-system stands inside others, whose variables its external ones are.
+    ProgramCompiler(const LSystem& system, bool inner, bool quirks);
+
+    bool is_external(std::uint32_t global) const { return external_.at(global); }
 
     Program block(const Block& block);
     Program value(const Expression& expression);
@@ -128,6 +151,9 @@ private:
     Operand function(const Expression& expression);
     Operand assign(const Expression& expression);
     Operand print(const Expression& expression);
+    Operand open_file(const Expression& expression);
+    Operand scan_file(const Expression& expression);
+    void store(const Expression& target, std::uint32_t subscripts, std::uint32_t value, const Place& place);
     std::uint32_t subscripts(const Expression& element);
     void statements(const Block& block);
     void statement(const Statement& statement);
@@ -148,6 +174,7 @@ private:
 
     const LSystem& system_;
     bool quirks_;
+    std::vector<bool> external_;  ///< by global
     ConstantPool pool_;
     Program program_;
     std::uint32_t next_temporary_ = 0;

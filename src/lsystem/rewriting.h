@@ -16,7 +16,7 @@ namespace espalier {
 
 /// Everything a step reads.
 struct StepInput {
-    const CompiledModel& model;
+    const CompiledSystem& model;
     const ModuleString& from;
     StringView view;
     RandomKey key;

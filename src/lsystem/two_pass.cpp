@@ -32,7 +32,7 @@ private:
     std::vector<std::uint64_t> count_uses() const;
 
     const StepInput& input_;
-    const CompiledModel& model_;
+    const CompiledSystem& model_;
     const Plans& plans_;
     Scratch& scratch_;
     ModuleString* to_ = nullptr;

@@ -81,8 +81,9 @@ public:
     void save(std::ostream& out) const;
     void restore(std::istream& in);
 
+    struct State;  // known to the engine's own files only
+
 private:
-    struct State;
     std::unique_ptr<State> state_;
 };
 

@@ -1,0 +1,52 @@
+// Plain values as bytes, in the machine's own byte order: checkpoints do not travel.
+#pragma once
+
+#include "espalier/base/error.h"
+
+#include <cstdint>
+#include <istream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+template <class T>
+void put(std::ostream& out, const T& value) {
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class T>
+T get(std::istream& in, T value = {}) {
+    if (!in.read(reinterpret_cast<char*>(&value), sizeof value)) throw RunError("the checkpoint ends too early");
+    return value;
+}
+
+inline void put_text(std::ostream& out, const std::string& text) {
+    put(out, static_cast<std::uint64_t>(text.size()));
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+/// Throws RunError if the text is longer than `most`.
+inline std::string get_text(std::istream& in, std::uint64_t most) {
+    const auto size = get<std::uint64_t>(in);
+    if (size > most) throw RunError("the checkpoint is damaged");
+    std::string text(size, '\0');
+    if (!in.read(text.data(), static_cast<std::streamsize>(size))) throw RunError("the checkpoint ends too early");
+    return text;
+}
+
+inline void put_values(std::ostream& out, const std::vector<double>& values) {
+    put(out, static_cast<std::uint64_t>(values.size()));
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(double)));
+}
+
+/// Throws RunError if there are not as many values as `values` holds.
+inline void get_values(std::istream& in, std::vector<double>& values) {
+    if (get<std::uint64_t>(in) != values.size()) throw RunError("the checkpoint belongs to another model");
+    const auto bytes = static_cast<std::streamsize>(values.size() * sizeof(double));
+    if (!in.read(reinterpret_cast<char*>(values.data()), bytes)) throw RunError("the checkpoint ends too early");
+}
+
+}  // namespace espalier

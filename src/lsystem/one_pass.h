@@ -1,0 +1,72 @@
+// Rewriting in string order, appending.
+#pragma once
+
+#include "expansion.h"
+#include "rewriting.h"
+
+#include <atomic>
+
+namespace espalier {
+
+/// A string that grows within the step's memory.
+class GrowingString {
+public:
+    /// `bytes` counts what all strings that grow in this step hold.
+    GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes);
+
+    void append(LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
+        if (string_.letters.size() == string_.letters.capacity() ||
+            string_.parameters.capacity() - string_.parameters.size() < arity) {
+            grow(arity);
+        }
+        string_.letters.push_back(letter);
+        string_.parameters.insert(string_.parameters.end(), values, values + arity);
+        if (!input_.lineage) return;
+        string_.identities.push_back(lineage.identity);
+        string_.parents.push_back(lineage.parent);
+        string_.births.push_back(lineage.birth);
+    }
+
+    std::vector<std::uint64_t> uses;  ///< of each production of the main L-system, for when memory runs out
+
+private:
+    void grow(std::size_t arity);
+
+    ModuleString& string_;
+    const StepInput& input_;
+    std::atomic<std::size_t>& bytes_;
+};
+
+/// Rewrites ranges of the string by the rules of one L-system.
+class OnePass {
+public:
+    OnePass(const StepInput& input, Machine& machine, Services& services, GrowingString& out);
+
+    /// Returns where it ended: a predecessor of several modules that names `%` may reach beyond `end`.
+    std::size_t run(std::size_t begin, std::size_t end, std::size_t parameters_at);
+    /// The same, but modules from `end` on are another L-system's, as is what stands between ?() and $ in successors.
+    void run_within(std::size_t begin, std::size_t end, std::size_t parameters_at, const Enclosure& enclosure);
+    bool reached_limit() const { return decomposition_.reached_limit(); }
+
+private:
+    std::size_t rewrite(const Site& site);
+    Lineage lineage(std::size_t module) const;
+    void decompose(const Site& site);
+    void follow_reseeding();
+    void set_draws();
+
+    const StepInput& input_;
+    const CompiledSystem& model_;
+    Machine& machine_;
+    Services& services_;
+    GrowingString& out_;
+    Matcher matcher_;
+    Expansion rewriting_, decomposition_;
+    ModuleStack stack_;
+    std::vector<Lineage> strict_;
+    std::vector<double> values_;
+    const Enclosure* enclosure_ = nullptr;
+    bool decomposing_ = false;
+};
+
+}  // namespace espalier

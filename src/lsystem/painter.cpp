@@ -1,0 +1,174 @@
+#include "painter.h"
+
+#include <fmt/format.h>
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t most_modules = 100'000'000;  // of one picture, whatever memory there is
+constexpr std::size_t modules_between_looks = 4096;
+
+bool changes(const CompiledRules& rules) {
+    return rules.effects.assigns || rules.effects.ordered;
+}
+
+}  // namespace
+
+Painter::Painter(Derivation::State& state) : state_(state), model_(*state.model), services_(state.services) {
+    for (const auto& system : model_.systems) {
+        brushes_.push_back(std::make_unique<Brush>(*system));
+        changes_ |= changes(system->homomorphism);
+    }
+}
+
+void Painter::prepare(const CompiledSystem& system, Variables& variables, const StringView& view) {
+    Brush& used = brush(system);
+    used.machine.attach(&variables, &services_, Stream::homomorphism);
+    used.matcher.view(view);
+    used.matcher.set_draws(RandomKey(state_.settings.seed, state_.settings.plant, Stream::homomorphism,
+                                     system.homomorphism.salt.value_or(state_.services.salt)),
+                           state_.step);
+}
+
+/// A homomorphism that multiplies at every depth is caught before it has eaten the machine.
+void Painter::require_bounds(const ModuleString& picture, const CompiledProduction& production) const {
+    if (picture.size() % modules_between_looks != 0) return;
+    if (picture.size() < most_modules && picture.bytes() <= state_.settings.memory) return;
+    throw RunError(
+        fmt::format("{}: the picture of one module grows beyond {} modules; look at the maximum depth of "
+                    "the homomorphism",
+                    to_string(production.source->place), picture.size()));
+}
+
+bool Painter::paint(const Subject& subject, ModuleString& picture) {
+    services_.salt = state_.services.salt;
+    services_.stopped = false;
+    const CompiledSystem* system = &model_.main();
+    if (model_.nested) {
+        look_at(subject.string);
+        scope_ = scopes_.of_module(subject.site.first);
+        system = scopes_.all()[scope_].system;
+        const CompiledRules& rules = system->homomorphism;
+        if (!rules.has(subject.site.letter) || rules.maximum_depth == 0) return false;
+        prepare(*system, variables_of(scope_), subject.view);
+    } else if (changes_) {
+        copy_ = state_.variables;
+        prepare(*system, copy_, subject.view);
+    } else {
+        prepare(*system, state_.variables, subject.view);
+    }
+    Brush& used = brush(*system);
+    const CompiledProduction* production = used.matcher.choose(system->homomorphism, subject.site);
+    if (production) {
+        const Lineage lineage{subject.site.drawer, 0, 0};
+        used.matcher.begin_successor(*production, subject.site);
+        stack_.clear();
+        used.expansion.push_successor(*production, &lineage, state_.step, 1, stack_);
+        if (model_.nested)
+            expand_nested(subject, *production, picture);
+        else
+            expand(subject, *production, picture);
+    }
+    if (model_.nested && changes_) forget_variables();
+    return production != nullptr;
+}
+
+void Painter::expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
+    brush(model_.main())
+        .expansion.run(stack_, subject.site, state_.step, [&](const ModuleStack::Entry& entry, const double* values) {
+            picture.append(entry.letter, {values, entry.arity});
+            require_bounds(picture, production);
+        });
+}
+
+// What the picture encloses in ?(id) ... $ is drawn by that L-system's homomorphism.
+void Painter::expand_nested(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
+    inner_.clear();
+    level_ = 0;
+    while (!stack_.empty()) {
+        Expansion& expansion = brush(current()).expansion;
+        const ModuleStack::Entry* finished = expansion.replace(stack_, subject.site, state_.step);
+        if (!finished) continue;
+        picture.append(finished->letter, {expansion.values(), finished->arity});
+        require_bounds(picture, production);
+        pass(finished->letter, expansion.values(), subject);
+    }
+}
+
+void Painter::pass(LetterId letter, const double* values, const Subject& subject) {
+    if (letter == Alphabet::open_bracket) {
+        ++level_;
+    } else if (letter == Alphabet::close_bracket) {
+        while (!inner_.empty() && inner_.back().level == level_) inner_.pop_back();
+        --level_;
+    } else if (model_.enclosure.opens(letter)) {
+        open(values[0], subject);
+    } else if (letter == model_.enclosure.close && !inner_.empty()) {
+        inner_.pop_back();
+    }
+}
+
+void Painter::open(double id, const Subject& subject) {
+    const CompiledSystem* const system = model_.labelled(id);
+    bool inside = system == nullptr;
+    for (const Inner& around : inner_) inside |= around.system == system;
+    for (std::uint32_t scope = scope_; !inside; scope = scopes_.all()[scope].parent) {
+        inside = scopes_.all()[scope].system == system;
+        if (scope == 0) break;
+    }
+    if (inside) {
+        throw RunError(fmt::format(
+            "{}: a homomorphism opens ?({:g}), which {}, at step {}; there is {}", model_.source->name, id,
+            system ? "would stand inside itself" : "is not an L-system of this model", state_.step, model_.labels()));
+    }
+    const CompiledSystem& around = current();
+    Variables& theirs = inner_.empty() ? variables_of(scope_) : *inner_.back().variables;
+    auto variables = std::make_unique<Variables>(system->variables());
+    borrow(*system, *variables, around, theirs);
+    run_start(*system, *variables);
+    prepare(*system, *variables, subject.view);
+    inner_.push_back({system, std::move(variables), level_});
+}
+
+void Painter::look_at(const ModuleString& string) {
+    if (string_ == string.letters.data() && size_ == string.size() && generation_ == state_.generation) return;
+    scopes_.find(model_, string, state_.step);
+    string_ = string.letters.data();
+    size_ = string.size();
+    generation_ = state_.generation;
+    variables_.clear();
+    variables_.resize(scopes_.all().size());
+    made_.clear();
+}
+
+/// A copy of the variables of a scope, and of those around it. One that was never entered is started for the picture.
+Variables& Painter::variables_of(std::uint32_t scope) {
+    if (variables_[scope]) return *variables_[scope];
+    const Scope& own = scopes_.all()[scope];
+    const Variables* const grown = scope == 0 ? &state_.variables : state_.sub_systems.find(own);
+    auto made = std::make_unique<Variables>(grown ? *grown : own.system->variables());
+    if (scope != 0) borrow(*own.system, *made, *scopes_.all()[own.parent].system, variables_of(own.parent));
+    if (!grown) run_start(*own.system, *made);
+    made_.push_back(scope);
+    return *(variables_[scope] = std::move(made));
+}
+
+// Its real Start block is still to come: this one is neither heard nor seen.
+void Painter::run_start(const CompiledSystem& system, Variables& variables) {
+    ModelFiles files(state_.settings.input_folder, {});
+    Services silent = services_;
+    silent.print = [](const std::string&) {};
+    silent.warn = [](const Place&, const std::string&) {};
+    silent.files = &files;
+    Machine machine = system.machine();
+    machine.attach(&variables, &silent, Stream::blocks);
+    machine.draw_with(state_.block_draws);
+    machine.run(system.start);
+}
+
+void Painter::forget_variables() {
+    for (const std::uint32_t scope : made_) variables_[scope] = nullptr;
+    made_.clear();
+}
+
+}  // namespace espalier
