@@ -10,6 +10,11 @@
 #include <cmath>
 
 namespace espalier::language {
+namespace {
+
+constexpr double most_filled = 1e6;  // elements of one row
+
+}  // namespace
 
 // define: { array name[2][3] = {...}, other[4]; external name, name; }
 void DeclarationParser::definitions() {
@@ -58,26 +63,45 @@ void DeclarationParser::definition(bool external, bool array) {
     if (external && in_.looking_at("=")) {
         throw SyntaxError{in_.here(), "an external array has the values it has in the surrounding L-system"};
     }
-    if (in_.accept("=")) values(declared.values);
+    if (in_.looking_at("=")) {
+        in_.take(1);
+        values(declared);
+    }
     check_size(declared, at);
     names_.add_array(std::move(declared), at);
 }
 
 // { 1, 2, 3 }, row by row in braces of their own or not.
-void DeclarationParser::values(std::vector<Expression>& into) {
+void DeclarationParser::values(ArrayDeclaration& array) {
     in_.expect("{", "before the values of the array");
     if (++value_depth_ > 50) throw SyntaxError{in_.here(), "the values are nested more than 50 deep"};
-    if (!in_.accept("}")) {
-        do {
-            if (in_.looking_at("{")) {
-                values(into);
-            } else {
-                into.push_back(expressions_.expression());
-            }
-        } while (in_.accept(","));
-        in_.expect("}", "after the values of the array");
+    while (!in_.accept("}")) {
+        if (in_.looking_at("{")) {
+            const Location at = in_.here();
+            const std::size_t begin = array.values.size();
+            values(array);
+            fill_row(array, begin, at);
+        } else {
+            array.values.push_back(expressions_.expression());
+        }
+        if (!in_.accept(",") && !in_.looking_at("}")) in_.expected("',' or '}' after a value of the array");
     }
     --value_depth_;
+}
+
+// What inner braces leave open is 0.
+void DeclarationParser::fill_row(ArrayDeclaration& array, std::size_t begin, Location at) {
+    double elements = 1;
+    for (std::size_t i = value_depth_; i < array.dimensions.size(); ++i) {
+        elements *= std::floor(constant_value(array.dimensions[i]).value_or(0));
+    }
+    const std::size_t given = array.values.size() - begin;
+    if (value_depth_ >= array.dimensions.size() || elements < 1 || elements > most_filled) return;
+    if (static_cast<double>(given) > elements) {
+        mistakes_.error(
+            at, fmt::format("these braces hold {} values for {} elements of array '{}'", given, elements, array.name));
+    }
+    array.values.resize(begin + static_cast<std::size_t>(elements), Expression::number(0, names_.place(at)));
 }
 
 void DeclarationParser::check_size(const ArrayDeclaration& array, Location at) {

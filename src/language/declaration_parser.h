@@ -25,7 +25,8 @@ public:
 
 private:
     void definition(bool external, bool array);
-    void values(std::vector<Expression>& into);
+    void values(ArrayDeclaration& array);
+    void fill_row(ArrayDeclaration& array, std::size_t begin, Location at);
     void check_size(const ArrayDeclaration& array, Location at);
     void module_declaration();
     void process_declaration();
@@ -37,7 +38,7 @@ private:
     Symbols& symbols_;
     ExpressionParser& expressions_;
     Model& model_;
-    int value_depth_ = 0;
+    std::size_t value_depth_ = 0;  // of the braces at hand
 };
 
 }  // namespace espalier::language

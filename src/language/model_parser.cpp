@@ -344,7 +344,7 @@ private:
             in_.seek(line);
             in_.skip_lines();
             const std::size_t start = in_.position();
-            if (in_.looking_at_keyword("axiom") || in_.looking_at_keyword("endlsystem")) break;
+            if (in_.looking_at_keyword("endlsystem")) break;
             if (!in_.accept_keyword("define") || definitions_.contains(start)) continue;
             in_.accept(":");
             if (!in_.looking_at("{")) continue;

@@ -40,6 +40,7 @@ public:
             });
         }
         review_processes();
+        review_calls();
         std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
             return std::tie(a.place.file, a.place.line, a.place.column) <
                    std::tie(b.place.file, b.place.line, b.place.column);
@@ -66,6 +67,45 @@ private:
             }
         });
         mentioned_.insert(system.filtered.begin(), system.filtered.end());
+        for_each_module(system, [&](const ModuleTemplate& module) { collect_call(module); });
+    }
+
+    template <class Visit>
+    static void for_each_module(const LSystem& system, Visit&& visit) {
+        for (const ModuleTemplate& module : system.axiom) visit(module);
+        for_each_production(system, [&](const Production& production) {
+            for (const ModuleTemplate& module : production.successor) visit(module);
+        });
+    }
+
+    // ?(id) and ?(id, scale) call an L-system of the file.
+    bool calls(LetterId letter) const {
+        const int arity = model_.alphabet.arity(letter);
+        return model_.alphabet.name(letter) == "?" && (arity == 1 || arity == 2);
+    }
+
+    void collect_call(const ModuleTemplate& module) {
+        if (!calls(module.letter)) return;
+        const std::optional<double> id = constant_value(module.arguments.front());
+        if (id) {
+            called_.emplace(fmt::format("{}", *id), module.place);
+        } else {
+            calls_any_ = true;
+        }
+    }
+
+    void review_calls() {
+        std::set<std::string> labels;
+        for (const LSystem& system : model_.systems) labels.insert(system.label);
+        for (const auto& [label, place] : called_) {
+            if (!labels.contains(label)) warn(place, fmt::format("no L-system of this file has the label {}", label));
+        }
+        for (std::size_t i = 1; i < model_.systems.size() && !calls_any_; ++i) {
+            const LSystem& system = model_.systems[i];
+            if (called_.contains(system.label)) continue;
+            const Place place = system.productions.empty() ? Place{} : system.productions.front().place;
+            warn(place, fmt::format("the L-system with the label {0} is never called: ?({0}) ... $", system.label));
+        }
     }
 
     // --- productions --------------------------------------------------------------------------------------------
@@ -199,6 +239,7 @@ private:
     bool is_known(const std::string& symbol) const {
         if (mentioned_.contains(*model_.alphabet.find_symbol(symbol)) || symbol.front() == '?') return true;
         if (symbol == "[" || symbol == "]" || symbol == "%") return true;
+        if (symbol == "$" && (calls_any_ || !called_.empty())) return true;
         return std::find(turtle_symbols_.begin(), turtle_symbols_.end(), symbol) != turtle_symbols_.end();
     }
 
@@ -366,6 +407,8 @@ private:
     std::set<LetterId> produced_;
     std::set<SymbolId> mentioned_;
     std::set<LetterId> reported_;
+    std::map<std::string, Place> called_;                               // labels, and where they are called
+    bool calls_any_ = false;                                            // a label that is computed
     std::map<LetterId, std::vector<const Production*>> unconditional_;  // of the rule set at hand
     std::map<std::string, std::vector<std::string>> files_;
     std::vector<Diagnostic> found_;

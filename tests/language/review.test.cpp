@@ -87,3 +87,18 @@ TEST_CASE("modules of which neither a production nor the turtle takes notice are
     CHECK(warnings(lsystem("", "A", "A --> F[+X]@oX~l\n"), {"F", "+", "@o"}) ==
           "3: nobody takes notice of 'X': no production names it, the turtle does not know it");
 }
+
+TEST_CASE("L-systems that are not there, or that nobody calls, are pointed out", "[language]") {
+    const std::string leaf = "lsystem: 2\naxiom: A\nA --> AF\nendlsystem\n";
+    const auto plant = [](const std::string& call) { return lsystem("", "A", "A --> A" + call + "A$\n"); };
+    CHECK(warnings(plant("?(2)") + leaf) == "");
+    CHECK(warnings(plant("?(2, 0.5)") + leaf) == "");
+    CHECK(warnings(plant("?(Q + 1)") + leaf) == "");
+    CHECK(warnings(plant("?(3)") + leaf) ==
+          "3: no L-system of this file has the label 3\n"
+          "7: the L-system with the label 2 is never called: ?(2) ... $");
+}
+
+TEST_CASE("texts among the parameters of modules are nothing odd", "[language]") {
+    CHECK(warnings(lsystem("", "A", "A --> A@L(\"%d\", 2)\n")) == "");
+}
