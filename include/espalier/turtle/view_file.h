@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/geometry/background.h"
 #include "espalier/language/reader.h"
 #include "espalier/turtle/turtle.h"
 
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace espalier {
@@ -46,14 +48,19 @@ struct View {
     std::vector<Light> lights;
     std::string render_mode = "filled";
     std::vector<std::filesystem::path> backgrounds;
-    /// Mistakes that did not keep the rest from being read, and what has no meaning here (as notes).
+    std::shared_ptr<const Background> background;  ///< what those files show; null if there are none
+    /// What did not keep the rest from being read: errors are what a run passes over and `check` refuses.
     std::vector<Diagnostic> diagnostics;
-    std::vector<std::string> unused;  ///< settings that were read and have no meaning without a window
+    std::vector<std::string> unused;           ///< settings that were read and have no meaning without a window
+    std::vector<std::filesystem::path> files;  ///< side files that were read, in the order of reading
 };
 
 /// Reads a view file and every file it names, each looked for beside the file that names it, then in `folder`.
 /// Throws UserError for files that are missing or cannot be understood.
 View read_view_file(const std::filesystem::path& path, const Defines& defines = {},
+                    const std::filesystem::path& folder = {});
+/// The same from text; `name` is the file's: it stands in messages, and beside it files are looked for.
+View read_view_text(std::string_view text, const std::string& name, const Defines& defines = {},
                     const std::filesystem::path& folder = {});
 
 }  // namespace espalier
