@@ -187,7 +187,6 @@ void Names::finish_model(Model& model) {
     for (const Unassigned& variable : unassigned_) {
         if (!shared_.contains(variable.name)) mistakes_.warning(variable.at, variable.message);
     }
-    for (LSystem& system : model.systems) keep_shared(model, system);
     for (const ExternalElement& element : external_elements_) {
         ArrayDeclaration& array = model.systems[element.system].arrays[element.array];
         if (array.dimensions.empty()) size_external_array(model, array);
@@ -198,20 +197,6 @@ void Names::finish_model(Model& model) {
         const bool used = element.count > 0;
         if (used && array.dimensions.size() != element.count) wrong_subscripts(array, element.count, element.at);
     }
-}
-
-// An external variable that nobody else has is the L-system's own.
-void Names::keep_shared(const Model& model, LSystem& system) {
-    const auto has = [&](const LSystem& other, const std::string& name) {
-        return &other != &system && std::find(other.globals.begin(), other.globals.end(), name) != other.globals.end();
-    };
-    std::erase_if(system.external_globals, [&](const std::string& name) {
-        if (&system == &model.systems.front()) return true;
-        return std::none_of(model.systems.begin(), model.systems.end(),
-                            [&](const LSystem& other) { return has(other, name); });
-    });
-    if (&system != &model.systems.front()) return;
-    for (ArrayDeclaration& array : system.arrays) array.external = false;
 }
 
 void Names::size_external_array(const Model& model, ArrayDeclaration& array) {

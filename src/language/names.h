@@ -62,7 +62,6 @@ private:
     std::vector<std::string> known_names(const std::vector<std::string>* formals) const;
     std::string unknown(std::string_view name, const std::vector<std::string>* formals) const;
     void put_in_constants();
-    static void keep_shared(const Model& model, LSystem& system);
     static void size_external_array(const Model& model, ArrayDeclaration& array);
     void wrong_subscripts(const ArrayDeclaration& array, std::size_t count, Location at);
 

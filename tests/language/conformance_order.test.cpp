@@ -117,8 +117,9 @@ TEST_CASE("11 sub-L-systems", "[conformance]") {
         "of "
         "the L-system labelled id apply. They nest.");
     const std::string inner = "lsystem: 2\ndefine: { external total; }\naxiom: L\nL(x) --> L(x + 1)L(x)\nendlsystem\n";
-    CHECK(derived("lsystem: 1\nderivation length: 2\naxiom: ?(2, 0.5)L(1)$L(1)A\nA --> FA\nendlsystem\n" + inner) ==
-          "?(2,0.5)L(3)L(2)L(2)L(1)$L(1)FFA");
+    CHECK(derived("lsystem: 1\nderivation length: 2\nStart: { total = 0; }\naxiom: ?(2, 0.5)L(1)$L(1)A\nA --> "
+                  "FA\nendlsystem\n" +
+                  inner) == "?(2,0.5)L(3)L(2)L(2)L(1)$L(1)FFA");
     CHECK(derived("lsystem: 1\nderivation length: 1\naxiom: ?(2)A$A\nA --> B\nendlsystem\n"
                   "lsystem: 2\nA --> C?(3)A$A\nendlsystem\nlsystem: 3\nA --> D\nendlsystem\n") == "?(2)C?(3)A$A$B");
     CHECK(derived("lsystem: 1\nderivation length: 2\naxiom: ?(2)A$A\nA --> B\nendlsystem\n"

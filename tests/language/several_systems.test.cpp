@@ -48,15 +48,6 @@ TEST_CASE("external names are kept apart, and external arrays take their sizes f
     CHECK(inner.arrays[2].dimensions[1].value == 3);
 }
 
-TEST_CASE("what is external and nobody else has is an L-system's own", "[language]") {
-    const auto model = read(
-        "lsystem: 1\ndefine: { external n; external array a[2]; }\nStart: {n = 1;}\naxiom: A(n)\nA --> A\n"
-        "endlsystem\nlsystem: 2\ndefine: { external n, m; }\nB : {n = m;} --> B\nendlsystem\n");
-    CHECK(model->systems[0].external_globals.empty());
-    CHECK_FALSE(model->systems[0].arrays.at(0).external);
-    CHECK(model->systems[1].external_globals == std::vector<std::string>{"n"});
-}
-
 TEST_CASE("a variable that only an inner L-system assigns is no unknown name of the outer one", "[language]") {
     const std::string outer = "lsystem: 1\naxiom: A(n)\nA(x) --> A(n)\nendlsystem\n";
     const std::string inner = "lsystem: 2\ndefine: { external n; }\naxiom: B\nB : {n = 1;} --> B\nendlsystem\n";
