@@ -1,0 +1,168 @@
+// chiba: leaf clusters as balls that let part of the light through; a branch learns its light and the brightest
+// direction. Chiba, Ohkawa, Muraoka & Miura 1994, Visual simulation of botanical trees based on virtual heliotropism
+// and dormancy break.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/parameter_file.h"
+#include "environment/sky_directions.h"
+#include "environment/sphere_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace espalier {
+namespace {
+
+constexpr std::int64_t most_samples = 8 << 14;
+
+/// The area that two discs share whose centres are `apart` (a lens, or the smaller disc, or nothing).
+double shared_area(double a, double b, double apart) {
+    const double smaller = std::min(a, b);
+    if (apart >= a + b) return 0;
+    if (apart <= std::abs(a - b)) return std::numbers::pi * smaller * smaller;
+    // The chord both circles share stands at `from_a` from the centre of the first.
+    const double from_a = (apart * apart + a * a - b * b) / (2 * apart);
+    const auto segment = [](double radius, double distance) {
+        const double cosine = std::clamp(distance / radius, -1.0, 1.0);
+        return radius * radius * (std::acos(cosine) - cosine * std::sqrt(1 - cosine * cosine));
+    };
+    return segment(a, from_a) + segment(b, apart - from_a);
+}
+
+std::vector<SkyDirection> read_sky(ParameterFile& file) {
+    const std::int64_t samples =
+        file.whole("number of samples", 128, Range::between(1, static_cast<double>(most_samples)));
+    const double ratio = file.number("lower to upper ratio", 0.7, Range::between(0, 1e6));
+    const bool overcast = file.flag("use CIE formula", false, {"yes", "on"}, {"no", "off"});
+    std::vector<SkyDirection> sources;
+    for (const std::vector<double>& source : file.repeated("source direction", 3, 4)) {
+        const glm::dvec3 towards(source[0], source[1], source[2]);
+        const double intensity = source.size() > 3 ? source[3] : 1;
+        if (!(glm::length(towards) > 1e-100) || intensity < 0 || glm::length(towards) > 1e100) {
+            throw UserError(file.place("source direction"),
+                            "a source needs a direction that is not 0 and an intensity that is not negative");
+        }
+        sources.push_back({towards, intensity});
+    }
+    if (!sources.empty()) return normalised_sky(std::move(sources));
+    return overcast ? chiba_overcast_sky(samples, ratio) : uniform_sky(samples, ratio);
+}
+
+class Chiba final : public EnvironmentProcess {
+public:
+    Chiba(Settings& settings, const EnvironmentContext& context, Fields&) : statistics_(context.plants) {
+        ParameterFile file(
+            settings, context,
+            {"grid size", "number of samples", "lower to upper ratio", "use CIE formula", "source direction",
+             "transmittance", "radius", "beam radius", "estimate intersection area"});
+        file.numbers("grid size", {1, 1, 1}, Range::between(1, 1e9));  // rays are exact without one
+        sky_ = read_sky(file);
+        std::erase_if(sky_, [](const SkyDirection& direction) { return direction.weight == 0; });
+        transmittance_ = file.number("transmittance", 0.6, Range::between(0, 1));
+        radius_ = file.number("radius", 25, Range::positive());
+        beam_ = file.number("beam radius", 0, Range::between(0, 1e6));
+        by_area_ = file.flag("estimate intersection area", false);
+    }
+
+    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        std::vector<SphereTree::Sphere> clusters;
+        for (std::uint32_t i = 0; i < queries.size(); ++i) {
+            if (asks(queries[i])) clusters.push_back({queries[i].pose.position, radius_of(queries[i]), i});
+        }
+        const SphereTree tree(clusters);
+        tbb::parallel_for(std::size_t{0}, clusters.size(),
+                          [&](std::size_t i) { answer_one(tree, clusters[i], answers[clusters[i].number]); });
+        statistics_.clear();
+        for (const auto& cluster : clusters) {
+            statistics_.add(queries[cluster.number].plant, answers[cluster.number][0]);
+        }
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // Every step begins anew.
+    void save(std::ostream&) const override {}
+    void restore(std::istream&) override {}
+
+private:
+    static bool asks(const Query& query) { return query.parameters.size() == 1 || query.parameters.size() >= 4; }
+
+    double radius_of(const Query& query) const { return query.parameters[0] > 0 ? query.parameters[0] : radius_; }
+
+    void answer_one(const SphereTree& tree, const SphereTree::Sphere& own, Answer answer) const {
+        double light = 0;
+        glm::dvec3 brightest(0);
+        for (const SkyDirection& direction : sky_) {
+            const double share = direction.weight * passed(tree, own, direction.towards);
+            light += share;
+            brightest += share * direction.towards;
+        }
+        answer[0] = light;
+        if (answer.size() < 4) return;
+        const double length = glm::length(brightest);
+        if (length > 0) brightest /= length;
+        for (int axis = 0; axis < 3; ++axis) answer[static_cast<std::size_t>(axis) + 1] = brightest[axis];
+    }
+
+    /// The part of the light from a direction that reaches a cluster through all others.
+    double passed(const SphereTree& tree, const SphereTree::Sphere& own, const glm::dvec3& towards) const {
+        double part = 1;
+        const double beam = by_area_ ? own.radius : beam_ * own.radius;
+        tree.visit_along({.origin = own.centre, .direction = towards, .margin = beam}, [&](const auto& other) {
+            if (other.number == own.number) return;
+            const glm::dvec3 between = other.centre - own.centre;
+            const double ahead = glm::dot(between, towards);
+            const double reach = other.radius + beam;
+            const double aside2 = std::max(glm::dot(between, between) - ahead * ahead, 0.0);
+            if (ahead <= 0 || aside2 >= reach * reach) return;
+            if (by_area_) {
+                const double disc = std::numbers::pi * own.radius * own.radius;
+                part *= 1 - (1 - transmittance_) * shared_area(own.radius, other.radius, std::sqrt(aside2)) / disc;
+            } else {
+                part *= std::pow(transmittance_, std::sqrt(reach * reach - aside2) / reach);
+            }
+        });
+        return part;
+    }
+
+    std::vector<SkyDirection> sky_;
+    double transmittance_, radius_, beam_;
+    bool by_area_;
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<Chiba> entry{
+    {"chiba", "light among leaf clusters, and where it is brightest (Chiba, Ohkawa, Muraoka & Miura 1994)",
+     R"(Every query is a ball of leaves that dims the light for all others.
+
+?name(r)          -> light, 0 to 1; r is the radius of the ball, 0: the default
+?name(r, x, y, z) -> light, and the brightest direction, of length 1: directions of light by what comes from them
+Further parameters (20 in all at most) stay as they are. Queries with two or three parameters are no clusters.
+
+transmittance          t, 0.6; what passes through a whole cluster
+radius                 m, 25; of clusters that give 0
+estimate_intersection_area  false: a ball of radius R is passed with t^(chord / 2R)
+                       true: 1 - (1 - t) A / (pi r^2), A what its disc covers of the asking cluster's, of radius r
+beam_radius            b, 0; balls are larger by b times the radius of the cluster that asks (by chords only)
+number_of_samples      128; directions, taken as the next 8 * 4^k, evenly about an octahedron
+lower_to_upper_ratio   0.7; light from below by that from above
+use_cie_formula        false; true: more light from above, by (1 + c)/3 (8.6 c + 0.123)/0.203, c = y/sqrt(x^2 + y^2),
+                       as cpfg's chiba weights it: c leaves out z, so that this sky is not round
+source_direction       ["x y z intensity", ...]: directions towards lights in place of the samples; intensity 1
+grid_size              [1, 1, 1]; accepted and not needed: all clusters are tested
+parameters             a file with these keys in words, as cpfg's program chiba reads it
+
+Only clusters whose centres lie ahead dim the light. Answers do not depend on the order of the queries.
+Statistics of a plant: mean, min, max of the light, queries.
+)"}};
+
+}  // namespace
+}  // namespace espalier
