@@ -18,14 +18,19 @@ struct EdgeCount {
     std::size_t edges = 0, places = 0;
     bool closed = true;
 
-    explicit EdgeCount(const DrawnMesh& mesh) {
+    explicit EdgeCount(const DrawnMesh& mesh) : EdgeCount(mesh, 0, mesh.pieces.size()) {}
+    /// Of some of the pieces.
+    EdgeCount(const DrawnMesh& mesh, std::size_t first_piece, std::size_t end_piece) {
         std::map<std::array<double, 3>, int> place_of;
         std::map<std::pair<int, int>, int> balance;
         const auto place = [&](std::uint32_t vertex) {
             const glm::dvec3& p = mesh.vertices[vertex].position;
             return place_of.try_emplace({p.x, p.y, p.z}, int(place_of.size())).first->second;
         };
-        for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const std::size_t first = first_piece < end_piece ? mesh.pieces[first_piece].first : 0;
+        const std::size_t end =
+            first_piece < end_piece ? mesh.pieces[end_piece - 1].first + mesh.pieces[end_piece - 1].count : 0;
+        for (std::size_t i = first; i < end; i += 3) {
             for (int k = 0; k < 3; ++k) {
                 const int a = place(mesh.triangles[i + k]), b = place(mesh.triangles[i + (k + 1) % 3]);
                 if (a == b) continue;

@@ -268,9 +268,9 @@ TEST_CASE("the bounds contain everything drawn, thickness included", "[turtle]")
 TEST_CASE("symbols the turtle does not draw do not disturb it", "[turtle]") {
     const Pose plain = pose_after("F+F");
     for (const char* group :
-         {"@Gs",        "@Gc(3)", "@Ge(3)", "@Gt(1,1)", "@Gr(1)", "@#(1)",    "@!(3)", "@PS(1)",   "@PC(1,2,3)",
-          "@PD(1,2,3)", "@Tx(1)", "@Tf",    "@Tp",      "@L(1)",  "@S(1)",    "@I",    "@J(1)",    "@mo",
-          "@mc",        "@F",     "@+(30)", "~F",       "~+(2)",  "$",       "?(1,2)A$", "X(1)Y"}) {
+         {"@Gs",        "@Gc(3)", "@Ge(3)", "@Gt(1,1)", "@Gr(1)", "@#(1)", "@!(3)",    "@PS(1)", "@PC(1,2,3)",
+          "@PD(1,2,3)", "@Tx(1)", "@Tf",    "@Tp",      "@L(1)",  "@S(1)", "@I",       "@J(1)",  "@mo",
+          "@mc",        "@F",     "@+(30)", "~F",       "~+(2)",  "$",     "?(1,2)A$", "X(1)Y"}) {
         INFO(group);
         const Pose pose = pose_after(std::string("F") + group + "+F");
         CHECK(pose.position == plain.position);
@@ -320,6 +320,80 @@ TEST_CASE("one bracket too many is an error that names the module and shows its 
     CHECK(message.find("F(2)[+F]]F") != std::string::npos);
     CHECK(message.find("']'") != std::string::npos);
     CHECK_NOTHROW(Drawing("[[F").draw());  // the other way round leaves branches open
+}
+
+TEST_CASE("a letter with more parameters acts by the first, as ABOP says", "[turtle]") {
+    // ABOP 1.10.3, as its Anabaena's F(s, t, c) needs it.
+    const Pose plain = pose_after("+(30)F(2)&(10)f(3)/(5)F");
+    const Pose more = pose_after("+(30,7)F(2,1,900)&(10,1)f(3,0)/(5,5,5)F");
+    CHECK(more.position == plain.position);
+    CHECK(more.left == plain.left);
+    CHECK(Drawing("!(3,1)F").geometry().internodes.at(0).tip_radius == 1.5);
+    CHECK(Drawing(";(3,1)F").geometry().internodes.at(0).colour == 3);
+}
+
+TEST_CASE("the scale of a sub-L-system multiplies lengths and widths, nests, and ends at $", "[turtle]") {
+    Drawing drawing("!(4)F?(2,0.5)F!(2)F?(3,0.5)F$F$F");
+    const auto& internodes = drawing.geometry().internodes;
+    REQUIRE(internodes.size() == 6);
+    const double lengths[] = {1, 0.5, 0.5, 0.25, 0.5, 1}, widths[] = {4, 2, 1, 0.5, 1, 4};
+    for (int i = 0; i < 6; ++i) {
+        CHECK(glm::distance(internodes[i].base, internodes[i].tip) == Approx(lengths[i]));
+        CHECK(internodes[i].tip_radius * 2 == Approx(widths[i]));
+    }
+    CHECK(total_length(Drawing("?(1)F$F").geometry()) == 2);
+    CHECK(total_length(Drawing("[?(1,0.5)F]F").geometry()) == 1.5);  // a branch that ends without $
+    CHECK_NOTHROW(Drawing("$F?(1,0.5)[F$]F$F$F").draw());            // more $ than ?
+}
+
+TEST_CASE("a scale of zero draws everything in one point", "[turtle]") {
+    Drawing drawing("F@D(0)F[+F]@O(3)");
+    CHECK(total_length(drawing.geometry()) == 1);
+    CHECK(drawing.geometry().organs.at(0).size.x == 0);
+}
+
+TEST_CASE("lines whose width is in pixels have no radius, and queries keep the width", "[turtle]") {
+    Drawing drawing("!(3)F!(2)F?E(1)");
+    drawing.settings.line_style = LineStyle::pixel;
+    CHECK(total_volume(drawing.geometry()) == 0);
+    CHECK(drawing.geometry().bounds.upper.x == 0);
+    CHECK(drawing.result.queries.at(0).width == 2);
+    drawing.settings.line_style = LineStyle::polygon;
+    CHECK(total_volume(drawing.geometry()) > 0);
+}
+
+TEST_CASE("without tapered lines every segment has the width it was drawn with", "[turtle]") {
+    Drawing drawing("!(4)F!(2)F");
+    drawing.settings.tapered_lines = false;
+    CHECK(drawing.geometry().internodes.at(1).base_radius == 1);
+    CHECK(drawing.geometry().internodes.at(1).tip_radius == 1);
+}
+
+TEST_CASE("labels are texts filled in as printf does, where the turtle is", "[turtle]") {
+    Drawing drawing("F@L(0,3,2.5)[+F;(7)@L(1,2)]@L(9)@L@L(0)@L(3)");
+    drawing.model.texts = {"n = %d, x = %.2f", "100%% %s", "leaf", "%q"};
+    const std::vector<Label>& labels = drawing.geometry().labels;
+    REQUIRE(labels.size() == 4);
+    CHECK(labels[0].text == "n = 3, x = 2.50");
+    CHECK(labels[0].position == glm::dvec3(0, 1, 0));
+    CHECK(labels[0].module == 2);
+    CHECK(labels[1].text == "100% leaf");
+    CHECK(labels[1].colour == 7);
+    CHECK(labels[1].order == 1);
+    CHECK(labels[2].text == "n = 0, x = 0.00");  // what is missing is 0
+    CHECK(labels[3].text == "%q");               // what printf does not know stands as it is
+    CHECK(drawing.geometry().bounds.upper.y > 1.5);
+    drawing.model.texts[0] = "%9999d%9999d";
+    CHECK(drawing.geometry().labels.at(0).text.size() == 1000);
+}
+
+TEST_CASE("the colour of the back goes with polygons and organs", "[turtle]") {
+    Drawing drawing("@;(9){.f+f.}@O@;@o");
+    drawing.settings.back_colour_increment = 2;
+    const PlantGeometry& geometry = drawing.geometry();
+    CHECK(geometry.polygons.at(0).look.back_colour == 9);
+    CHECK(geometry.organs.at(0).look.back_colour == 9);
+    CHECK(geometry.organs.at(1).look.back_colour == 11);
 }
 
 TEST_CASE("numbers that are none any more are errors", "[turtle]") {
