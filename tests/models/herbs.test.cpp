@@ -168,7 +168,7 @@ TEST_CASE("mycelis: the lower branches, which flower later, become the larger on
         if (internode.order == 1) reach[internode.axis] += length_of(internode);
     }
     REQUIRE(reach.size() >= 8);
-    CHECK(reach.begin()->second > 2 * reach.rbegin()->second);
+    CHECK(reach.begin()->second > 1.5 * reach.rbegin()->second);
 }
 
 TEST_CASE("mycelis-delays: what happens below does not depend on the top", "[herbs]") {
@@ -185,13 +185,12 @@ TEST_CASE("mycelis-delays: what happens below does not depend on the top", "[her
         if (symbols[at] == "[") ++depth;
         if (symbols[at] == "]" && --depth == 0) ++nodes;
     }
-    const auto offsets = parameter_offsets(cut.string, cut.model->alphabet);
-    ModuleString stump;
-    for (std::size_t i = 0; i < at; ++i) {
-        stump.append(cut.string.letters[i],
-                     std::span(cut.string.parameters.data() + offsets[i], offsets[i + 1] - offsets[i]));
-    }
-    cut.string = std::move(stump);
+    const std::size_t parameters = parameter_offsets(cut.string, cut.model->alphabet)[at];
+    cut.string.letters.resize(at);
+    cut.string.identities.resize(at);
+    cut.string.parents.resize(at);
+    cut.string.births.resize(at);
+    cut.string.parameters.resize(parameters);
     plant.grow(40);
     cut.grow(40);
     CHECK(plant.text().rfind(cut.text(), 0) == 0);

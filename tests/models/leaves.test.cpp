@@ -113,8 +113,7 @@ TEST_CASE("rose-leaf: two polygons a step, halves that mirror each other, teeth 
     LonePlant leaf("models/leaves/rose-leaf.l");
     for (int n = 1; n <= 20; ++n) {
         leaf.grow(1);
-        // The axiom's own two polygons are closed by the first step's teeth; each later step closes two more.
-        CHECK(leaf.interpretation.geometry.polygons.size() == static_cast<std::size_t>(2 * n + 2));
+        CHECK(leaf.interpretation.geometry.polygons.size() == static_cast<std::size_t>(2 * n));
     }
     CHECK(is_symmetric(leaf.interpretation.geometry.vertices, 1e-6));
     for (const auto& edge : parameters_of(leaf.string, leaf.model->alphabet, "G")) {

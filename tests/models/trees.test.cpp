@@ -175,7 +175,7 @@ TEST_CASE("ternary: 3^n apices, and a segment grows by LR at every step of its l
     for (int figure = 1; figure <= 4; ++figure) {
         LonePlant tree("models/trees/ternary.l", {{"FIGURE", std::to_string(figure)}});
         tree.grow(5);
-        CHECK(tree.counts()["T"] == 243);
+        CHECK(tree.counts()["A"] == 243);
         std::map<double, int> lengths;
         for (double length : values_of(tree.string, tree.model->alphabet, "F")) ++lengths[length];
         for (int age = 0; age < 5; ++age) {
