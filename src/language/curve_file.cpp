@@ -51,7 +51,7 @@ private:
     // Where a curve stands, its range and its version are not used; neither are lines that nobody knows.
     void read_setting() {
         if (lines_.next_is("points:")) {
-            count_ = lines_.take_integer("points:", int(least_points), LineReader::most_lines);
+            count_ = lines_.take_integer("points:", 1, LineReader::most_lines);
         } else if (lines_.next_is("dimension:") || lines_.next_is("dim:")) {
             dimension_ = lines_.take_integer(lines_.next_is("dim:") ? "dim:" : "dimension:", 2, 4);
         } else if (lines_.next_is("type:")) {

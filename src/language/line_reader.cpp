@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 namespace espalier {
 
 void LineReader::pass_over_blanks() {
@@ -22,6 +20,7 @@ TextCursor LineReader::take_line(std::string_view key) {
     if (!next_is(key)) text_.fail(fmt::format("here '{}' should stand", key));
     TextCursor line = take_line();
     line.accept(key);
+    line.skip(TextCursor::blanks);
     return line;
 }
 
@@ -44,9 +43,8 @@ int take_integer(TextCursor& line, std::string_view what, int least, int most) {
     const TextCursor start = line;
     const std::optional<int> number = line.integer();
     if (number && *number >= least && *number <= most) return *number;
-    const bool any = least == std::numeric_limits<int>::min();
-    start.fail(any ? fmt::format("'{}' needs a whole number", what)
-                   : fmt::format("'{}' needs a whole number from {} to {}", what, least, most));
+    start.fail(least < 0 ? fmt::format("'{}' needs a whole number, at most {}", what, most)
+                         : fmt::format("'{}' needs a whole number from {} to {}", what, least, most));
 }
 
 std::vector<double> numbers_of(TextCursor line) {

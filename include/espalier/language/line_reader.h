@@ -23,7 +23,7 @@ public:
     /// Whether the next line begins with this.
     bool next_is(std::string_view key) const { return text_.rest().starts_with(key); }
     TextCursor take_line();
-    /// The line that begins with `key`, from behind it.
+    /// The line that begins with `key`, from what follows it.
     TextCursor take_line(std::string_view key);
     /// A whole number from `least` to `most` behind `key`.
     int take_integer(std::string_view key, int least, int most);
