@@ -62,7 +62,9 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
                         "with --overwrite",
                         folder.string()));
     }
-    every_ = static_cast<int>(table.integer_or("every", 1, Range::between(1, 1e9)));
+    frames_.step = static_cast<int>(table.integer_or("every", 1, Range::between(1, 1e9)));
+    frames_.first = static_cast<int>(table.integer_or("first", 0, Range::between(0, 1e9)));
+    next_ = frames_.first;
     const RecorderContext context{folder, last_step};
     for (const auto& [name, entry] : RecorderRegistry::entries()) {
         if (auto recorder = entry.make(table, context)) recorders_.push_back(std::move(recorder));
@@ -73,8 +75,18 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
 
 Timeline::~Timeline() = default;
 
-void Timeline::record(const Frame& frame) {
-    const bool due = frame.step % every_ == 0 || frame.step == last_step_;
+void Timeline::choose(FrameSelection frames) {
+    frames_ = std::move(frames);
+    next_ = frames_.first;
+    exactly_ = true;
+}
+
+void Timeline::record(const Frame& frame, bool is_last) {
+    const bool chosen = frame.step >= next_;
+    if (chosen) next_ = frames_.after(frame.step);
+    const bool ends = is_last || (!exactly_ && frame.step == last_step_);
+    const bool due = chosen || (ends && !(exactly_ && recorded_));
+    recorded_ = recorded_ || due;
     for (const auto& recorder : recorders_) {
         if (due || recorder->sees_every_step()) recorder->record(frame);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/file.h"
+#include "espalier/timeline/frame_selection.h"
 #include "espalier/timeline/recorder.h"
 
 #include <filesystem>
@@ -20,8 +21,11 @@ public:
     ~Timeline();
 
     const std::filesystem::path& folder() const { return folder_; }
-    /// Frames come in the order of their steps. Recorders see those that `every` divides and the last one planned.
-    void record(const Frame& frame);
+    /// Exactly these steps become frames, instead of those that the table's `first` and `every` choose.
+    void choose(FrameSelection frames);
+    /// Frames come in the order of their steps, `is_last` being the end of the run. Recorders see those chosen; by
+    /// `first` and `every` the last one too, by `choose` only if it would be the only one.
+    void record(const Frame& frame, bool is_last = false);
     /// Every recorder finishes, whatever becomes of the others; then the first failure is thrown.
     void finish();
 
@@ -31,7 +35,10 @@ public:
 private:
     std::filesystem::path folder_;
     FolderLock lock_;
-    int every_ = 1;
+    FrameSelection frames_;
+    bool exactly_ = false;  // the last step is no frame unless chosen
+    bool recorded_ = false;
+    int next_ = 0;
     int last_step_ = 0;
     std::vector<std::unique_ptr<Recorder>> recorders_;
 };

@@ -1,0 +1,71 @@
+#include "espalier/timeline/frame_selection.h"
+
+#include "catch.h"
+#include "timeline/frames.h"
+
+#include <limits>
+
+using namespace espalier;
+using Frames = std::vector<int>;
+
+namespace {
+
+Frames chosen(const FrameSelection& selection, int last) {
+    Frames frames;
+    for (int frame = selection.first; frame <= last; frame = selection.after(frame)) frames.push_back(frame);
+    return frames;
+}
+
+}  // namespace
+
+TEST_CASE("frames follow the first at equal steps", "[timeline]") {
+    CHECK(chosen({1, 1, {}}, 4) == Frames{1, 2, 3, 4});
+    CHECK(chosen({0, 5, {}}, 12) == Frames{0, 5, 10});
+    CHECK(chosen({3, 0, {}}, 5) == Frames{3, 4, 5});
+}
+
+TEST_CASE("an interval has its own step, and what lies between two intervals is left out", "[timeline]") {
+    CHECK(chosen({2, 1, {{2, 4, 1}, {10, 16, 3}}}, 16) == Frames{2, 3, 4, 10, 13, 16});
+    CHECK(chosen({1, 5, {{1, 8, 3}, {20, 21, 1}}}, 21) == Frames{1, 4, 7, 20, 21});
+}
+
+TEST_CASE("after the last interval the ordinary step counts again", "[timeline]") {
+    CHECK(chosen({1, 5, {{1, 3, 1}}}, 15) == Frames{1, 2, 3, 8, 13});
+}
+
+TEST_CASE("a first frame before all intervals is followed by their beginning", "[timeline]") {
+    CHECK(chosen({0, 2, {{7, 9, 1}}}, 9) == Frames{0, 7, 8, 9});
+    CHECK(chosen({6, 2, {{7, 9, 1}}}, 9) == Frames{6, 8, 9});
+}
+
+TEST_CASE("an interval that stands still is one frame", "[timeline]") {
+    CHECK(chosen({1, 1, {{1, 2, 1}, {3, 30, 0}, {31, 32, 1}}}, 32) == Frames{1, 2, 3, 31, 32});
+}
+
+TEST_CASE("frames end where numbers do", "[timeline]") {
+    const int most = std::numeric_limits<int>::max();
+    CHECK(FrameSelection{0, most, {}}.after(5) == most);
+}
+
+TEST_CASE("a timeline sees exactly the frames chosen, or the last if it would see none", "[timeline]") {
+    const HandmadePlant plant = branched_plant();
+    const auto recorded = [&](const FrameSelection& selection, int last) {
+        const RunFolder folder;
+        Timeline timeline(folder.path, timeline_table(), last);
+        timeline.choose(selection);
+        const std::vector<PlantFrame> plants{plant.frame()};
+        const Fields fields;
+        for (int step = 0; step <= last; ++step) {
+            timeline.record({step, double(step), plants, &fields}, step == last);
+        }
+        timeline.finish();
+        Frames frames;
+        for (int step = 0; step <= last; ++step) {
+            const std::string name = "000" + std::to_string(step) + ".vtp";
+            if (std::filesystem::exists(folder.path / "plants" / name)) frames.push_back(step);
+        }
+        return frames;
+    };
+    CHECK(recorded({1, 2, {}}, 6) == Frames{1, 3, 5});
+    CHECK(recorded({9, 1, {}}, 6) == Frames{6});
+}
