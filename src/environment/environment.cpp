@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/text.h"
+#include "espalier/environment/communication.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,10 +54,17 @@ void visit_written_queries(const Model& model, const Visit& visit) {
 
 }  // namespace
 
+bool asks_processes(const Model& model) {
+    bool asks = !model.processes.empty();
+    visit_written_queries(model, [&](const ModuleTemplate&, bool is_unnamed) { asks = asks || is_unnamed; });
+    return asks;
+}
+
 Environment::Environment(const std::vector<std::pair<std::string, Settings>>& tables,
                          const EnvironmentContext& context) {
     for (const auto& [name, table] : tables) {
         Settings settings = table;
+        communications_.emplace_back(table);
         EnvironmentContext own = context;
         own.name = name;
         const ProcessRegistry::Entry& entry = registered_process(settings);
@@ -68,6 +76,10 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
     if (processes_.size() == 1) default_ = 0;
     batches_.resize(processes_.size() + 1);
 }
+
+Environment::~Environment() = default;
+Environment::Environment(Environment&&) noexcept = default;
+Environment& Environment::operator=(Environment&&) noexcept = default;
 
 std::optional<std::size_t> Environment::find(const std::string& name) const {
     for (std::size_t process = 0; process < names_.size(); ++process) {
@@ -86,14 +98,15 @@ void Environment::set_default(const std::string& name) {
 
 void Environment::require_answers(const Model& model, const std::string& plant_name) const {
     for (const std::string& name : model.processes) {
-        if (find(name)) continue;
+        if (find(name) || keeps_unanswered_) continue;
         throw UserError(
             fmt::format("plant '{}': model {} declares `environment {};` but the scene has no process of "
                         "that name{}; {}",
                         plant_name, model.name, name, did_you_mean(name, names_), listed(names_)));
     }
     visit_written_queries(model, [&](const ModuleTemplate& module, bool is_unnamed) {
-        if (is_unnamed && !default_) {
+        if (is_unnamed && routed_) return;  // whom it asks is known only when it asks
+        if (is_unnamed && !default_ && !keeps_unanswered_) {
             throw UserError(module.place, fmt::format("plant '{}': model {} asks ?E, but the scene has no default "
                                                       "process; {}",
                                                       plant_name, model.name, listed(names_)));

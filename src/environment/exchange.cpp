@@ -1,5 +1,6 @@
 // One exchange: gather every question, let every process advance and answer, then write the answers.
 #include "espalier/base/error.h"
+#include "espalier/environment/communication.h"
 #include "espalier/environment/environment.h"
 
 #include <fmt/format.h>
@@ -46,28 +47,57 @@ void Environment::gather(const WorldView& world) {
             next += query.parameters.size();
         }
     }
+    for (std::size_t process = 0; process < processes_.size(); ++process) send(process);
 }
 
 void Environment::gather(const PlantView& plant, int step) {
     by_name_.clear();
     for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
-    for (const Query& query : plant.interpretation->queries) {
-        Batch& batch = batch_for(query, plant);
-        const auto process = static_cast<std::size_t>(&batch - batches_.data());
-        if (process != batches_end()) require_sound(query, process, plant, step);
+    for (const Query& asked : plant.interpretation->queries) {
+        Query query = asked;
+        const std::optional<std::size_t> process = process_for(query, plant, step);
+        if (!process) continue;
+        Batch& batch = batches_[*process];
+        if (*process != batches_end()) require_sound(query, *process, plant, step);
         batch.queries.push_back(query);
         batch.values.insert(batch.values.end(), query.parameters.begin(), query.parameters.end());
     }
 }
 
-Environment::Batch& Environment::batch_for(const Query& query, const PlantView& plant) {
-    if (query.kind != QueryKind::communication) return batches_[batches_end()];
+// Nothing for a query that is to stay as it is.
+std::optional<std::size_t> Environment::process_for(Query& query, const PlantView& plant, int step) const {
+    if (query.kind != QueryKind::communication) return batches_end();
     const bool unnamed = query.process < 0;
+    if (unnamed && routed_ && !query.parameters.empty()) {
+        const double number = query.parameters[0];
+        if (!(number >= 0 && number < static_cast<double>(processes_.size()))) {
+            throw RunError(fmt::format("{} asks ?E({}, ...), but the processes are numbered from 0 to {}",
+                                       described(plant, step), number, processes_.size() - 1));
+        }
+        query.parameters = query.parameters.subspan(1);
+        ++query.parameters_at;
+        return static_cast<std::size_t>(number);
+    }
     const std::optional<std::size_t> process = unnamed ? default_ : by_name_[static_cast<std::size_t>(query.process)];
-    if (process) return batches_[*process];
+    if (process || keeps_unanswered_) return process;
     const std::string name = unnamed ? "E" : plant.model->processes[static_cast<std::size_t>(query.process)];
     throw UserError(fmt::format("plant {} (model {}) asks ?{}, and no process of the scene answers that", plant.plant,
                                 plant.model->name, name));
+}
+
+// Lets the process see the questions as its communication carries them.
+void Environment::send(std::size_t process) {
+    const Communication& communication = communications_[process];
+    Batch& batch = batches_[process];
+    for (Query& query : batch.queries) communication.send(query);
+    if (!communication.rounds_parameters()) return;
+    batch.sent.resize(batch.values.size());
+    for (std::size_t i = 0; i < batch.values.size(); ++i) batch.sent[i] = communication.rounded(batch.values[i]);
+    const double* next = batch.sent.data();
+    for (Query& query : batch.queries) {
+        query.parameters = {next, query.parameters.size()};
+        next += query.parameters.size();
+    }
 }
 
 // A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
@@ -102,6 +132,21 @@ void Environment::consult(std::size_t process, const WorldView& world) {
             fmt::format("step {}: process '{}' ({}): {}", world.step, names_[process], kinds_[process], error.what()));
     }
     require_finite(process, world);
+    round_answers(process);
+}
+
+// What a process left alone keeps all its digits.
+void Environment::round_answers(std::size_t process) {
+    const Communication& communication = communications_[process];
+    if (!communication.rounds_parameters()) return;
+    Batch& batch = batches_[process];
+    for (std::size_t i = 0; i < batch.queries.size(); ++i) {
+        const std::span<const double> sent = batch.queries[i].parameters;
+        for (std::size_t k = 0; k < sent.size(); ++k) {
+            const double told = communication.rounded(batch.answers[i][k]);
+            if (told != sent[k]) batch.answers[i][k] = told;
+        }
+    }
 }
 
 void Environment::require_finite(std::size_t process, const WorldView& world) const {

@@ -10,11 +10,19 @@
 
 namespace espalier {
 
+class Communication;
+
+/// True if the model may write ?E or a query to a process that it declares.
+bool asks_processes(const Model& model);
+
 class Environment {
 public:
     /// Makes the processes of `tables` (the scene's [environment.<name>] tables) in the given order.
     /// Throws UserError for an unknown process or parameter.
     Environment(const std::vector<std::pair<std::string, Settings>>& tables, const EnvironmentContext& context);
+    ~Environment();
+    Environment(Environment&&) noexcept;
+    Environment& operator=(Environment&&) noexcept;
 
     std::size_t size() const { return processes_.size(); }
     const std::string& name(std::size_t process) const { return names_[process]; }
@@ -24,6 +32,10 @@ public:
     /// The process that answers ?E: the one named, or the only one. Throws UserError if there is no such process.
     void set_default(const std::string& name);
     std::optional<std::size_t> default_process() const { return default_; }
+    /// ?E(k, ...) asks the k-th process, counted from 0, which sees and answers the parameters after the first.
+    void route_by_first_parameter() { routed_ = true; }
+    /// Queries that no process answers keep their parameters, instead of being mistakes.
+    void keep_unanswered() { keeps_unanswered_ = true; }
 
     /// Throws UserError if `model` declares a process the scene lacks, or asks ?E where none is default.
     void require_answers(const Model& model, const std::string& plant_name) const;
@@ -44,15 +56,18 @@ private:
     struct Batch {
         std::vector<Query> queries;
         Column<double> values;  ///< the answers, one after the other
+        Column<double> sent;    ///< the parameters as the process sees them, if they are rounded
         std::vector<Answer> answers;
     };
 
     void gather(const WorldView& world);
     void gather(const PlantView& plant, int step);
-    Batch& batch_for(const Query& query, const PlantView& plant);
+    std::optional<std::size_t> process_for(Query& query, const PlantView& plant, int step) const;
+    void send(std::size_t process);
     void require_sound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
     void answer_turtle_queries();
     void consult(std::size_t process, const WorldView& world);
+    void round_answers(std::size_t process);
     void require_finite(std::size_t process, const WorldView& world) const;
     std::size_t batches_end() const { return processes_.size(); }  ///< where the turtle's own batch stands
 
@@ -60,8 +75,11 @@ private:
     std::vector<std::string> kinds_;  ///< what each process is: "voxel-shade"
     std::vector<std::unique_ptr<EnvironmentProcess>> processes_;
     std::vector<std::pair<int, int>> arities_;
+    std::vector<Communication> communications_;
     Fields fields_;
     std::optional<std::size_t> default_;
+    bool routed_ = false;
+    bool keeps_unanswered_ = false;
     std::vector<Batch> batches_;                       ///< one per process, and last the turtle's own
     std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name the plant's model declares
 };

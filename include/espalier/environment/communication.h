@@ -1,0 +1,46 @@
+// How a question reaches a process: numbers as text would carry them, because a model may count on their rounding.
+#pragma once
+
+#include "espalier/base/settings.h"
+#include "espalier/turtle/query.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// A printf format of up to three numbers. "%.4f %.0f %.4f" rounds the first and third coordinate to four decimals and
+/// the second to whole numbers.
+class TurtleFormat {
+public:
+    /// Throws UserError for anything that does not print numbers.
+    static TurtleFormat read(const std::string& text, const Place& place);
+
+    /// Prints and reads back; a number without a field in the format is not sent, which makes it 0.
+    void round(std::span<double> numbers) const;
+
+private:
+    std::vector<std::string> fields_;
+};
+
+/// What a process of the scene is told of a query, and how exactly.
+class Communication {
+public:
+    /// The keys `turtle`, `digits` and `following_module` of an [environment.<name>] table.
+    explicit Communication(const Settings& table);
+
+    bool rounds_parameters() const { return digits_ > 0; }
+    double rounded(double parameter) const;
+    /// Everything but the parameters of the query.
+    void send(Query& query) const;
+
+private:
+    int digits_ = 0;
+    bool following_module_ = true;
+    std::optional<TurtleFormat> position_, heading_, left_, up_, line_width_, scale_factor_;
+};
+
+}  // namespace espalier

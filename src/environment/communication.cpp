@@ -1,0 +1,111 @@
+#include "espalier/environment/communication.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace espalier {
+namespace {
+
+constexpr int widest = 99;
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+// One conversion from its % on; `at` is left behind it. Only what prints a double, and no wider than a buffer.
+std::string conversion(const std::string& text, std::size_t& at, const Place& place) {
+    std::string field = "%";
+    const auto take_number = [&] {
+        std::string digits;
+        while (at < text.size() && is_digit(text[at])) digits += text[at++];
+        if (digits.size() > 2) {
+            throw UserError(place, fmt::format("a number in this format may be at most {} wide: {}", widest, text));
+        }
+        field += digits;
+    };
+    while (at < text.size() && std::string("-+ 0#").find(text[at]) != std::string::npos) field += text[at++];
+    take_number();
+    if (at < text.size() && text[at] == '.') {
+        field += text[at++];
+        take_number();
+    }
+    while (at < text.size() && (text[at] == 'l' || text[at] == 'L')) ++at;
+    if (at == text.size() || std::string("feEgG").find(text[at]) == std::string::npos) {
+        throw UserError(place, fmt::format("only %f, %e and %g print a coordinate, as in '%.4f %.4f %.4f': {}", text));
+    }
+    field += text[at++];
+    return field;
+}
+
+void round(std::optional<TurtleFormat> const& format, glm::dvec3& vector) {
+    if (format) format->round({&vector.x, 3});
+}
+
+std::optional<TurtleFormat> read_format(const Settings& table, const char* key) {
+    const std::string text = table.text_or(key, "");
+    if (text.empty()) return std::nullopt;
+    return TurtleFormat::read(text, table.place(key));
+}
+
+}  // namespace
+
+TurtleFormat TurtleFormat::read(const std::string& text, const Place& place) {
+    TurtleFormat format;
+    for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at)) {
+        ++at;
+        if (at < text.size() && text[at] == '%') {
+            ++at;  // a percent sign
+            continue;
+        }
+        if (format.fields_.size() == 3) throw UserError(place, fmt::format("more than three numbers: {}", text));
+        format.fields_.push_back(conversion(text, at, place));
+    }
+    return format;
+}
+
+void TurtleFormat::round(std::span<double> numbers) const {
+    char text[512];  // the largest double has 309 digits, before at most 99 decimals
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (i < fields_.size()) {
+            std::snprintf(text, sizeof text, fields_[i].c_str(), numbers[i]);
+            numbers[i] = std::strtod(text, nullptr) + 0.0;  // no negative zero
+        } else {
+            numbers[i] = 0;
+        }
+    }
+}
+
+Communication::Communication(const Settings& table)
+    : digits_(static_cast<int>(table.integer_or("digits", 0, Range::between(0, 17)))),
+      following_module_(table.flag_or("following_module", true)) {
+    const Settings turtle = table.table("turtle");
+    position_ = read_format(turtle, "position");
+    heading_ = read_format(turtle, "heading");
+    left_ = read_format(turtle, "left");
+    up_ = read_format(turtle, "up");
+    line_width_ = read_format(turtle, "line_width");
+    scale_factor_ = read_format(turtle, "scale_factor");
+}
+
+double Communication::rounded(double parameter) const {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*g", digits_, parameter);
+    return std::strtod(text, nullptr);
+}
+
+void Communication::send(Query& query) const {
+    espalier::round(position_, query.pose.position);
+    espalier::round(heading_, query.pose.heading);
+    espalier::round(left_, query.pose.left);
+    espalier::round(up_, query.pose.up);
+    if (line_width_) line_width_->round({&query.width, 1});
+    if (scale_factor_) scale_factor_->round({&query.scale, 1});
+    if (following_module_) return;
+    query.following = no_letter;
+    query.following_parameters = {};
+    query.following_identity = 0;
+}
+
+}  // namespace espalier
