@@ -1,12 +1,16 @@
+#include "espalier/simulation/side_file_check.h"
 #include "espalier/simulation/world.h"
 #include "espalier/timeline/timeline.h"
 #include "espalier/turtle/symbol.h"
 
 #include "commands.h"
+#include "model_arguments.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <set>
 #include <unistd.h>
 
@@ -40,14 +44,9 @@ private:
     fs::path path_;
 };
 
-struct Findings {
-    std::vector<Diagnostic> warnings;
-    std::vector<std::string> facts;  ///< lines that say what was read
-};
-
 void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings& findings) {
     const Model& model = source_of(*compiled);
-    for (Diagnostic& warning : review(model, turtle_symbols())) findings.warnings.push_back(std::move(warning));
+    for (Diagnostic& warning : review(model, turtle_symbols())) findings.diagnostics.push_back(std::move(warning));
     const LSystem& system = model.main();
     findings.facts.push_back(fmt::format(
         "{}: {} production{}, {} of decomposition, {} of homomorphism; derivation length {}; {}{}", model.path.string(),
@@ -58,54 +57,107 @@ void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings
         draws_random_numbers(*compiled) ? "; draws random numbers" : ""));
 }
 
+void review_notes(const SceneNotes& notes, Findings& findings) {
+    findings.diagnostics.insert(findings.diagnostics.end(), notes.diagnostics.begin(), notes.diagnostics.end());
+    std::vector<std::string> files;
+    for (const fs::path& file : notes.files) files.push_back(file.string());
+    if (!files.empty()) findings.facts.push_back(fmt::format("side files: {}", fmt::join(files, ", ")));
+    for (const std::string& setting : notes.unused) {
+        findings.facts.push_back(setting + " (read; without meaning where there is no window)");
+    }
+}
+
 // Makes everything a run would make, except steps.
-void review_scene(const CheckArguments& arguments, Findings& findings) {
-    const Scene scene = read_scene(arguments.file, {arguments.overrides, {}, {}});
+void review_scene(const Scene& scene, Findings& findings) {
     const World world(scene);
     const TemporaryFolder folder;
     const Timeline timeline(folder.path(), scene.timeline, scene.steps);
     std::set<const CompiledModel*> seen;
     for (const PlantDescription& plant : scene.plants) {
         if (seen.insert(plant.model.get()).second) review_model(plant.model, findings);
+        if (plant.view && seen.size() == 1) review_view(*plant.view, findings);
     }
     std::string processes;
     for (std::size_t i = 0; i < world.environment().size(); ++i)
         processes += (i ? ", " : "") + world.environment().name(i);
-    findings.facts.push_back(fmt::format("{}: {} plant{}, {} steps, processes: {}", scene.path.string(),
-                                         scene.plants.size(), scene.plants.size() == 1 ? "" : "s", scene.steps,
+    review_notes(scene.notes, findings);
+    findings.diagnostics.insert(findings.diagnostics.end(), world.warnings().begin(), world.warnings().end());
+    const std::string name = scene.path.empty() ? scene.name : scene.path.string();
+    findings.facts.push_back(fmt::format("{}: {} plant{}, {} steps, processes: {}", name, scene.plants.size(),
+                                         scene.plants.size() == 1 ? "" : "s", world.last_step(),
                                          processes.empty() ? "none" : processes));
 }
 
-Json warnings_json(const std::vector<Diagnostic>& warnings) {
+void review_object(const CheckArguments& arguments, Findings& findings) {
+    const ObjectFiles object = object_of(arguments.model);
+    if (fs::is_directory(arguments.model.file)) {
+        findings.facts.push_back(fmt::format("{}: {}", object.name, taken_files(object)));
+    }
+    review_scene(scene_of_object(object, {arguments.overrides, {}, {}}), findings);
+    for (const std::string& name : unused_files(object)) {
+        findings.facts.push_back(name + " is listed, and no file that is used names it");
+    }
+}
+
+Json diagnostics_json(const Findings& findings, Diagnostic::Severity severity) {
     Json list = Json::array();
-    for (const Diagnostic& warning : warnings) {
-        list.push_back({{"file", warning.place.file},
-                        {"line", warning.place.line},
-                        {"column", warning.place.column},
-                        {"message", warning.message}});
+    for (const Diagnostic& diagnostic : findings.diagnostics) {
+        if (diagnostic.severity != severity) continue;
+        list.push_back({{"file", diagnostic.place.file},
+                        {"line", diagnostic.place.line},
+                        {"column", diagnostic.place.column},
+                        {"message", diagnostic.message}});
     }
     return list;
+}
+
+// What a file says twice, or two plants share, is told once.
+void remove_repeated(Findings& findings) {
+    std::set<std::string> said;
+    std::erase_if(findings.diagnostics,
+                  [&](const auto& diagnostic) { return !said.insert(to_string(diagnostic)).second; });
+    said.clear();
+    std::erase_if(findings.facts, [&](const auto& fact) { return !said.insert(fact).second; });
+}
+
+Findings findings_of(const CheckArguments& arguments) {
+    Findings findings;
+    if (is_scene(arguments.model.file)) {
+        reject_side_files(arguments.model);
+        review_scene(read_scene(arguments.model.file, {arguments.overrides, {}, {}}), findings);
+    } else if (is_side_file(arguments.model.file)) {
+        check_side_file(arguments.model.file, findings);
+    } else {
+        review_object(arguments, findings);
+    }
+    remove_repeated(findings);
+    return findings;
 }
 
 }  // namespace
 
 int check_command(const CheckArguments& arguments) {
-    Findings findings;
-    if (arguments.file.extension() == ".toml") {
-        review_scene(arguments, findings);
-    } else {
-        const Defines defines(arguments.defines.begin(), arguments.defines.end());
-        const auto compiled = compile(read_model(arguments.file, {defines, arguments.quirks}));
-        review_model(compiled, findings);
-    }
+    const Findings findings = findings_of(arguments);
+    const auto is_error = [](const Diagnostic& diagnostic) {
+        return diagnostic.severity == Diagnostic::Severity::error;
+    };
+    const bool failed = std::any_of(findings.diagnostics.begin(), findings.diagnostics.end(), is_error);
+    const int code = failed ? exit_code::user_error : exit_code::done;
     if (arguments.json) {
-        const Json json = {{"exit", "done"}, {"warnings", warnings_json(findings.warnings)}, {"facts", findings.facts}};
+        Json json = {{"exit", failed ? "failed" : "done"}};
+        if (failed) json["code"] = code;
+        if (failed) json["message"] = "the files have mistakes";
+        json["errors"] = diagnostics_json(findings, Diagnostic::Severity::error);
+        json["warnings"] = diagnostics_json(findings, Diagnostic::Severity::warning);
+        json["facts"] = findings.facts;
         fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
-        return exit_code::done;
+        return code;
     }
-    for (const Diagnostic& warning : findings.warnings) fmt::print("{}\n", to_string(warning));
+    for (const Diagnostic& diagnostic : findings.diagnostics) {
+        fmt::print(is_error(diagnostic) ? stderr : stdout, "{}\n", to_string(diagnostic));
+    }
     for (const std::string& fact : findings.facts) fmt::print("{}\n", fact);
-    return exit_code::done;
+    return code;
 }
 
 }  // namespace espalier

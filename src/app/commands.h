@@ -17,8 +17,18 @@ inline constexpr int done = 0, user_error = 1, run_failed = 2, interrupted = 130
 
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
+/// A model on its own, or the folder of an object, and the side files given with it.
+struct ModelArguments {
+    std::filesystem::path file;  ///< may be a scene where a command takes one
+    std::filesystem::path view, animation, environment;
+    std::vector<std::string> colour_maps, materials;  ///< FILE, or N=FILE for set N
+    bool without_environment = false;
+    KeyValues defines;
+    bool quirks = false;
+};
+
 struct RunArguments {
-    std::filesystem::path scene;  ///< a scene, or a model on its own
+    ModelArguments model;
     KeyValues overrides;
     std::optional<int> steps;
     std::optional<std::uint64_t> seed;
@@ -32,22 +42,20 @@ struct RunArguments {
 int run_command(const RunArguments& arguments);
 
 struct CheckArguments {
-    std::filesystem::path file;
-    KeyValues overrides;  ///< of a scene
-    KeyValues defines;    ///< of a model
-    bool quirks = false;
+    ModelArguments model;  ///< or a side file alone
+    KeyValues overrides;   ///< of a scene
     bool json = false;
 };
 int check_command(const CheckArguments& arguments);
 
 struct DeriveArguments {
-    std::filesystem::path model;
+    ModelArguments model;
     std::optional<int> steps;
     std::optional<std::uint64_t> seed;
-    KeyValues defines;
     std::string format = "text";
     bool before_exchange = false;
-    bool quirks = false;
+    std::filesystem::path files;  ///< where files go that the model writes; empty: nowhere
+    bool quiet = false;
     std::size_t memory = 0;
 };
 int derive_command(const DeriveArguments& arguments);
@@ -59,8 +67,9 @@ struct InfoArguments {
 int info_command(const InfoArguments& arguments);
 
 struct ListArguments {
-    std::string kind;  ///< "" for everything
-    std::string name;  ///< "" for all of a kind
+    std::string kind;              ///< "" for everything
+    std::string name;              ///< "" for all of a kind
+    std::filesystem::path models;  ///< the library of models; empty: where it is usually found
     bool json = false;
 };
 int list_command(const ListArguments& arguments);

@@ -1,14 +1,15 @@
-#include "espalier/language/reader.h"
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/simulation.h"
 #include "espalier/turtle/interpretation.h"
 
 #include "commands.h"
+#include "model_arguments.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <functional>
 
 namespace espalier {
 namespace {
@@ -17,18 +18,21 @@ bool has_queries(const Alphabet& alphabet) {
     for (std::size_t symbol = 0; symbol < alphabet.symbol_count(); ++symbol) {
         if (alphabet.symbol_name(static_cast<SymbolId>(symbol)).starts_with('?')) return true;
     }
-    return false;
+    return alphabet.find("s", 2) || alphabet.find("s", 3);  // the older name of ?P
 }
 
-// Answers ?P ?H ?L ?U ?Q. Without a scene nobody else answers: those queries keep their parameters.
+// Answers ?P ?H ?L ?U ?Q; queries to processes keep their parameters.
 class TurtleAnswers {
 public:
-    explicit TurtleAnswers(const Model& model)
-        : model_(model), symbols_(symbol_table(model)), asks_(has_queries(model.alphabet)) {}
+    explicit TurtleAnswers(const PlantDescription& plant)
+        : model_(source_of(*plant.model)),
+          turtle_(plant.turtle),
+          symbols_(symbol_table(model_)),
+          asks_(has_queries(model_.alphabet)) {}
 
     void exchange(ModuleString& string, const Derivation& derivation) {
         if (!asks_) return;
-        interpret(model_, *symbols_, string, {}, &derivation, {}, interpretation_);
+        interpret(model_, *symbols_, string, turtle_, &derivation, {}, interpretation_);
         for (const Query& query : interpretation_.queries) {
             answer_from_turtle(query, Answer(string.parameters.data() + query.parameters_at, query.parameters.size()));
         }
@@ -36,24 +40,58 @@ public:
 
 private:
     const Model& model_;
+    const TurtleSettings& turtle_;
     std::shared_ptr<const SymbolTable> symbols_;
     bool asks_;
     Interpretation interpretation_;
 };
 
-ModuleString derive(const CompiledModel& compiled, Derivation derivation, bool before_exchange) {
-    TurtleAnswers answers(source_of(compiled));
-    ModuleString string, next;
-    derivation.start(string);
-    // Asked anew after every step: a model may stop, or change its length.
-    const auto done = [&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); };
-    if (!done() || !before_exchange) answers.exchange(string, derivation);
-    while (!done()) {
-        derivation.step(string, next);
-        std::swap(string, next);
-        if (!done() || !before_exchange) answers.exchange(string, derivation);
+/// Who lets a string grow: a derivation alone, whose turtle answers, or a whole world.
+struct Growth {
+    std::function<bool()> done;  ///< asked anew after every step: a model may stop, or change its length
+    std::function<void()> plant_axiom, derive, exchange;
+};
+
+void grow(const Growth& growth, bool before_exchange) {
+    growth.plant_axiom();
+    if (!growth.done() || !before_exchange) growth.exchange();
+    while (!growth.done()) {
+        growth.derive();
+        if (!growth.done() || !before_exchange) growth.exchange();
     }
+}
+
+ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
+    const PlantDescription& plant = scene.plants.front();
+    DerivationSettings settings;
+    settings.seed = scene.seed;
+    // Old and new string, and the text they are printed as.
+    settings.memory = (arguments.memory == 0 ? default_memory() : arguments.memory) / 2;
+    settings.input_folder = source_of(*plant.model).path.parent_path();
+    settings.output_folder = arguments.files;
+    Derivation derivation(plant.model, settings);
+    derivation.set_length(scene.steps);
+
+    TurtleAnswers answers(plant);
+    ModuleString string, next;
+    grow({[&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); },
+          [&] { derivation.start(string); },
+          [&] {
+              derivation.step(string, next);
+              std::swap(string, next);
+          },
+          [&] { answers.exchange(string, derivation); }},
+         before_exchange);
     return string;
+}
+
+ModuleString derive_in_world(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
+    World world(scene, arguments.memory == 0 ? default_memory() : arguments.memory, arguments.files);
+    if (!arguments.quiet) print_warnings(world.warnings());
+    grow({[&] { return world.stopped() || world.steps_done() >= world.last_step(); }, [&] { world.plant_axioms(); },
+          [&] { world.derive(); }, [&] { world.exchange(); }},
+         before_exchange);
+    return world.string(0);
 }
 
 void write_out(const std::string& text) {
@@ -89,17 +127,20 @@ std::string json_text(const ModuleString& string, const Alphabet& alphabet) {
 }  // namespace
 
 int derive_command(const DeriveArguments& arguments) {
-    const Defines defines(arguments.defines.begin(), arguments.defines.end());
-    const auto compiled = compile(read_model(arguments.model, {defines, arguments.quirks}));
-    DerivationSettings settings;
-    settings.seed = arguments.seed.value_or(0);
-    // Old and new string, and the text they are printed as.
-    settings.memory = (arguments.memory == 0 ? default_memory() : arguments.memory) / 2;
-    Derivation derivation(compiled, settings);
-    if (arguments.steps) derivation.set_length(*arguments.steps);
+    if (is_scene(arguments.model.file)) {
+        throw UserError("derive takes a model or the folder of an object; `espalier run` grows a scene");
+    }
+    ObjectFiles object = object_of(arguments.model);
+    object.animation.clear();  // the derivation length decides
+    const Scene scene = scene_of_object(object, {{}, arguments.steps, arguments.seed});
+    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
 
-    const ModuleString string = derive(*compiled, std::move(derivation), arguments.before_exchange);
-    const Alphabet& alphabet = source_of(*compiled).alphabet;
+    const PlantDescription& plant = scene.plants.front();
+    // "environment display: before" makes cpfg, too, answer the last queries.
+    const bool before_exchange = arguments.before_exchange && !(plant.view && plant.view->exchanges_first);
+    const ModuleString string = scene.processes.empty() ? derive_alone(scene, arguments, before_exchange)
+                                                        : derive_in_world(scene, arguments, before_exchange);
+    const Alphabet& alphabet = source_of(*plant.model).alphabet;
     if (arguments.format == "counts") {
         write_out(counts_text(string, alphabet));
     } else if (arguments.format == "json") {

@@ -1,4 +1,3 @@
-#include "espalier/base/file.h"
 #include "espalier/base/text.h"
 #include "espalier/environment/shape.h"
 #include "espalier/simulation/scene.h"
@@ -6,6 +5,7 @@
 #include "espalier/turtle/symbol.h"
 
 #include "commands.h"
+#include "model_library.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,37 +33,11 @@ Parts symbol_parts() {
     return parts;
 }
 
-// The comment a file begins with, without its marks: a block, or lines of // or #.
-std::string leading_comment(const std::string& text) {
-    if (text.starts_with("/*")) return text.substr(2, text.find("*/") - 2);
-    std::string comment;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line) && (line.starts_with("//") || line.starts_with("#"));) {
-        comment += line.substr(std::min(line.find_first_not_of("/#"), line.size())) + "\n";
-    }
-    return comment;
-}
-
-// What a file says of itself. The first line of its comment is the summary.
-PartDescription describe_file(const fs::path& file) {
-    PartDescription part{file.string(), "", ""};
-    std::istringstream in(leading_comment(read_text(file)));
-    for (std::string line; std::getline(in, line);) {
-        const std::string text = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
-        if (part.summary.empty()) {
-            part.summary = text;
-        } else {
-            part.help += text + "\n";
-        }
-    }
-    return part;
-}
-
-Parts file_parts(const fs::path& folder, const std::string& extension) {
+Parts scene_parts() {
     std::vector<fs::path> files;
-    if (fs::is_directory(folder)) {
-        for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-            if (entry.path().extension() == extension) files.push_back(entry.path());
+    if (fs::is_directory("environments")) {
+        for (const auto& entry : fs::recursive_directory_iterator("environments")) {
+            if (entry.path().extension() == ".toml") files.push_back(entry.path());
         }
     }
     std::sort(files.begin(), files.end());
@@ -75,7 +49,7 @@ Parts file_parts(const fs::path& folder, const std::string& extension) {
 struct Kind {
     std::string name;
     std::string summary;
-    Parts (*parts)();
+    Parts (*parts)();  ///< null for models, which have folders
 };
 
 const std::vector<Kind>& kinds() {
@@ -84,8 +58,8 @@ const std::vector<Kind>& kinds() {
          parts_of<ProcessRegistry>},
         {"symbols", "what the turtle does with a module", symbol_parts},
         {"recorders", "what a run writes: [timeline]", parts_of<RecorderRegistry>},
-        {"models", "models below ./models", [] { return file_parts("models", ".l"); }},
-        {"scenes", "scenes below ./environments", [] { return file_parts("environments", ".toml"); }},
+        {"models", "the library of models, folder by folder", nullptr},
+        {"scenes", "scenes below ./environments", scene_parts},
         {"scene", "what a scene file may say",
          [] {
              return Parts{{"scene", "the tables of a scene file", scene_help()}};
@@ -105,34 +79,47 @@ const Kind* find_kind(const std::string& name) {
     return nullptr;
 }
 
-void print_part(const PartDescription& part) {
-    fmt::print("{}\n  {}\n", part.name, part.summary);
-    std::istringstream help(part.help);
-    for (std::string line; std::getline(help, line);) fmt::print("  {}\n", line);
-}
-
-void print_parts(const Parts& parts) {
-    std::size_t width = 0;
-    for (const PartDescription& part : parts) width = std::max(width, part.name.size());
-    for (const PartDescription& part : parts) fmt::print("  {:{}}  {}\n", part.name, width, part.summary);
-}
-
-void print_json(const Parts& parts) {
-    Json list = Json::array();
-    for (const PartDescription& part : parts) {
-        list.push_back({{"name", part.name}, {"summary", part.summary}, {"help", part.help}});
-    }
-    fmt::print("{}\n", list.dump(2, ' ', false, Json::error_handler_t::replace));
-}
-
+// Models of different folders may have the same name.
 Parts only(const Parts& parts, const std::string& name, const std::string& kind) {
+    Parts found;
     std::vector<std::string> names;
     for (const PartDescription& part : parts) {
         const fs::path path(part.name);
-        if (part.name == name || path.filename() == name || path.stem() == name) return {part};
+        if (part.name == name || path.filename() == name || path.stem() == name) found.push_back(part);
         names.push_back(part.name);
+        names.push_back(path.stem().string());
     }
+    if (!found.empty()) return found;
     throw UserError(fmt::format("'{}' is none of the {}{}", name, kind, did_you_mean(name, names)));
+}
+
+// The library as a newcomer browses it: a heading for each folder, and what its models are about.
+void print_folders(const Parts& models) {
+    std::size_t width = 0;
+    for (const PartDescription& model : models)
+        width = std::max(width, fs::path(model.name).filename().string().size());
+    std::string folder;
+    for (const PartDescription& model : models) {
+        const fs::path path(model.name);
+        if (path.parent_path().string() != folder || &model == &models.front()) {
+            folder = path.parent_path().string();
+            fmt::print("{}{}\n", &model == &models.front() ? "" : "\n", folder);
+        }
+        fmt::print("  {:{}}  {}\n", path.filename().string(), width, model.summary);
+    }
+}
+
+int list_models(const ListArguments& arguments) {
+    Parts models = models_of(model_library(arguments.models));
+    if (!arguments.name.empty()) models = only(models, arguments.name, arguments.kind);
+    if (arguments.json) {
+        print_json(models);
+    } else if (arguments.name.empty()) {
+        print_folders(models);
+    } else {
+        for (const PartDescription& model : models) print_part(model);
+    }
+    return exit_code::done;
 }
 
 }  // namespace
@@ -155,6 +142,7 @@ int list_command(const ListArguments& arguments) {
         throw UserError(fmt::format("'{}' is none of {}{}", arguments.kind, fmt::join(list_kinds(), ", "),
                                     did_you_mean(arguments.kind, list_kinds())));
     }
+    if (!kind->parts) return list_models(arguments);
     Parts parts = kind->parts();
     if (!arguments.name.empty()) parts = only(parts, arguments.name, arguments.kind);
     if (arguments.json) {

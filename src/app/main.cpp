@@ -56,6 +56,7 @@ struct CommandLine {
     DeriveArguments derive;
     InfoArguments info;
     ListArguments list;
+    ModelArguments model;
     std::vector<std::string> sets, defines;
     std::string memory;
     int steps = -1;
@@ -91,14 +92,32 @@ void add_set_option(CLI::App* command, CommandLine& line) {
         ->allow_extra_args(false);
 }
 
-void add_define_option(CLI::App* command, CommandLine& line) {
+void add_model_options(CLI::App* command, CommandLine& line) {
+    ModelArguments& model = line.model;
+    command->add_option("--view", model.view, "a view file (.v): turtle, surfaces, contours, functions");
+    command->add_option("--environment", model.environment, "an environment file (.e): who answers ?E");
+    command->add_flag("--without-environment", model.without_environment,
+                      "nobody answers: queries keep their parameters");
     command->add_option("--define", line.defines, "NAME=VALUE overrides a #define of the model; may be repeated")
+        ->allow_extra_args(false);
+    command->add_flag("--cpfg-quirks", model.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
+}
+
+void add_drawing_options(CLI::App* command, CommandLine& line) {
+    ModelArguments& model = line.model;
+    command->add_option("--animate", model.animation, "an animation file (.a): which steps are frames");
+    command->add_option("--colour-map", model.colour_maps, "a colour map (.map), or N=FILE for set N; may be repeated")
+        ->allow_extra_args(false);
+    command->add_option("--materials", model.materials, "materials (.mat), or N=FILE for set N; may be repeated")
         ->allow_extra_args(false);
 }
 
 void add_run(CLI::App& program, CommandLine& line) {
-    CLI::App* command = program.add_subcommand("run", "grow a scene, or a model on its own, and record it");
-    command->add_option("scene", line.run.scene, "a scene (.toml) or a model (.l)")->required();
+    CLI::App* command = program.add_subcommand("run", "grow a scene, a model or an object, and record it");
+    command->add_option("what", line.model.file, "a scene (.toml), a model (.l), or the folder of an object")
+        ->required();
+    add_model_options(command, line);
+    add_drawing_options(command, line);
     add_set_option(command, line);
     add_growth_options(command, line);
     command->add_option("--threads", line.run.threads, "default: all; the result is the same with any number")
@@ -111,34 +130,49 @@ void add_run(CLI::App& program, CommandLine& line) {
   espalier run environments/two-trees.toml
   espalier run environments/two-trees.toml --set environment.light.voxel=0.5 --output output/coarse
   espalier run models/course/02-branching.l --steps 5
+  espalier run plant.l --view plant.v --animate plant.a --colour-map plant.map
+  espalier run objects/lilac            the model that the folder's file 'specifications' starts
 Ctrl-C ends the run after the step at hand and keeps what was recorded; once more stops at once.)");
 }
 
 void add_check(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("check", "read a model or a scene and explain what is wrong");
-    command->add_option("file", line.check.file, "a scene (.toml) or a model (.l)")->required();
+    command
+        ->add_option("what", line.model.file,
+                     "a scene (.toml), a model (.l), the folder of an object, or a side file (.v, .a, .e, ...)")
+        ->required();
+    add_model_options(command, line);
+    add_drawing_options(command, line);
     add_set_option(command, line);
-    add_define_option(command, line);
-    command->add_flag("--cpfg-quirks", line.check.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
     command->add_flag("--json", line.check.json, "print the findings as JSON");
-    command->footer("Example:\n  espalier check models/course/02-branching.l");
+    command->footer(R"(Mistakes make the exit code 1; what only looks wrong is a warning.
+Examples:
+  espalier check models/course/02-branching.l
+  espalier check plant.l --view plant.v
+  espalier check plant.v
+  espalier check objects/lilac          every file of the object, and which of them it does not use)");
 }
 
 void add_derive(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("derive", "print the string of a model after its steps");
-    command->add_option("model", line.derive.model, "a model (.l)")->required();
+    command->add_option("model", line.model.file, "a model (.l), or the folder of an object")->required();
+    add_model_options(command, line);
+    add_drawing_options(command, line);
     add_growth_options(command, line);
-    add_define_option(command, line);
     command->add_option("--format", line.derive.format, "text (cpfg's notation), counts (per symbol) or json")
         ->check(CLI::IsMember({"text", "counts", "json"}));
     command->add_flag("--before-exchange", line.derive.before_exchange,
                       "leave the last step's queries unanswered, as cpfg does");
-    command->add_flag("--cpfg-quirks", line.derive.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
+    command->add_option("--files", line.derive.files, "folder for files the model writes; default: they are forgotten");
+    command->add_flag("--quiet", line.derive.quiet, "print no warnings");
     command->footer(
-        R"(Nothing surrounds the plant: ?P ?H ?L ?U ?Q are answered, ?E and named queries keep their parameters.
+        R"(The derivation length decides how far, not an animation. ?P ?H ?L ?U ?Q are answered by the turtle as the view
+file starts it; ?E and named queries keep their parameters unless an environment file says who answers.
 Examples:
   espalier derive models/course/02-branching.l --steps 3
-  espalier derive models/course/03-parameters.l --format counts)");
+  espalier derive models/course/03-parameters.l --format counts
+  espalier derive plant.l --view plant.v --environment plant.e
+  espalier derive objects/lilac --before-exchange)");
 }
 
 void add_info(CLI::App& program, CommandLine& line) {
@@ -152,9 +186,11 @@ void add_list(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("list", "document processes, symbols, recorders, models, scenes");
     command->add_option("kind", line.list.kind, fmt::format("{}", fmt::join(list_kinds(), ", ")));
     command->add_option("name", line.list.name, "one of them, in full");
+    command->add_option("--models", line.list.models, "the library of models; default: ./models, or the one installed");
     command->add_flag("--json", line.list.json, "print it as JSON");
     command->footer(
-        "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene");
+        "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene\n"
+        "  espalier list models\n  espalier list models koch");
 }
 
 // What CLI11 could make nothing of, options first; "" if it made something of everything.
@@ -188,7 +224,9 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
 }
 
 int run_subcommand(const CLI::App& program, CommandLine& line) {
+    line.model.defines = line.definitions();
     if (program.got_subcommand("run")) {
+        line.run.model = line.model;
         line.run.overrides = line.overrides();
         line.run.steps = line.steps_if_any();
         line.run.seed = line.seed_if_any();
@@ -196,14 +234,14 @@ int run_subcommand(const CLI::App& program, CommandLine& line) {
         return run_command(line.run);
     }
     if (program.got_subcommand("check")) {
+        line.check.model = line.model;
         line.check.overrides = line.overrides();
-        line.check.defines = line.definitions();
         return check_command(line.check);
     }
     if (program.got_subcommand("derive")) {
+        line.derive.model = line.model;
         line.derive.steps = line.steps_if_any();
         line.derive.seed = line.seed_if_any();
-        line.derive.defines = line.definitions();
         line.derive.memory = line.bytes();
         return derive_command(line.derive);
     }

@@ -1,6 +1,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "commands.h"
+#include "model_arguments.h"
 #include "progress.h"
 
 #include <fmt/chrono.h>
@@ -54,7 +55,7 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
     if (arguments.json) {
         const nlohmann::ordered_json json = {{"exit", result.interrupted ? "interrupted" : "done"},
                                              {"output", output.string()},
-                                             {"steps", scene.steps},
+                                             {"steps", result.last_step},
                                              {"steps_done", result.steps},
                                              {"stopped", result.stopped},
                                              {"plants", scene.plants.size()},
@@ -64,13 +65,25 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
         return;
     }
     if (arguments.quiet) return;
-    fmt::print("{}: {} of {} steps{}, {} modules in {} plant{}, {}\n", scene.name, result.steps, scene.steps,
+    fmt::print("{}: {} of {} steps{}, {} modules in {} plant{}, {}\n", scene.name, result.steps, result.last_step,
                result.interrupted ? " (interrupted)"
                : result.stopped   ? " (the model stopped)"
                                   : "",
                grouped(result.modules), scene.plants.size(), scene.plants.size() == 1 ? "" : "s",
                duration_text(result.seconds));
     fmt::print("{}\n", (output / "").string());
+}
+
+Scene scene_of(const RunArguments& arguments) {
+    const SceneOptions options{arguments.overrides, arguments.steps, arguments.seed};
+    if (is_scene(arguments.model.file)) {
+        reject_side_files(arguments.model);
+        return read_scene(arguments.model.file, options);
+    }
+    const ObjectFiles object = object_of(arguments.model);
+    const bool is_folder = fs::is_directory(arguments.model.file);
+    if (is_folder && !arguments.quiet) fmt::print(stderr, "{}: {}\n", object.name, taken_files(object));
+    return scene_of_object(object, options);
 }
 
 }  // namespace
@@ -82,16 +95,15 @@ int run_command(const RunArguments& arguments) {
     if (arguments.threads > 0) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
     }
-    const SceneOptions scene_options{arguments.overrides, arguments.steps, arguments.seed};
-    const bool is_scene = arguments.scene.extension() == ".toml";
-    const Scene scene =
-        is_scene ? read_scene(arguments.scene, scene_options) : scene_of_model(arguments.scene, scene_options);
+    const Scene scene = scene_of(arguments);
+    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
 
     RunOptions options;
     options.output = arguments.output.empty() ? default_output(scene.name) : arguments.output;
     options.overwrite = arguments.overwrite;
     options.memory = arguments.memory;
     options.interrupt = &interrupt;
+    if (!arguments.quiet) options.warn = print_warnings;
     RunResult result;
     {
         ProgressReport report(arguments.quiet);

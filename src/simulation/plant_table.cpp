@@ -2,6 +2,8 @@
 
 #include "espalier/base/random.h"
 
+#include "side_files.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -28,8 +30,8 @@ Tropism read_tropism(const Settings& table) {
     return tropism;
 }
 
-TurtleSettings read_turtle(const Settings& table) {
-    TurtleSettings turtle;
+// What the table does not say stays as the view file has it.
+TurtleSettings read_turtle(const Settings& table, TurtleSettings turtle) {
     const auto colour_index = [&](const char* key, int fallback) {
         return static_cast<int>(table.integer_or(key, fallback, Range::between(0, 65535)));
     };
@@ -41,6 +43,7 @@ TurtleSettings read_turtle(const Settings& table) {
     turtle.scale = table.number_or("scale", turtle.scale, Range::positive());
     turtle.scale_multiplier = table.number_or("scale_multiplier", turtle.scale_multiplier, Range::positive());
     turtle.past_cut = table.flag_or("past_cut", turtle.past_cut);
+    if (table.has("tropism")) turtle.tropisms.clear();
     for (const Settings& tropism : table.tables("tropism")) turtle.tropisms.push_back(read_tropism(tropism));
     table.reject_unread();
     return turtle;
@@ -93,18 +96,13 @@ Defines read_defines(const Settings& table) {
     return defines;
 }
 
-using ModelKey = std::pair<std::filesystem::path, Defines>;
-using Models = std::map<ModelKey, std::shared_ptr<const CompiledModel>>;
-
-std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, Models& models) {
-    const ModelKey key{table.path("model"), read_defines(table.table("define"))};
-    if (!std::filesystem::exists(key.first)) {
-        throw UserError(table.place("model"), fmt::format("there is no model {}", key.first.string()));
-    }
-    std::shared_ptr<const CompiledModel>& model = models[key];
-    if (!model) model = compile(read_model(key.first, {key.second, false}));
-    return model;
-}
+struct ModelKey {
+    std::filesystem::path path;
+    Defines defines;
+    bool quirks;
+    const View* view;
+    auto operator<=>(const ModelKey&) const = default;
+};
 
 Pose read_pose(const Settings& table) {
     Pose pose;
@@ -117,12 +115,21 @@ Pose read_pose(const Settings& table) {
 
 class PlantReader {
 public:
-    PlantReader(std::uint64_t seed, std::vector<PlantDescription>& plants) : seed_(seed), plants_(plants) {}
+    PlantReader(std::uint64_t seed, std::vector<PlantDescription>& plants, SceneNotes& notes)
+        : seed_(seed), plants_(plants), notes_(notes), side_files_(notes) {}
 
     void read(const Settings& table) {
         PlantDescription plant;
-        plant.model = compiled_model(table, models_);
-        plant.turtle = read_turtle(table.table("turtle"));
+        const Defines defines = read_defines(table.table("define"));
+        const std::filesystem::path folder = table.path_if_any("folder").value_or("");
+        // The view comes first: it names the functions that the model calls.
+        if (const auto view = table.path_if_any("view")) {
+            require_file(table, "view");
+            plant.view = side_files_.view(*view, defines, folder);
+        }
+        plant.palette = side_files_.palette(table);
+        plant.model = compiled_model(table, defines, plant.view.get());
+        plant.turtle = read_turtle(table.table("turtle"), plant.view ? plant.view->turtle : TurtleSettings());
         plant.turtle.pose = read_pose(table);
         const auto stream = static_cast<std::uint32_t>(
             table.integer_or("stream", static_cast<std::int64_t>(plants_.size()), Range::between(0, 4294967295.0)));
@@ -138,6 +145,29 @@ public:
     }
 
 private:
+    static void require_file(const Settings& table, const char* key) {
+        if (std::filesystem::exists(table.path(key))) return;
+        throw UserError(table.place(key), fmt::format("there is no {} {}", key, table.path(key).string()));
+    }
+
+    std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, const Defines& defines,
+                                                        const View* view) {
+        require_file(table, "model");
+        const ModelKey key{table.path("model"), defines, table.flag_or("cpfg_quirks", false), view};
+        std::shared_ptr<const CompiledModel>& model = models_[key];
+        if (model) return model;
+        ReadOptions options;
+        options.defines = defines;
+        options.quirks = key.quirks;
+        options.warnings = &notes_.diagnostics;
+        if (view) {
+            options.predefined = view->function_names;
+            options.resources = view->resources;
+        }
+        model = compile(read_model(key.path, options));
+        return model;
+    }
+
     // A name given twice is a mistake; a name nobody gave is made from the model's.
     std::string read_name(const Settings& table, const Model& model) {
         std::string name = table.text_or("name", "");
@@ -153,18 +183,21 @@ private:
 
     std::uint64_t seed_;
     std::vector<PlantDescription>& plants_;
+    SceneNotes& notes_;
+    SideFiles side_files_;
     std::set<std::string> names_;
-    Models models_;
+    std::map<ModelKey, std::shared_ptr<const CompiledModel>> models_;
 };
 
 }  // namespace
 
-std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes) {
+std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes,
+                                          SceneNotes& notes) {
     std::vector<PlantDescription> plants;
     mistakes.attempt([&] {
         const std::vector<Settings> tables = root.tables("plant");
         if (tables.empty()) throw UserError(root.place(), "no [[plant]] in this scene: at least one is needed");
-        PlantReader reader(seed, plants);
+        PlantReader reader(seed, plants, notes);
         for (const Settings& table : tables) {
             mistakes.attempt([&] { reader.read(table); });
         }

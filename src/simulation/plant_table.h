@@ -28,7 +28,8 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
-/// Reads every plant of the scene, in order. Plants with the same model and defines share one CompiledModel.
-std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes);
+/// Reads every plant of the scene, in order. Plants with the same model, defines and view share one CompiledModel.
+std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes,
+                                          SceneNotes& notes);
 
 }  // namespace espalier

@@ -24,6 +24,13 @@ Json plants_json(const Scene& scene, const World& world) {
     return plants;
 }
 
+// With the values that were used, those of environment files among them.
+Json processes_json(const Scene& scene) {
+    Json processes = Json::object();
+    for (const auto& [name, table] : scene.processes) processes[name] = Json::parse(table.resolved_json());
+    return processes;
+}
+
 Json overrides_json(const Scene& scene) {
     Json overrides = Json::array();
     for (const auto& [key, value] : scene.overrides) overrides.push_back(key + "=" + value);
@@ -62,6 +69,7 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
     json["memory"] = memory_;
     json["started"] = started_;
     json["plants"] = plants_json(scene_, world);
+    json["processes"] = processes_json(scene_);
     json["timings"] = {{"total", seconds},
                        {"derive", total_.derive},
                        {"interpret", total_.interpret},

@@ -2,7 +2,10 @@
 
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
+#include "espalier/simulation/object.h"
 
+#include "animation_file.h"
+#include "environment_file.h"
 #include "plant_table.h"
 
 #include <fmt/format.h>
@@ -38,25 +41,77 @@ std::optional<int> read_simulation(const Settings& table, Scene& scene) {
     return steps;
 }
 
+void add_notes(SceneNotes& notes, const std::filesystem::path& path, const std::vector<Diagnostic>& diagnostics,
+               const std::vector<std::string>& unused) {
+    notes.diagnostics.insert(notes.diagnostics.end(), diagnostics.begin(), diagnostics.end());
+    for (const std::string& setting : unused) notes.unused.push_back(path.string() + ": " + setting);
+}
+
+// Processes of an environment file (.e) stand before the scene's own.
+void add_environment_file(const Settings& table, Scene& scene) {
+    const std::filesystem::path folder = table.path_if_any("folder").value_or("");
+    if (!table.has("file")) return;
+    const std::filesystem::path path = table.path("file");
+    if (!std::filesystem::exists(path)) {
+        throw UserError(table.place("file"), fmt::format("there is no environment file {}", path.string()));
+    }
+    EnvironmentFile file = read_environment_file(path, folder);
+    add_notes(scene.notes, path, file.diagnostics, file.unused);
+    scene.notes.files.insert(scene.notes.files.end(), file.files.begin(), file.files.end());
+    scene.routed = file.routed;
+    if (scene.default_process.empty()) scene.default_process = file.processes.front().first;
+    for (auto& process : file.processes) scene.processes.push_back(std::move(process));
+}
+
 // The processes read their own parameters when the world makes them.
 void read_environment(const Settings& table, Scene& scene) {
     scene.default_process = table.text_or("default", "");
+    scene.keeps_unanswered = table.choice_or("unanswered", "error", {"error", "keep"}) == "keep";
+    add_environment_file(table, scene);
+    const std::vector<std::string> words{"default", "file", "folder", "unanswered"};
     for (const std::string& name : table.keys()) {
-        if (name == "default") continue;
+        if (std::find(words.begin(), words.end(), name) != words.end()) continue;
         if (!table.is_table(name)) {
             throw UserError(table.place(name),
                             fmt::format("'{}' must be a table: [environment.{}] with process = \"...\"{}", name, name,
-                                        did_you_mean(name, std::vector<std::string>{"default"})));
+                                        did_you_mean(name, words)));
         }
         scene.processes.emplace_back(name, table.table(name));
     }
-    const auto has_name = [&](const auto& process) { return process.first == scene.default_process; };
-    if (scene.default_process.empty() || std::any_of(scene.processes.begin(), scene.processes.end(), has_name)) return;
     std::vector<std::string> names;
-    for (const auto& process : scene.processes) names.push_back(process.first);
+    for (const auto& process : scene.processes) {
+        if (std::find(names.begin(), names.end(), process.first) != names.end()) {
+            throw UserError(table.place(process.first),
+                            fmt::format("the environment file has a process '{}' already", process.first));
+        }
+        names.push_back(process.first);
+    }
+    if (scene.default_process.empty()) return;
+    if (std::find(names.begin(), names.end(), scene.default_process) != names.end()) return;
     throw UserError(table.place("default"),
                     fmt::format("no process of this scene is called '{}'{}", scene.default_process,
                                 did_you_mean(scene.default_process, names)));
+}
+
+// An animation file says which steps become frames, and which is the last.
+void read_timeline(const Settings& table, Scene& scene) {
+    scene.timeline = table;
+    if (!table.has("animation")) return;
+    const std::filesystem::path path = table.path("animation");
+    for (const char* other : {"first", "every"}) {
+        if (table.has(other)) {
+            throw UserError(table.place(other),
+                            fmt::format("the animation file says which steps are frames; without '{}'", other));
+        }
+    }
+    if (!std::filesystem::exists(path)) {
+        throw UserError(table.place("animation"), fmt::format("there is no animation file {}", path.string()));
+    }
+    const Animation animation = read_animation_file(path);
+    add_notes(scene.notes, path, animation.diagnostics, animation.unused);
+    scene.notes.files.push_back(path);
+    scene.frames = animation.frames;
+    scene.last_frame = animation.last;
 }
 
 void reject_unknown_tables(const Settings& root) {
@@ -83,6 +138,20 @@ int longest_derivation(const std::vector<PlantDescription>& plants) {
     return length;
 }
 
+// Steps that the scene gives are the derivation length of all plants; an animation's last frame leaves it alone.
+void set_steps(const std::optional<int>& given, Scene& scene) {
+    scene.steps = given ? *given : longest_derivation(scene.plants);
+    if (given) scene.last_frame.reset();
+    if (!scene.frames) return;
+    scene.sets_length = given.has_value();
+    if (scene.last_frame) {
+        scene.steps = *scene.last_frame;
+    } else if (!given && scene.steps < scene.frames->first) {
+        scene.steps = scene.frames->first;
+        scene.last_frame = scene.steps;
+    }
+}
+
 Scene read(Settings root, Scene scene, const SceneOptions& options) {
     scene.overrides = options.overrides;
     if (options.steps) scene.overrides.emplace_back("simulation.steps", std::to_string(*options.steps));
@@ -94,11 +163,11 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     mistakes.attempt([&] { reject_unknown_tables(root); });
     mistakes.attempt([&] { steps = read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
-    mistakes.attempt([&] { scene.timeline = root.table("timeline"); });
-    scene.plants = read_plants(root, scene.seed, mistakes);
+    mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
+    scene.plants = read_plants(root, scene.seed, mistakes, scene.notes);
     mistakes.throw_if_any();
-    scene.steps = steps ? *steps : longest_derivation(scene.plants);
-    if (!steps) root.set("simulation.steps", std::to_string(scene.steps));
+    set_steps(steps, scene);
+    if (!steps && !scene.frames) root.set("simulation.steps", std::to_string(scene.steps));
     scene.root = root;
     return scene;
 }
@@ -123,13 +192,9 @@ Scene read_scene_text(std::string_view text, const std::string& name, const std:
 }
 
 Scene scene_of_model(const std::filesystem::path& model, const SceneOptions& options) {
-    Scene scene;
-    scene.name = model.stem().string();
-    scene.text = "[[plant]]\n";
-    Settings root = Settings::parse_toml(scene.text, model.string());
-    SceneOptions with_model = options;
-    with_model.overrides.insert(with_model.overrides.begin(), {"plant.0.model", model.string()});
-    return read(std::move(root), std::move(scene), with_model);
+    ObjectFiles object;
+    object.model = model;
+    return scene_of_object(object, options);
 }
 
 const char* scene_help() {
@@ -149,19 +214,34 @@ const char* scene_help() {
   heading      [0, 1, 0]; where the turtle looks
   roll         0 degrees about the heading
   define       { NAME = value }: overrides #define NAME of the model
+  cpfg_quirks  false; trunc rounds, x/0 = x, subscripts are clamped
+  view         a view file (.v): how the turtle starts, and surfaces, contours, functions, curves
+  colour_map   a file (.map) for set 1, or { 1 = file, 2 = file }
+  materials    the same with materials (.mat)
+  folder       where files are looked for that are not beside the file that names them
   stream       its number in the scene; which random numbers it draws
-  turtle       { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
+  turtle       over the view file: { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
                  colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
                  tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0,
                               elasticity_step = 0, torque = false }] }
 
 [environment]
   default      the process that answers ?E; default: the only one
+  file         an environment file (.e), whose process answers ?E
+  folder       where its parameter file is looked for, if it is not beside it
+  unanswered   "error", or "keep": queries nobody answers keep their parameters
 
 [environment.<name>]
   process      what it is: `espalier list processes`; its parameters stand beside it
+  digits       0; so many significant digits carry a question and its answer, 0: all
+  turtle       { position = "%.4f %.4f %.4f", heading, left, up, line_width, scale_factor }: printf formats through
+               which the turtle's state reaches the process
+  following_module  true; the process sees the module that follows the query
 
 [timeline]     `espalier list recorders`
+  first        0; the first frame
+  every        1; steps from frame to frame; the last step is always one
+  animation    an animation file (.a) that says which steps are frames, instead of `first` and `every`
 )";
 }
 

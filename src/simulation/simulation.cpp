@@ -12,7 +12,11 @@ namespace {
 class Run {
 public:
     Run(const Scene& scene, const RunOptions& options)
-        : scene_(scene), options_(options), world_(scene, options.memory), record_(scene, options) {
+        : scene_(scene),
+          options_(options),
+          world_(scene, options.memory, files_folder(options)),
+          record_(scene, options) {
+        if (options.warn) options.warn(world_.warnings());
         if (!options.output.empty()) open_timeline();
     }
 
@@ -24,12 +28,16 @@ public:
             end_failed(error.what());
             throw;
         }
-        const bool cut_short = !world_.stopped() && world_.steps_done() < scene_.steps;
+        const bool cut_short = !at_end();
         write_record(cut_short ? "interrupted" : "done");
-        return {world_.steps_done(), cut_short, world_.stopped(), world_.modules(), seconds()};
+        return {world_.steps_done(), world_.last_step(), cut_short, world_.stopped(), world_.modules(), seconds()};
     }
 
 private:
+    static std::filesystem::path files_folder(const RunOptions& options) {
+        return options.output.empty() ? std::filesystem::path() : options.output / "files";
+    }
+
     // A mistake in the scene's [timeline] should not leave an empty folder behind.
     void open_timeline() {
         const bool existed = std::filesystem::exists(options_.output);
@@ -39,6 +47,7 @@ private:
             if (!existed) remove_if_unused(options_.output);
             throw;
         }
+        if (scene_.frames) timeline_->choose(*scene_.frames);
         write_record("running");
     }
 
@@ -51,19 +60,23 @@ private:
     void grow() {
         world_.start();
         record_frame();
-        while (world_.steps_done() < scene_.steps && !world_.stopped() && !interrupted()) {
+        while (!at_end() && !interrupted()) {
             world_.step();
             record_frame();
         }
     }
 
+    // Asked anew after every step: a model may stop, or change its derivation length.
+    bool at_end() const { return world_.stopped() || world_.steps_done() >= world_.last_step(); }
+
     void record_frame() {
         StageTimes times = world_.times();
         const auto begin = std::chrono::steady_clock::now();
-        if (timeline_) timeline_->record(world_.frame());
+        if (timeline_) timeline_->record(world_.frame(), at_end());
         times.record = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         record_.add_step(times);
-        if (options_.progress) options_.progress({world_.steps_done(), scene_.steps, world_.modules(), seconds()});
+        if (options_.progress)
+            options_.progress({world_.steps_done(), world_.last_step(), world_.modules(), seconds()});
     }
 
     // What made the run fail is what the user must read; a disk too full to write it down is not.

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <exception>
 
@@ -30,6 +32,17 @@ private:
     std::chrono::steady_clock::time_point begin_;
 };
 
+// A plant's name as the name of a folder; names that differ stay different.
+std::string folder_of(const std::string& name) {
+    std::string folder;
+    for (const char c : name) {
+        const bool plain =
+            std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || (c == '.' && !folder.empty());
+        folder += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return folder;
+}
+
 }  // namespace
 
 struct World::State {
@@ -40,6 +53,7 @@ struct World::State {
     int step = 0;
     StageTimes times;
     std::vector<PlantFrame> frames;
+    std::vector<Diagnostic> warnings;
 
     double time() const { return step * scene.dt; }
     template <class Action>
@@ -48,6 +62,7 @@ struct World::State {
     void interpret_and_exchange();
     void require_strings_fit() const;
     void make_frames();
+    DerivationSettings settings_of(const PlantDescription& plant, const std::filesystem::path& files) const;
 };
 
 // All plants in parallel. Of several failures the first plant's is reported, whoever failed first.
@@ -108,19 +123,37 @@ void World::State::make_frames() {
     for (const Plant& plant : plants) {
         const auto number = static_cast<std::uint32_t>(frames.size());
         frames.push_back({number, plant.description->name, plant.model, &plant.string, &plant.interpretation,
-                          environment->statistics(number)});
+                          environment->statistics(number), plant.description->palette.get()});
     }
 }
 
-World::World(const Scene& scene, std::size_t memory) : state_(std::make_unique<State>()) {
+DerivationSettings World::State::settings_of(const PlantDescription& plant, const std::filesystem::path& files) const {
+    DerivationSettings settings;
+    settings.seed = scene.seed;
+    settings.plant = plant.stream;
+    settings.lineage = true;
+    settings.memory = shares.strings;
+    settings.input_folder = source_of(*plant.model).path.parent_path();
+    if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
+    return settings;
+}
+
+World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files)
+    : state_(std::make_unique<State>()) {
     State& state = *state_;
     state.scene = scene;
     state.shares = share_memory(memory, scene.processes.size());
-    const EnvironmentContext context{"", scene.domain, scene.seed, static_cast<std::uint32_t>(scene.plants.size()),
-                                     state.shares.process};
+    const EnvironmentContext context{"",
+                                     scene.domain,
+                                     scene.seed,
+                                     static_cast<std::uint32_t>(scene.plants.size()),
+                                     state.shares.process,
+                                     &state.warnings};
     state.environment = std::make_unique<Environment>(scene.processes, context);
     for (const auto& process : scene.processes) process.second.reject_unread();
     if (!scene.default_process.empty()) state.environment->set_default(scene.default_process);
+    if (scene.routed) state.environment->route_by_first_parameter();
+    if (scene.keeps_unanswered) state.environment->keep_unanswered();
 
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
     state.plants.reserve(scene.plants.size());
@@ -129,8 +162,8 @@ World::World(const Scene& scene, std::size_t memory) : state_(std::make_unique<S
         state.environment->require_answers(model, description.name);
         auto& table = symbols[description.model.get()];
         if (!table) table = symbol_table(model);
-        Derivation derivation(description.model, {scene.seed, description.stream, true, state.shares.strings, {}});
-        derivation.set_length(scene.steps);
+        Derivation derivation(description.model, state.settings_of(description, files));
+        if (scene.sets_length) derivation.set_length(scene.steps);
         state.plants.push_back({&description, &model, table, std::move(derivation), {}, {}, {}});
     }
 }
@@ -138,17 +171,36 @@ World::World(const Scene& scene, std::size_t memory) : state_(std::make_unique<S
 World::~World() = default;
 
 void World::start() {
-    state_->derive([](Plant& plant) { plant.derivation.start(plant.string); });
-    state_->interpret_and_exchange();
+    plant_axioms();
+    exchange();
 }
 
 void World::step() {
+    derive();
+    exchange();
+}
+
+void World::plant_axioms() {
+    state_->derive([](Plant& plant) { plant.derivation.start(plant.string); });
+}
+
+void World::exchange() {
+    state_->interpret_and_exchange();
+}
+
+void World::derive() {
     ++state_->step;
     state_->derive([](Plant& plant) {
         plant.derivation.step(plant.string, plant.next);
         std::swap(plant.string, plant.next);
     });
-    state_->interpret_and_exchange();
+}
+
+int World::last_step() const {
+    if (state_->scene.last_frame) return *state_->scene.last_frame;
+    int longest = 0;
+    for (const Plant& plant : state_->plants) longest = std::max(longest, plant.derivation.length());
+    return longest;
 }
 
 int World::steps_done() const {
@@ -190,6 +242,10 @@ const Model& World::model(std::size_t plant) const {
 
 const Environment& World::environment() const {
     return *state_->environment;
+}
+
+const std::vector<Diagnostic>& World::warnings() const {
+    return state_->warnings;
 }
 
 std::size_t World::size() const {

@@ -22,10 +22,13 @@ struct RunOptions {
     std::size_t memory = 0;                        ///< bytes; 0: half of the machine
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
     std::function<void(const Progress&)> progress = nullptr;
+    /// Told once, before anything grows, what the processes passed over in their parameter files.
+    std::function<void(const std::vector<Diagnostic>&)> warn = nullptr;
 };
 
 struct RunResult {
     int steps = 0;
+    int last_step = 0;  ///< where it was to end
     bool interrupted = false;
     bool stopped = false;  ///< a model called stop()
     std::size_t modules = 0;

@@ -4,6 +4,7 @@
 #include "espalier/simulation/scene.h"
 #include "espalier/timeline/frame.h"
 
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -16,8 +17,9 @@ struct StageTimes {
 
 class World {
 public:
-    /// Throws UserError for processes that cannot be made or queries nobody answers.
-    World(const Scene& scene, std::size_t memory = std::size_t(-1));
+    /// Throws UserError for processes that cannot be made or queries nobody answers. What models write goes into
+    /// `files`, below a folder of the plant's name if there are several; without it nothing is kept.
+    World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {});
     ~World();
 
     /// Frame 0: every axiom, interpreted and exchanged.
@@ -25,7 +27,14 @@ public:
     /// derive -> interpret -> exchange, for every plant; frame k is k steps.
     void step();
 
+    // The parts of start() and step(), for who wants to see a string before its queries are answered.
+    void plant_axioms();
+    void derive();
+    void exchange();
+
     int steps_done() const;
+    /// Where the run ends: an animation's last frame, or the longest derivation length, which models may change.
+    int last_step() const;
     bool stopped() const;  ///< a model called stop()
     std::size_t modules() const;
     const StageTimes& times() const;
@@ -35,6 +44,8 @@ public:
     const Interpretation& interpretation(std::size_t plant) const;
     const Model& model(std::size_t plant) const;
     const Environment& environment() const;
+    /// What the processes passed over in their parameter files.
+    const std::vector<Diagnostic>& warnings() const;
     std::size_t size() const;
 
 private:

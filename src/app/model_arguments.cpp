@@ -1,0 +1,98 @@
+#include "model_arguments.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <set>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+// FILE is set 1, N=FILE set N.
+void add_sets(const std::vector<std::string>& files, const char* option, std::map<int, fs::path>& sets) {
+    for (const std::string& text : files) {
+        const std::size_t equals = text.find('=');
+        const std::string number = equals == std::string::npos ? "" : text.substr(0, equals);
+        const bool numbered =
+            !number.empty() && number.size() <= 3 && number.find_first_not_of("0123456789") == std::string::npos;
+        const fs::path file = numbered ? text.substr(equals + 1) : text;
+        if (!fs::is_regular_file(file)) {
+            throw UserError(fmt::format("{} {}: there is no file {}", option, text, file.string()));
+        }
+        sets[numbered ? std::stoi(number) : 1] = file;
+    }
+}
+
+}  // namespace
+
+bool is_scene(const fs::path& path) {
+    return path.extension() == ".toml";
+}
+
+ObjectFiles object_of(const ModelArguments& arguments) {
+    ObjectFiles object;
+    if (fs::is_directory(arguments.file)) {
+        object = read_object_folder(arguments.file);
+    } else {
+        object.model = arguments.file;
+    }
+    if (!arguments.view.empty()) object.view = arguments.view;
+    if (!arguments.animation.empty()) object.animation = arguments.animation;
+    if (!arguments.environment.empty()) object.environment = arguments.environment;
+    if (!arguments.colour_maps.empty() || !arguments.materials.empty()) {
+        object.colour_maps.clear();
+        object.materials.clear();
+    }
+    add_sets(arguments.colour_maps, "--colour-map", object.colour_maps);
+    add_sets(arguments.materials, "--materials", object.materials);
+    if (arguments.without_environment) object.environment.clear();
+    object.warns_of_unanswered = !arguments.without_environment;
+    object.defines = Defines(arguments.defines.begin(), arguments.defines.end());
+    object.quirks = arguments.quirks;
+    return object;
+}
+
+void reject_side_files(const ModelArguments& arguments) {
+    const std::vector<std::pair<bool, const char*>> given{{!arguments.view.empty(), "--view"},
+                                                          {!arguments.animation.empty(), "--animate"},
+                                                          {!arguments.environment.empty(), "--environment"},
+                                                          {!arguments.colour_maps.empty(), "--colour-map"},
+                                                          {!arguments.materials.empty(), "--materials"},
+                                                          {arguments.without_environment, "--without-environment"},
+                                                          {!arguments.defines.empty(), "--define"},
+                                                          {arguments.quirks, "--cpfg-quirks"}};
+    for (const auto& [is_given, option] : given) {
+        if (is_given) {
+            throw UserError(
+                fmt::format("{} is for a model alone; a scene names its files itself (espalier list scene)", option));
+        }
+    }
+}
+
+std::string taken_files(const ObjectFiles& object) {
+    std::vector<std::string> taken{"model " + object.model.filename().string()};
+    const auto add = [&](const char* what, const fs::path& path) {
+        if (!path.empty()) taken.push_back(fmt::format("{} {}", what, path.filename().string()));
+    };
+    add("view", object.view);
+    add("animation", object.animation);
+    add("environment", object.environment);
+    for (const auto& [set, file] : object.colour_maps) add(fmt::format("colours {}", set).c_str(), file);
+    for (const auto& [set, file] : object.materials) add(fmt::format("materials {}", set).c_str(), file);
+    return fmt::format("{}", fmt::join(taken, ", "));
+}
+
+void print_warnings(const std::vector<Diagnostic>& diagnostics) {
+    std::set<std::string> said;
+    for (Diagnostic diagnostic : diagnostics) {
+        diagnostic.severity = Diagnostic::Severity::warning;
+        const std::string text = to_string(diagnostic);
+        // Nobody is left to be told of messages that cannot be written.
+        if (said.insert(text).second) std::fputs((text + "\n").c_str(), stderr);
+    }
+}
+
+}  // namespace espalier

@@ -1,0 +1,28 @@
+// The models that come with Espalier: where they are, and what each says of itself.
+#pragma once
+
+#include "espalier/base/registry.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// The folder given, or else the first there is of: `models` here or in a folder above, that of the sources this
+/// program was built from, and the one installed with it. Throws UserError if there is none.
+std::filesystem::path model_library(const std::filesystem::path& given);
+
+/// Every model below a folder: its path, the first line of its leading comment without a number in front, and the rest
+/// of that comment. Sorted folder by folder.
+std::vector<PartDescription> models_of(const std::filesystem::path& folder);
+
+/// The same of one file, whatever its kind.
+PartDescription describe_file(const std::filesystem::path& file);
+
+void print_part(const PartDescription& part);
+/// Names and summaries in two columns.
+void print_parts(const std::vector<PartDescription>& parts);
+void print_json(const std::vector<PartDescription>& parts);
+
+}  // namespace espalier

@@ -1,0 +1,18 @@
+// Files that other files name.
+#pragma once
+
+#include "espalier/base/error.h"
+
+#include <filesystem>
+#include <string>
+
+namespace espalier {
+
+/// The file called `name` beside the one that names it, or else in `folder`. Throws UserError if it is in neither.
+std::filesystem::path named_file(const std::string& name, const std::filesystem::path& beside,
+                                 const std::filesystem::path& folder, const Place& place);
+
+/// A text as TOML writes it, in quotes.
+std::string toml_text(const std::string& text);
+
+}  // namespace espalier

@@ -1,0 +1,30 @@
+// Files of plain lines (.a, .e, specifications): no comments, nothing preprocessed.
+#pragma once
+
+#include "espalier/base/error.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace espalier {
+
+struct PlainLine {
+    std::string text;  ///< without its line end, be it \n or \r\n
+    Place place;       ///< of its first character
+};
+
+/// `name` is the file's, for the places.
+std::vector<PlainLine> plain_lines(std::string_view text, const std::string& name);
+
+/// The words between any of the separators; none of them is empty.
+std::vector<std::string> words_of(std::string_view text, std::string_view separators);
+
+/// The text without blanks and tabs around it.
+std::string trimmed(std::string_view text);
+
+/// The number a word begins with, as atoi() reads it, within a thousand millions; nothing if it begins with none.
+std::optional<int> leading_integer(std::string_view word);
+
+}  // namespace espalier
