@@ -54,7 +54,7 @@ private:
 
     void expect(std::string_view literal) {
         skip();
-        if (text_.at_end()) throw Truncated();
+        if (text_.rest() != literal && literal.starts_with(text_.rest())) throw Truncated();
         if (!text_.accept(literal)) text_.fail(fmt::format("here '{}' should stand", literal));
     }
     double number() {
