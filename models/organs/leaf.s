@@ -1,0 +1,16 @@
+-1 1  0 1  -1 1
+PRECISION S: 6 T: 4
+CONTACT POINT  X: 0 Y: 0 Z: 0
+END POINT  X: 0 Y: 1 Z: 0
+HEADING  X: 0 Y: 1 Z: 0
+UP  X: 0 Y: 0 Z: -1
+SIZE: 1
+leaf
+TOP COLOR: 0 DIFFUSE: 0 BOTTOM COLOR: 0 DIFFUSE: 0
+AL: ~ A: ~ AR: ~
+L: ~ R: ~
+BL: ~ B: ~ BR: ~
+0 0 0   0 0 0   0 0 0   0 0 0
+-0.5 0.3 0.12   -0.166667 0.3 -0.1   0.166667 0.3 -0.1   0.5 0.3 0.12
+-0.4 0.75 0.12   -0.133333 0.75 -0.02   0.133333 0.75 -0.02   0.4 0.75 0.12
+0 1 -0.12   0 1 -0.12   0 1 -0.12   0 1 -0.12
