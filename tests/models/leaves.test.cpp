@@ -176,16 +176,16 @@ TEST_CASE("compound-leaf-alternate: a(n) = a(n-1) + a(n-1-D), laterals left and 
             leaf.grow(1);
             CHECK(leaf.counts()["F"] == segments);
         }
+        // The first module of each branch of the main axis is its turn to the left or to the right.
         std::vector<bool> left;
         const auto symbols = symbols_of(leaf.string, leaf.model->alphabet);
         int depth = 0;
-        for (const std::string& symbol : symbols) {
-            if (symbol == "[") ++depth;
-            if (symbol == "]") --depth;
-            if (depth == 1 && (symbol == "+" || symbol == "-")) left.push_back(symbol == "+");
+        for (std::size_t i = 0; i < symbols.size(); ++i) {
+            if (symbols[i] == "[" && ++depth == 1) left.push_back(symbols[i + 1] == "+");
+            if (symbols[i] == "]") --depth;
         }
-        left.resize(6);  // the first ones are the main axis's own, before its laterals bear any
-        for (std::size_t i = 1; i < 2; ++i) CHECK(left[i] != left[i - 1]);
+        REQUIRE(left.size() == 14);
+        for (std::size_t i = 1; i < left.size(); ++i) CHECK(left[i] != left[i - 1]);
     }
 }
 
