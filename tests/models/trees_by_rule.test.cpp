@@ -282,3 +282,33 @@ TEST_CASE("pipe-model: r^n adds up at every fork, and the base carries r0 k^(1/n
         CHECK(forks_of(tree).front().parent == Approx(0.01 * std::pow(tree.counts()["T"], 1 / n)).epsilon(1e-9));
     }
 }
+
+TEST_CASE("vigour: what buds get adds up to ALPHA times their number; with an even share the tree is full", "[trees]") {
+    for (const char* share : {"0.5", "0.58", "0.7"}) {
+        LonePlant tree("models/trees/vigour.l", {{"LAMBDA", share}, {"ALPHA", "1.2"}});
+        for (int year = 1; year <= 7; ++year) {
+            tree.grow(year == 1 ? 31 : 32);  // to the last step of the year
+            const std::vector<double> vigour = values_of(tree.string, tree.model->alphabet, "T");
+            double sum = 0;
+            for (double each : vigour) {
+                REQUIRE(each >= 0);
+                sum += each;
+            }
+            const double buds = static_cast<double>(vigour.size());
+            CHECK(sum == Approx(1.2 * buds).epsilon(1e-12));
+            if (std::string(share) == "0.5") CHECK(vigour.size() == std::size_t(1) << (year - 1));
+        }
+    }
+}
+
+TEST_CASE("vigour: the more the straight axis is favoured, the taller and narrower the tree", "[trees]") {
+    double slenderness = 0;
+    for (const char* share : {"0.5", "0.58", "0.7"}) {
+        LonePlant tree("models/trees/vigour.l", {{"LAMBDA", share}});
+        tree.grow(10 * 32);
+        const Box& box = tree.interpretation.geometry.bounds;
+        const double width = std::max(box.upper.x - box.lower.x, box.upper.z - box.lower.z);
+        CHECK(box.upper.y / width > 1.05 * slenderness);
+        slenderness = box.upper.y / width;
+    }
+}
