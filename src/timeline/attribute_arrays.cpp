@@ -10,6 +10,9 @@
 #include <vtkTypeUInt64Array.h>
 #include <vtkTypeUInt8Array.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace espalier {
@@ -62,6 +65,55 @@ void AttributeArrays::add_attributes(vtkFieldData& data, const Column<Owner>& ow
     add_array<vtkTypeUInt16Array>(data, "colour", owners, [](const Owner& owner) { return owner.colour; });
     add_array<vtkTypeUInt8Array>(data, "kind", owners,
                                  [](const Owner& owner) { return static_cast<std::uint8_t>(owner.kind); });
+}
+
+void AttributeArrays::add_looks(vtkFieldData& data, const Column<Owner>& owners,
+                                std::vector<std::string>& texture_files) const {
+    // Texture k of a plant is file numbers[k] of the run, whose file 0 is none.
+    if (texture_files.empty()) texture_files.emplace_back();
+    std::vector<std::vector<std::uint16_t>> numbers;
+    for (const Plant& plant : plants_) {
+        numbers.emplace_back(1, std::uint16_t{0});
+        const Shapes* shapes = plant.frame->interpretation->geometry.shapes.get();
+        if (!shapes) continue;
+        for (const Texture& texture : shapes->textures) {
+            const auto known = std::find(texture_files.begin() + 1, texture_files.end(), texture.file.string());
+            numbers.back().push_back(static_cast<std::uint16_t>(known - texture_files.begin()));
+            if (known == texture_files.end()) texture_files.push_back(texture.file.string());
+        }
+    }
+    add_array<vtkTypeUInt16Array>(data, "texture", owners, [&](const Owner& owner) {
+        const std::vector<std::uint16_t>& known = numbers[owner.plant];
+        return owner.look.texture < known.size() ? known[owner.look.texture] : std::uint16_t{0};
+    });
+    add_array<vtkTypeUInt16Array>(data, "back_colour", owners,
+                                  [](const Owner& owner) { return owner.look.back_colour; });
+}
+
+void AttributeArrays::add_colours(vtkFieldData& data, const Column<Owner>& owners) const {
+    using Colour = std::array<std::uint8_t, 3>;
+    if (std::none_of(plants_.begin(), plants_.end(), [](const Plant& plant) { return plant.frame->palette; })) return;
+    std::size_t colours = 0;
+    for (const Owner& owner : owners) colours = std::max(colours, std::size_t{owner.colour} + 1);
+    std::vector<std::vector<Colour>> tables;
+    for (const Plant& plant : plants_) {
+        std::vector<Colour>& table = tables.emplace_back(colours, Colour{255, 255, 255});
+        if (!plant.frame->palette) continue;
+        for (std::size_t colour = 0; colour < colours; ++colour) {
+            const Material material = plant.frame->palette->material(static_cast<int>(colour));
+            for (int k = 0; k < 3; ++k) {
+                const double light = std::clamp(material.diffuse[k] + material.emissive[k], 0.0, 1.0);
+                table[colour][static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(255 * light));
+            }
+        }
+    }
+    vtkNew<vtkTypeUInt8Array> array;
+    array->SetName("rgb");
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(owners.size()));
+    std::uint8_t* values = array->GetPointer(0);
+    for (const Owner& owner : owners) values = std::copy_n(tables[owner.plant][owner.colour].begin(), 3, values);
+    data.AddArray(array);
 }
 
 void AttributeArrays::add_parameters(vtkFieldData& data, const Column<Owner>& owners) const {

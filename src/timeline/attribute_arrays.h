@@ -23,6 +23,10 @@ public:
 
     /// identity, parent, plant, symbol, birth, order, colour, kind; zero where a string keeps no lineage.
     void add_attributes(vtkFieldData& data, const Column<Owner>& owners) const;
+    /// texture (index into `texture_files`) and back_colour.
+    void add_looks(vtkFieldData& data, const Column<Owner>& owners, std::vector<std::string>& texture_files) const;
+    /// rgb, as the plants' palettes say, white where a plant has none; nothing if no plant has one.
+    void add_colours(vtkFieldData& data, const Column<Owner>& owners) const;
     /// The chosen parameters, as doubles; NaN where a module has none.
     void add_parameters(vtkFieldData& data, const Column<Owner>& owners) const;
 

@@ -6,11 +6,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace espalier {
 
-enum class Kind : std::uint8_t { query = 0, axis = 1, polygon = 2, organ = 3 };
+enum class Kind : std::uint8_t { query = 0, axis = 1, polygon = 2, organ = 3, cylinder = 4, patch = 5, label = 6 };
 
 /// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
 struct Owner {
@@ -19,6 +20,7 @@ struct Owner {
     std::uint16_t order;
     std::uint16_t colour;
     Kind kind;
+    Look look = {};
 };
 
 /// Cells of one kind of VTK's: cell i has the points connectivity[offsets[i]] .. connectivity[offsets[i + 1] - 1].
@@ -34,14 +36,17 @@ struct Cells {
 
 /// Reused from frame to frame: clear() keeps the memory.
 struct PlantMesh {
-    Column<float> points;  ///< x, y, z of one point after the other
+    Column<float> points;   ///< x, y, z of one point after the other
+    Column<float> normals;  ///< across the axis on axes
+    Column<float> uvs;      ///< two a point
     Column<float> radii;
     Column<Owner> owners;  ///< of the points
     Cells vertices, lines, polygons;
+    std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
 
     void clear();
-    /// Returns the point's number. Throws RunError beyond 2^31 points.
-    std::int32_t add_point(const glm::dvec3& position, double radius, const Owner& owner);
+    /// Returns the point's number. Throws RunError beyond 2^28 points.
+    std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner);
 };
 
 /// One line per axis, broken where the next internode does not begin where the last ended.
@@ -50,6 +55,9 @@ struct PlantMesh {
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+/// Generalized cylinders and patches. A ring between two pieces belongs to the first.
+void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 /// The queries that are `wanted`, as vertices.
 void add_queries(PlantMesh& mesh, const std::vector<Query>& queries, const std::function<bool(const Query&)>& wanted,
                  std::uint32_t plant);

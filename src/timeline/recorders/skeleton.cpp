@@ -1,9 +1,12 @@
-// The plants of every frame: plants.pvd, and plants/NNNN.vtp with a line per axis, organs and polygons.
+// The plants of every frame: plants.pvd, and plants/NNNN.vtp with a line per axis; polygons, organs, generalized
+// cylinders and patches; labels.
 //
 // Parameters: skeleton (true or false, default true); parameters (table of array name = "SYMBOL.NUMBER"): module
 // parameters that become point arrays; a query's ("?E.1") also makes its queries vertices.
 // Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
-// (0 query, 1 axis, 2 polygon, 3 organ); point arrays besides: radius and the chosen parameters.
+// (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
+// cell arrays besides: texture (index into texture_files) and back_colour; point arrays besides: Normals, TCoords,
+// radius and the chosen parameters. Field data: the texts of the labels, in the order of their vertices.
 #include "espalier/timeline/recorder.h"
 
 #include "timeline/attribute_arrays.h"
@@ -64,6 +67,8 @@ private:
             add_axes(mesh_, plant.interpretation->geometry, i);
             add_polygons(mesh_, plant.interpretation->geometry, i);
             add_organs(mesh_, plant.interpretation->geometry, i);
+            add_pieces(mesh_, plant.interpretation->geometry, i);
+            add_labels(mesh_, plant.interpretation->geometry, i);
         }
     }
 
@@ -91,9 +96,17 @@ private:
         const AttributeArrays arrays(frame, symbols_, chosen_);
         vtkPointData& of_points = *data->GetPointData();
         of_points.AddArray(array_over<vtkFloatArray>("radius", mesh_.radii.data(), mesh_.radii.size()));
+        of_points.SetNormals(array_over<vtkFloatArray>("Normals", mesh_.normals.data(), mesh_.normals.size(), 3));
+        of_points.SetTCoords(array_over<vtkFloatArray>("TCoords", mesh_.uvs.data(), mesh_.uvs.size(), 2));
         arrays.add_attributes(of_points, mesh_.owners);
+        arrays.add_colours(of_points, mesh_.owners);
         arrays.add_parameters(of_points, mesh_.owners);
-        arrays.add_attributes(*data->GetCellData(), cell_owners());
+        vtkCellData& of_cells = *data->GetCellData();
+        arrays.add_attributes(of_cells, cell_owners());
+        arrays.add_looks(of_cells, cell_owners_, texture_files_);
+        arrays.add_colours(of_cells, cell_owners_);
+        add_texts(*data->GetFieldData(), "texture_files", texture_files_);
+        add_texts(*data->GetFieldData(), "label_texts", mesh_.labels);
         add_time(*data->GetFieldData(), frame.time, frame.step);
         add_texts(*data->GetFieldData(), "symbol_names", symbols_.names());
         return data;
@@ -113,12 +126,13 @@ private:
     std::vector<ChosenParameter> chosen_;
     bool checked_ = false;  ///< the chosen parameters against the models
     SymbolNumbers symbols_;
+    std::vector<std::string> texture_files_;  ///< of the run so far, the first ""
     PlantMesh mesh_;
     Column<Owner> cell_owners_;
 };
 
 const RegisteredRecorder entry{
-    {"skeleton", "plants.pvd and plants/NNNN.vtp: a line per axis, organs and polygons, with identities",
+    {"skeleton", "plants.pvd and plants/NNNN.vtp: a line per axis, organs and surfaces, with identities",
      "skeleton (true or false, true): write them\n"
      "parameters (table, none): arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }:\n"
      "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points"},
