@@ -85,7 +85,7 @@ public:
 private:
     void compile_arrays();
     void compile_blocks();
-    CompiledRules compile_rules(const std::vector<Production>& productions, bool stochastic, bool single);
+    CompiledRules compile_rules(const std::vector<Production>& productions, bool stochastic);
     void compile_depth(const RuleSet& source, CompiledRules& rules);
     CompiledProduction compile_production(const Production& production);
     std::vector<CompiledPattern> patterns(const std::vector<ModulePattern>& source);
@@ -109,14 +109,15 @@ private:
 std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compile_arrays();
     compile_blocks();
-    compiled_->rules = compile_rules(system_.productions, system_.seed.has_value(), false);
+    compiled_->rules = compile_rules(system_.productions, system_.seed.has_value());
     const auto weighted = [](const RuleSet& rules) {
         return std::any_of(rules.productions.begin(), rules.productions.end(),
                            [](const Production& production) { return production.weight.has_value(); });
     };
-    compiled_->decomposition = compile_rules(system_.decomposition.productions, weighted(system_.decomposition), true);
+    // Decomposition takes the first production that applies, whatever the weights (cpfg).
+    compiled_->decomposition = compile_rules(system_.decomposition.productions, false);
     compile_depth(system_.decomposition, compiled_->decomposition);
-    compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism), true);
+    compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism));
     compile_depth(system_.homomorphism, compiled_->homomorphism);
     compiled_->plans = make_plans(*compiled_);
     compiled_->ring = system_.ring;
@@ -129,7 +130,9 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
 
 void SystemCompiler::compile_arrays() {
     for (const ArrayDeclaration& declared : system_.arrays) {
-        CompiledArray array{declared.name, {}, {}, declared.external && compiled_->index > 0};
+        CompiledArray array;
+        array.name = declared.name;
+        array.external = declared.external && compiled_->index > 0;
         double elements = 1;
         for (const Expression& dimension : declared.dimensions) {
             const std::optional<double> size = programs_.fold(dimension);
@@ -149,8 +152,9 @@ void SystemCompiler::compile_arrays() {
             throw UserError(declared.place, fmt::format("array '{}' has {:g} elements, but {} values are given",
                                                         declared.name, elements, declared.values.size()));
         }
-        if (!array.external) array.values.assign(static_cast<std::size_t>(elements), 0);
-        for (std::size_t k = 0; k < declared.values.size() && !array.external; ++k) {
+        array.size = array.external ? 0 : static_cast<std::size_t>(elements);
+        array.values.assign(array.external ? 0 : declared.values.size(), 0);
+        for (std::size_t k = 0; k < array.values.size(); ++k) {
             const std::optional<double> value = programs_.fold(declared.values[k]);
             if (!value) throw UserError(declared.values[k].place, "an array's initial values must be constants");
             array.values[k] = *value;
@@ -170,14 +174,11 @@ void SystemCompiler::compile_blocks() {
     if (system_.seed) compiled_->seed = programs_.value(*system_.seed);
 }
 
-CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic, bool single) {
+CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& productions, bool stochastic) {
     CompiledRules rules;
     rules.stochastic = stochastic;
     for (const Production& production : productions) {
         if (production.strict.empty()) throw UserError(production.place, "a production needs a strict predecessor");
-        if (single && production.strict.size() > 1) {
-            throw UserError(production.place, "decomposition and homomorphism replace one module at a time");
-        }
         rules.productions.push_back(compile_production(production));
         const CompiledProduction& compiled = rules.productions.back();
         for (const Program* program :
@@ -189,6 +190,7 @@ CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& produ
         rules.binds_context |= std::any_of(compiled.left.begin(), compiled.left.end(), binds) ||
                                std::any_of(compiled.right.begin(), compiled.right.end(), binds);
         rules.several_strict |= compiled.strict.size() > 1;
+        rules.widest = std::max(rules.widest, compiled.strict.size());
     }
     index(rules);
     return rules;
@@ -438,8 +440,17 @@ void SystemCompiler::place_registers() {
 Variables CompiledSystem::variables() const {
     Variables fresh;
     fresh.globals.assign(std::max<std::size_t>(2, system->globals.size()), 0);
-    for (const CompiledArray& array : arrays) fresh.arrays.push_back(array.values);
+    for (const CompiledArray& array : arrays) {
+        fresh.arrays.push_back(array.values);
+        fresh.arrays.back().resize(array.size);
+    }
     return fresh;
+}
+
+std::size_t CompiledSystem::bytes_of_variables() const {
+    std::size_t values = system->globals.size();
+    for (const CompiledArray& array : arrays) values += array.size;
+    return values * sizeof(double);
 }
 
 std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model) {

@@ -69,6 +69,7 @@ struct CompiledRules {
     bool uses_context = false;
     bool binds_context = false;
     bool several_strict = false;
+    std::size_t widest = 1;  ///< modules of the longest strict predecessor
     Effects effects;
     std::size_t maximum_depth = 1;
     bool explicit_depth = false;
@@ -130,6 +131,7 @@ public:
     Machine machine() const { return Machine(constants, registers, arrays, source->quirks); }
     /// Globals and arrays as declared, external ones not yet lent.
     Variables variables() const;
+    std::size_t bytes_of_variables() const;
     bool ordered() const {
         return rules.effects.assigns || rules.effects.ordered || decomposition.effects.assigns ||
                decomposition.effects.ordered;

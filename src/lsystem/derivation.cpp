@@ -37,16 +37,50 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     services.seed = settings.seed;
     services.plant = settings.plant;
     block_machine.attach(&variables, &services, Stream::blocks);
-    reset();
-    if (!main.length.empty()) {
-        double steps = 0;
-        in_block(block_machine, "the derivation length", [&] { steps = block_machine.evaluate(main.length); });
-        if (!(steps >= 0 && steps <= most_steps)) {
-            throw RunError(fmt::format("{}: a derivation length of {:g} is out of range", model->source->name, steps));
-        }
-        length = static_cast<int>(steps);
+    const std::size_t bytes = main.bytes_of_variables();
+    if (bytes > settings.memory) {
+        throw RunError(fmt::format("{}: the arrays take {} MiB, more than the memory of {} MiB", model->source->name,
+                                   bytes >> 20, settings.memory >> 20));
     }
+    reset();
+    if (!main.length.reads_variables()) {
+        evaluate_length();
+    } else {
+        rehearse([&](Services& silent) {
+            block_machine.attach(&variables, &silent, Stream::blocks);
+            run_block(main.start, "the Start block");
+            evaluate_length();
+        });
+        block_machine.attach(&variables, &services, Stream::blocks);
+        reset();
+    }
+}
+
+void Derivation::State::rehearse(const std::function<void(Services& silent)>& work) {
+    ModelFiles scratch_files(settings.input_folder, {});
+    Services silent = services;
+    silent.print = [](const std::string&) {};
+    silent.warn = [](const Place&, const std::string&) {};
+    silent.files = &scratch_files;
+    work(silent);
+}
+
+void Derivation::State::evaluate_length() {
+    if (main.length.empty() || length_is_set) return;
+    double steps = 0;
+    in_block(block_machine, "the derivation length", [&] { steps = block_machine.evaluate(main.length); });
+    if (!(steps >= 0 && steps <= most_steps)) {
+        throw RunError(fmt::format("{}: a derivation length of {:g} is out of range", model->source->name, steps));
+    }
+    length = static_cast<int>(steps);
     variables.globals[1] = length;
+}
+
+void Derivation::State::evaluate_seed() {
+    double seed = 0;
+    in_block(block_machine, "the seed", [&] { seed = block_machine.evaluate(main.seed); });
+    services.salt = std::bit_cast<std::uint64_t>(seed);
+    block_draws = RandomDraws(key(Stream::blocks), 0, 0);
 }
 
 void Derivation::State::reset() {
@@ -59,11 +93,7 @@ void Derivation::State::reset() {
     services.stopped = false;
     services.salt = 0;
     block_draws = RandomDraws(key(Stream::blocks), 0, 0);
-    if (main.seed.empty()) return;
-    double seed = 0;
-    in_block(block_machine, "the seed", [&] { seed = block_machine.evaluate(main.seed); });
-    services.salt = std::bit_cast<std::uint64_t>(seed);
-    block_draws = RandomDraws(key(Stream::blocks), 0, 0);
+    if (!main.seed.empty() && !main.seed.reads_variables()) evaluate_seed();
 }
 
 void Derivation::State::in_block(Machine& machine, const std::string& name, const std::function<void()>& work) {
@@ -222,11 +252,16 @@ Derivation::~Derivation() = default;
 Derivation::Derivation(Derivation&&) noexcept = default;
 Derivation& Derivation::operator=(Derivation&&) noexcept = default;
 
+// A seed or a length that reads variables means those of the Start block.
 void Derivation::start(ModuleString& string) {
-    state_->reset();
-    state_->run_block(state_->main.start, "the Start block");
-    state_->evaluate_axiom(string);
-    state_->files.flush_all();
+    State& state = *state_;
+    state.reset();
+    const double length = state.variables.globals[1];
+    state.run_block(state.main.start, "the Start block");
+    if (state.main.seed.reads_variables()) state.evaluate_seed();
+    if (state.main.length.reads_variables() && state.variables.globals[1] == length) state.evaluate_length();
+    state.evaluate_axiom(string);
+    state.files.flush_all();
 }
 
 void Derivation::step(const ModuleString& from, ModuleString& to) {
@@ -253,6 +288,7 @@ int Derivation::length() const {
 
 void Derivation::set_length(int steps) {
     state_->length = steps;
+    state_->length_is_set = true;
     state_->variables.globals[1] = steps;
 }
 

@@ -26,6 +26,10 @@ struct Derivation::State {
     /// Runs what belongs to no module; its draws form one sequence from the beginning of the growth.
     void in_block(Machine& machine, const std::string& name, const std::function<void()>& work);
     RandomKey key(Stream stream) const { return RandomKey(settings.seed, settings.plant, stream, services.salt); }
+    /// Runs something with services that print nothing and write nothing.
+    void rehearse(const std::function<void(Services& silent)>& work);
+    void evaluate_seed();
+    void evaluate_length();
     void evaluate_axiom(ModuleString& string);
     void find_kept(const ModuleString& from);
     std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;
@@ -48,6 +52,7 @@ struct Derivation::State {
     RandomDraws block_draws{RandomKey(), 0, 0};
     std::uint32_t step = 0;
     int length = 0;
+    bool length_is_set = false;  ///< by set_length(), not by the model
     Scratch scratch;
     Machines machines;
     /// Grows with every change of variables, so that painters know what they have seen.

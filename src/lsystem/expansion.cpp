@@ -1,24 +1,21 @@
 #include "expansion.h"
 
+#include <algorithm>
+
 namespace espalier {
 
-const ModuleStack::Entry* Expansion::replace(ModuleStack& stack, const Site& origin, std::uint32_t step) {
-    entry_ = stack.pop(values_);
-    letter_ = entry_.letter;
-    if (!rules_.has(entry_.letter)) return &entry_;
-    if (entry_.depth >= rules_.maximum_depth) {
-        reached_limit_ |= entry_.depth > 0 && rules_.always[entry_.letter] >= 0;
-        return &entry_;
+/// What replaces the module that was taken from the stack, alone or with those that follow it there.
+const CompiledProduction* Expansion::choose(const ModuleStack& stack, Site& site) {
+    if (rules_.several_strict) {
+        const std::size_t followers = std::min(stack.size(), rules_.widest - 1);
+        following_.assign(1, no_letter);  // never empty, so that it has an address
+        for (std::size_t k = 0; k < followers; ++k) following_.push_back(stack.below(k).letter);
+        stack.copy_values(followers, values_);
+        site.following = following_.data() + 1;
+        site.followers = followers;
     }
-    Site site = origin;
-    site.letter = entry_.letter;
     site.values = values_.data();
-    site.drawer = mix(entry_.lineage.identity, entry_.depth + 1);
-    const CompiledProduction* production = matcher_.choose(rules_, site);
-    if (!production) return &entry_;
-    matcher_.begin_successor(*production, site);
-    push_successor(*production, &entry_.lineage, step, entry_.depth + 1, stack);
-    return nullptr;
+    return matcher_.choose(rules_, site);
 }
 
 void Expansion::push_successor(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,

@@ -34,6 +34,24 @@ public:
         entries_.push_back(entry);
         values_.insert(values_.end(), values, values + entry.arity);
     }
+    std::size_t size() const { return entries_.size(); }
+    /// The entry so many places below the last.
+    const Entry& below(std::size_t places) const { return entries_[entries_.size() - 1 - places]; }
+    /// Appends the values of as many entries, from the last on.
+    void copy_values(std::size_t count, std::vector<double>& values) const {
+        auto end = values_.end();
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto begin = end - below(k).arity;
+            values.insert(values.end(), begin, end);
+            end = begin;
+        }
+    }
+    void drop(std::size_t count) {
+        for (; count > 0; --count) {
+            values_.resize(values_.size() - entries_.back().arity);
+            entries_.pop_back();
+        }
+    }
     /// Takes the last entry; its values stay valid until the next call.
     Entry pop(std::vector<double>& values) {
         const Entry entry = entries_.back();
@@ -76,11 +94,38 @@ private:
     const CompiledRules& rules_;
     Matcher& matcher_;
     Machine& machine_;
+    const CompiledProduction* choose(const ModuleStack& stack, Site& site);
+
     std::vector<double> values_, successor_;
     ModuleStack::Entry entry_;
+    // Of predecessors of several modules.
+    std::vector<LetterId> following_;
+    std::vector<Lineage> strict_;
     LetterId letter_ = no_letter;
     bool reached_limit_ = false;
 };
+
+inline const ModuleStack::Entry* Expansion::replace(ModuleStack& stack, const Site& origin, std::uint32_t step) {
+    entry_ = stack.pop(values_);
+    letter_ = entry_.letter;
+    if (!rules_.has(entry_.letter)) return &entry_;
+    if (entry_.depth >= rules_.maximum_depth) {
+        reached_limit_ |= entry_.depth > 0 && rules_.always[entry_.letter] >= 0;
+        return &entry_;
+    }
+    Site site = origin;
+    site.letter = entry_.letter;
+    site.drawer = mix(entry_.lineage.identity, entry_.depth + 1);
+    const CompiledProduction* const production = choose(stack, site);
+    if (!production) return &entry_;
+    matcher_.begin_successor(*production, site);
+    const std::size_t more = production->strict.size() - 1;
+    strict_.assign(1, entry_.lineage);
+    for (std::size_t k = 0; k < more; ++k) strict_.push_back(stack.below(k).lineage);
+    stack.drop(more);
+    push_successor(*production, strict_.data(), step, entry_.depth + 1, stack);
+    return nullptr;
+}
 
 template <class Emitter>
 void Expansion::run(ModuleStack& stack, const Site& origin, std::uint32_t step, Emitter&& emit) {

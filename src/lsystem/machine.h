@@ -16,7 +16,8 @@ namespace espalier {
 struct CompiledArray {
     std::string name;
     std::vector<std::size_t> dimensions;
-    std::vector<double> values;  ///< all of them, as declared
+    std::size_t size = 0;        ///< elements of its own
+    std::vector<double> values;  ///< the first ones, as declared; the rest is 0
     bool external = false;       ///< the elements are the surrounding L-system's
 };
 

@@ -46,6 +46,7 @@ const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules, 
     double sum = 0;
     for (std::uint32_t k = rules.first[site.letter]; k < rules.first[site.letter + 1]; ++k) {
         const CompiledProduction& production = rules.productions[rules.candidates[k]];
+        bound_ = &production;
         if (!applies(production, site)) continue;
         pool_.push_back({&production, weight(production)});
         sum += pool_.back().weight;
@@ -61,7 +62,8 @@ const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules, 
         left -= candidate.weight;
         if (left < 0) break;
     }
-    bind(*chosen, site);
+    // What its block did to its parameters holds, unless another production was tried after it.
+    if (bound_ != chosen) bind(*chosen, site);
     return chosen;
 }
 
@@ -79,9 +81,10 @@ void Matcher::begin_successor(const CompiledProduction& production, const Site& 
 }
 
 bool Matcher::match_strict(const CompiledProduction& production, const Site& site) const {
-    if (production.strict.size() > limit_ - site.first) return false;
+    const LetterId* const next = site.following ? site.following : letters_ + site.first + 1;
+    if (production.strict.size() - 1 > (site.following ? site.followers : limit_ - site.first - 1)) return false;
     for (std::size_t k = 1; k < production.strict.size(); ++k) {
-        if (letters_[site.first + k] != production.strict[k].letter) return false;
+        if (next[k - 1] != production.strict[k].letter) return false;
     }
     return true;
 }

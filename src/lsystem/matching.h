@@ -24,6 +24,9 @@ struct Site {
     const double* values = nullptr;
     Identity drawer = 0;
     std::size_t width = 0;  ///< modules replaced at once; 0: as many as the production's strict predecessor has
+    /// Letters behind `letter`, where that is not the string's module `first`.
+    const LetterId* following = nullptr;
+    std::size_t followers = 0;
 };
 
 class Matcher {
@@ -80,6 +83,7 @@ private:
         double weight;
     };
     std::vector<Weighted> pool_;
+    const CompiledProduction* bound_ = nullptr;  ///< the production whose formals were bound last
 };
 
 /// Throws EvaluationError naming the first value of the successor that is NaN or infinite.

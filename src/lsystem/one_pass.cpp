@@ -129,6 +129,17 @@ void OnePass::run_within(std::size_t begin, std::size_t end, std::size_t paramet
 
 void OnePass::decompose(const Site& site) {
     decomposing_ = true;
+    if (!enclosure_) {
+        decomposition_.run(stack_, site, input_.step, [&](const ModuleStack::Entry& entry, const double* values) {
+            out_.append(entry.letter, values, entry.arity, entry.lineage);
+        });
+    } else {
+        decompose_within(site);
+    }
+    follow_reseeding();
+}
+
+void OnePass::decompose_within(const Site& site) {
     Inside inside;
     while (!stack_.empty()) {
         if (inside.any()) {
@@ -140,9 +151,8 @@ void OnePass::decompose(const Site& site) {
         const ModuleStack::Entry* finished = decomposition_.replace(stack_, site, input_.step);
         if (!finished) continue;
         out_.append(finished->letter, decomposition_.values(), finished->arity, finished->lineage);
-        if (enclosure_) inside.pass(finished->letter, *enclosure_);
+        inside.pass(finished->letter, *enclosure_);
     }
-    follow_reseeding();
 }
 
 // srand() in a production begins the stream anew for all modules that follow, too.

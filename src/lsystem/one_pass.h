@@ -52,6 +52,7 @@ private:
     std::size_t rewrite(const Site& site);
     Lineage lineage(std::size_t module) const;
     void decompose(const Site& site);
+    void decompose_within(const Site& site);
     void follow_reseeding();
     void set_draws();
 

@@ -40,7 +40,7 @@ void Painter::require_bounds(const ModuleString& picture, const CompiledProducti
                     to_string(production.source->place), picture.size()));
 }
 
-bool Painter::paint(const Subject& subject, ModuleString& picture) {
+std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
     services_.salt = state_.services.salt;
     services_.stopped = false;
     const CompiledSystem* system = &model_.main();
@@ -49,7 +49,7 @@ bool Painter::paint(const Subject& subject, ModuleString& picture) {
         scope_ = scopes_.of_module(subject.site.first);
         system = scopes_.all()[scope_].system;
         const CompiledRules& rules = system->homomorphism;
-        if (!rules.has(subject.site.letter) || rules.maximum_depth == 0) return false;
+        if (!rules.has(subject.site.letter) || rules.maximum_depth == 0) return 0;
         prepare(*system, variables_of(scope_), subject.view);
     } else if (changes_) {
         copy_ = state_.variables;
@@ -60,17 +60,19 @@ bool Painter::paint(const Subject& subject, ModuleString& picture) {
     Brush& used = brush(*system);
     const CompiledProduction* production = used.matcher.choose(system->homomorphism, subject.site);
     if (production) {
-        const Lineage lineage{subject.site.drawer, 0, 0};
+        const std::vector<Lineage> strict(production->strict.size(), {subject.site.drawer, 0, 0});
         used.matcher.begin_successor(*production, subject.site);
         stack_.clear();
-        used.expansion.push_successor(*production, &lineage, state_.step, 1, stack_);
+        used.expansion.push_successor(*production, strict.data(), state_.step, 1, stack_);
+        Subject inside = subject;
+        inside.site.width = production->strict.size();
         if (model_.nested)
-            expand_nested(subject, *production, picture);
+            expand_nested(inside, *production, picture);
         else
-            expand(subject, *production, picture);
+            expand(inside, *production, picture);
     }
     if (model_.nested && changes_) forget_variables();
-    return production != nullptr;
+    return production ? production->strict.size() : 0;
 }
 
 void Painter::expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
@@ -155,15 +157,12 @@ Variables& Painter::variables_of(std::uint32_t scope) {
 
 // Its real Start block is still to come: this one is neither heard nor seen.
 void Painter::run_start(const CompiledSystem& system, Variables& variables) {
-    ModelFiles files(state_.settings.input_folder, {});
-    Services silent = services_;
-    silent.print = [](const std::string&) {};
-    silent.warn = [](const Place&, const std::string&) {};
-    silent.files = &files;
-    Machine machine = system.machine();
-    machine.attach(&variables, &silent, Stream::blocks);
-    machine.draw_with(state_.block_draws);
-    machine.run(system.start);
+    state_.rehearse([&](Services& silent) {
+        Machine machine = system.machine();
+        machine.attach(&variables, &silent, Stream::blocks);
+        machine.draw_with(state_.block_draws);
+        machine.run(system.start);
+    });
 }
 
 void Painter::forget_variables() {

@@ -31,8 +31,9 @@ class Painter {
 public:
     explicit Painter(Derivation::State& state);
 
-    /// Appends the picture to `picture`; false if no production applies. Throws EvaluationError.
-    bool paint(const Subject& subject, ModuleString& picture);
+    /// Appends the picture to `picture`; returns how many modules it replaces, 0 if no production applies.
+    /// Throws EvaluationError.
+    std::size_t paint(const Subject& subject, ModuleString& picture);
 
 private:
     /// A sub-L-system that the picture itself opens.

@@ -23,10 +23,11 @@ bool Derivation::may_have_picture(LetterId letter) const {
                        [&](const auto& system) { return draws(*system, letter); });
 }
 
-bool Derivation::picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
-                         std::size_t module, std::size_t parameters_at, ModuleString& picture) const {
+std::size_t Derivation::picture(const ModuleString& string, const std::vector<std::size_t>* offsets,
+                                const BranchLinks& links, std::size_t module, std::size_t parameters_at,
+                                ModuleString& picture) const {
     const LetterId letter = string.letters[module];
-    if (!may_have_picture(letter)) return false;
+    if (!may_have_picture(letter)) return 0;
     State& state = *state_;
     std::unique_ptr<Painter>& painter = state.painters.local();
     if (!painter) painter = std::make_unique<Painter>(state);
@@ -34,7 +35,7 @@ bool Derivation::picture(const ModuleString& string, const std::vector<std::size
     const Identity identity = string.has_lineage() ? string.identities[module] : mix(module);
     const Subject subject{string,
                           {&string, links.partner.data(), offsets ? offsets->data() : nullptr},
-                          {module, parameters_at, letter, values, identity, 1}};
+                          {module, parameters_at, letter, values, identity}};
     try {
         return painter->paint(subject, picture);
     } catch (const EvaluationError& error) {

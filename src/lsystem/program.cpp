@@ -71,6 +71,12 @@ Effects& Effects::operator|=(const Effects& other) {
     return *this;
 }
 
+bool Program::reads_variables() const {
+    return std::any_of(code.begin(), code.end(), [](const Instruction& instruction) {
+        return instruction.op == Opcode::load_global || instruction.op == Opcode::load_element;
+    });
+}
+
 // The step and the derivation length are everybody's.
 ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, bool quirks) : system_(system), quirks_(quirks) {
     external_.assign(system.globals.size(), false);
@@ -348,14 +354,16 @@ ProgramCompiler::Operand ProgramCompiler::assign(const Expression& expression) {
 void ProgramCompiler::store(const Expression& target, std::uint32_t subscripts, std::uint32_t value,
                             const Place& place) {
     program_.effects.assigns = true;
-    if (target.kind == Expression::Kind::global) {
+    if (target.kind == Expression::Kind::formal) {
+        emit({Opcode::copy, Function::sin, 0, formal_kind | target.index, value, 0}, place);
+    } else if (target.kind == Expression::Kind::global) {
         const Opcode op = external_.at(target.index) ? Opcode::store_external : Opcode::store_global;
         emit({op, Function::sin, 0, value, target.index, 0}, place);
     } else if (target.kind == Expression::Kind::element) {
         const auto count = static_cast<std::uint16_t>(target.operands.size());
         emit({Opcode::store_element, Function::sin, count, value, target.index, subscripts}, target.place);
     } else {
-        throw UserError(target.place, "only variables and array elements can be assigned");
+        throw UserError(target.place, "only variables, parameters and array elements can be assigned");
     }
 }
 

@@ -99,6 +99,7 @@ struct Program {
     Effects effects;
 
     bool empty() const { return code.size() <= 1 && results.empty(); }
+    bool reads_variables() const;
 };
 
 /// The constants of all programs of a model, each once.

@@ -1,5 +1,7 @@
 #include "sub_systems.h"
 
+#include <fmt/format.h>
+
 namespace espalier {
 
 void put_variables(std::ostream& out, const Variables& variables) {
@@ -24,8 +26,22 @@ const Variables* SubSystems::find(const Scope& scope) const {
     return found == instances_.end() ? nullptr : &found->second;
 }
 
-Variables& SubSystems::make(const Scope& scope) {
+Variables& SubSystems::make(const Scope& scope, std::size_t memory) {
+    bytes_ += scope.system->bytes_of_variables();
+    if (bytes_ > memory) {
+        throw RunError(fmt::format("the variables of {} sub-L-systems take {} MiB, more than the memory of {} MiB",
+                                   instances_.size() + 1, bytes_ >> 20, memory >> 20));
+    }
     return instances_[key(scope)] = scope.system->variables();
+}
+
+void SubSystems::erase(const Scope& scope) {
+    if (instances_.erase(key(scope)) > 0) bytes_ -= scope.system->bytes_of_variables();
+}
+
+void SubSystems::clear() {
+    instances_.clear();
+    bytes_ = 0;
 }
 
 Variables* SubSystems::lend(const std::vector<Scope>& scopes, std::uint32_t scope, Variables& main) {
@@ -48,12 +64,13 @@ void SubSystems::save(std::ostream& out) const {
 }
 
 void SubSystems::restore(std::istream& in, const CompiledModel& model) {
-    instances_.clear();
+    clear();
     for (auto count = get<std::uint64_t>(in); count > 0; --count) {
         const auto identity = get<Identity>(in);
         const auto system = get<std::uint64_t>(in);
         if (system >= model.systems.size()) throw RunError("the checkpoint belongs to another model");
         Variables variables = model.systems[system]->variables();
+        bytes_ += model.systems[system]->bytes_of_variables();
         get_variables(in, variables);
         instances_[{identity, system}] = std::move(variables);
     }

@@ -20,11 +20,12 @@ public:
     /// Null if the scope has none yet.
     Variables* find(const Scope& scope);
     const Variables* find(const Scope& scope) const;
-    Variables& make(const Scope& scope);
+    /// Throws RunError if all instances together take more than the memory.
+    Variables& make(const Scope& scope, std::size_t memory);
     /// The variables of a scope, with what it borrows from those around it; null if it or one of them has none.
     Variables* lend(const std::vector<Scope>& scopes, std::uint32_t scope, Variables& main);
-    void erase(const Scope& scope) { instances_.erase(key(scope)); }
-    void clear() { instances_.clear(); }
+    void erase(const Scope& scope);
+    void clear();
 
     void save(std::ostream& out) const;
     void restore(std::istream& in, const CompiledModel& model);
@@ -34,6 +35,7 @@ private:
     static Key key(const Scope& scope) { return {scope.identity, scope.system->index}; }
 
     std::map<Key, Variables> instances_;
+    std::size_t bytes_ = 0;
 };
 
 }  // namespace espalier

@@ -52,8 +52,9 @@ private:
             assert(letter < meanings.size());
             const LetterMeaning& meaning = meanings[letter];
             if constexpr (with_pictures) {
-                if (pictured_[letter] && draw_picture(i, at)) {
-                    at += meaning.arity;
+                if (const std::size_t replaced = pictured_[letter] ? draw_picture(i, at) : 0) {
+                    i += replaced - 1;
+                    at = offsets_[i + 1];
                     continue;
                 }
             }
@@ -90,14 +91,16 @@ private:
         match.meaning.action(walk_, {string.parameters.data() + at, match.meaning.arity});
     }
 
-    bool draw_picture(std::size_t module, std::size_t at) {
+    /// Returns how many modules the picture stands for, 0 if there is none.
+    std::size_t draw_picture(std::size_t module, std::size_t at) {
         if (!linked_) {
             link_branches(string_, links_);
             offsets_ = parameter_offsets(string_, model_.alphabet);
             linked_ = true;
         }
         picture_.clear();
-        if (!derivation_->picture(string_, &offsets_, links_, module, at, picture_)) return false;
+        const std::size_t replaced = derivation_->picture(string_, &offsets_, links_, module, at, picture_);
+        if (replaced == 0) return 0;
 
         walk_.module_ = std::uint32_t(module);
         walk_.parameters_at_ = at;
@@ -110,7 +113,7 @@ private:
             picture_at += match.meaning.arity;
         }
         walk_.in_picture_ = false;
-        return true;
+        return replaced;
     }
 
     const Model& model_;

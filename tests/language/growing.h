@@ -4,6 +4,7 @@
 #include "espalier/language/reader.h"
 #include "espalier/lsystem/derivation.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -41,9 +42,13 @@ struct Grown {
         link_branches(string, links);
         const std::vector<std::size_t> offsets = parameter_offsets(string, model->alphabet);
         ModuleString pictures;
-        for (std::size_t i = 0; i < string.size(); ++i) {
-            if (derivation.picture(string, &offsets, links, i, offsets[i], pictures)) continue;
-            pictures.append(string.letters[i], {string.parameters.data() + offsets[i], offsets[i + 1] - offsets[i]});
+        for (std::size_t i = 0; i < string.size();) {
+            const std::size_t replaced = derivation.picture(string, &offsets, links, i, offsets[i], pictures);
+            if (replaced == 0) {
+                const std::size_t arity = offsets[i + 1] - offsets[i];
+                pictures.append(string.letters[i], {string.parameters.data() + offsets[i], arity});
+            }
+            i += std::max<std::size_t>(replaced, 1);
         }
         return to_text(pictures, model->alphabet);
     }

@@ -69,10 +69,11 @@ public:
     bool stopped() const;
 
     /// Replaces a module by its picture (homomorphism), depth first to the maximum depth, for interpretation.
-    /// Appends to `picture` and returns true; false if no production applies. `links` belong to `string`.
+    /// Appends to `picture` and returns how many modules it stands for: 1, more for a predecessor of several, 0 if no
+    /// production applies. `links` belong to `string`.
     /// Contexts are those of the original string; draws come from the homomorphism's own stream. Thread safe.
-    bool picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
-                 std::size_t module, std::size_t parameters_at, ModuleString& picture) const;
+    std::size_t picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
+                        std::size_t module, std::size_t parameters_at, ModuleString& picture) const;
     /// False if `picture` returns false for this letter whatever its context: the test the turtle makes first.
     bool may_have_picture(LetterId letter) const;
     bool has_homomorphism() const;
