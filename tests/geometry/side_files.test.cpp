@@ -184,7 +184,7 @@ TEST_CASE("mistakes in surface files are told with their place", "[geometry]") {
           "a.s:8:12: 'red' is no whole number\n    TOP COLOR: red DIFFUSE: 0.5 BOTTOM COLOR: 4 DIFFUSE: 0.25\n"
           "               ^");
     std::string many = surface_text(ahead, down, "");
-    for (int i = 0; i < 65; ++i) many += patch("p" + std::to_string(i));
+    for (int i = 0; i < 65; ++i) many += patch(std::string("p").append(std::to_string(i)));
     CHECK(surface_complaint(many) == "a.s:583:1: a surface has at most 64 patches\n    p64\n    ^");
 }
 
