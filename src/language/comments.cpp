@@ -79,7 +79,13 @@ private:
     void block_comment() {
         const Location begin = at_;
         const std::size_t close = text_.find("*/", position_ + 2);
-        if (close == std::string_view::npos) mistakes_.error(begin, "this comment is never closed: '*/' is missing");
+        if (close == std::string_view::npos) {
+            const char* message = "this comment is never closed: '*/' is missing";
+            // Behind the last L-system it hides nothing.
+            const bool harmless = text_.substr(0, position_).find("endlsystem") != std::string_view::npos &&
+                                  text_.find("lsystem", position_) == std::string_view::npos;
+            harmless ? mistakes_.warning(begin, message) : mistakes_.error(begin, message);
+        }
         const std::size_t end = close == std::string_view::npos ? text_.size() : close + 2;
         out_.append(' ', begin);
         while (position_ < end) advance();

@@ -373,6 +373,10 @@ Expression ExpressionParser::normalised(Expression call, Location at) {
         while (operands.size() < 3) operands.push_back(Expression::number(0, call.place));
     }
     if (call.function == Function::view_extent) operands.clear();
+    // There is nobody to show or play anything to.
+    if (call.function == Function::display && operands[0].kind == Expression::Kind::text) {
+        operands[0] = Expression::number(0, call.place);
+    }
     const bool chained = call.function == Function::min || call.function == Function::max;
     while (chained && operands.size() > 2) {
         Expression inner;

@@ -323,7 +323,10 @@ private:
 
     bool block_item() {
         const auto accept_block = [&](const char* keyword, Block& block) {
+            const Location at = in_.here();
             if (!in_.accept_keyword(keyword)) return false;
+            if (!block.empty())
+                mistakes_.warning(at, fmt::format("a second '{}' takes the first one's place", keyword));
             definitions_ahead();
             const Scanner::Inside inside(in_, Scanner::Inside::braces);
             in_.accept(":");

@@ -112,18 +112,23 @@ Expression Names::read(std::string_view name, Location at) {
 }
 
 Expression Names::assigned(std::string_view name, Location at) {
-    if (formals_ && std::find(formals_->begin(), formals_->end(), name) != formals_->end()) {
-        mistakes_.error(
-            at, fmt::format("'{}' is a parameter of this production and cannot be assigned ('==' compares)", name));
-    } else if (constants_.contains(name)) {
+    Expression result;
+    result.place = place(at);
+    if (formals_) {
+        const auto formal = std::find(formals_->begin(), formals_->end(), name);
+        if (formal != formals_->end()) {
+            result.kind = Expression::Kind::formal;
+            result.index = static_cast<std::uint32_t>(formal - formals_->begin());
+            return result;
+        }
+    }
+    if (constants_.contains(name)) {
         mistakes_.error(at, fmt::format("'{}' is a constant and cannot be assigned", name));
     } else if (array(name)) {
         throw SyntaxError{at, fmt::format("'{0}' is an array: write {0}[index] = value", name)};
     }
-    Expression result;
     result.kind = Expression::Kind::global;
     result.index = variable(name);
-    result.place = place(at);
     variables_[result.index].assigned = true;
     return result;
 }

@@ -3,6 +3,7 @@
 #include "espalier/lsystem/derivation.h"
 #include "espalier/turtle/interpretation.h"
 #include "espalier/turtle/symbol.h"
+#include "espalier/turtle/view_file.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,24 @@ const std::vector<std::string>& turtle_symbols() {
     return names;
 }
 
+// Surfaces, contours, a function and tropisms for models to use.
+const View& view() {
+    static const View known = [] {
+        View made = read_view_text(
+            "angle increment: 30\ninitial line width: 2 cylinder\nsurface: a leaf.s 1\n"
+            "contour: 1 fluted.con\ntropism: T: 0 1 0 A: 30 I: 0.5 E: 0.2\n"
+            "torque: T: 0 0 1 E: 0.1\ntropism direction: 0,1,0\ninitial elasticity: 0.1\n",
+            "plant.v", {}, ESPALIER_SOURCE_DIR "/models/organs");
+        auto resources = std::make_shared<Resources>(*made.resources);
+        resources->functions.emplace_back(std::vector<glm::dvec2>{{0, 0}, {0, 1}, {1, 1}, {1, 2}}, 0);
+        resources->curves.emplace_back(std::vector<glm::dvec3>{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 2, 3}},
+                                       SpaceCurve::Type::b_spline);
+        made.resources = resources;
+        return made;
+    }();
+    return known;
+}
+
 void grow(const std::shared_ptr<const Model>& model) {
     DerivationSettings settings;
     settings.memory = memory;
@@ -38,7 +57,7 @@ void grow(const std::shared_ptr<const Model>& model) {
         derivation.step(string, next);
         std::swap(string, next);
     }
-    interpret(*model, string, {}, &derivation);
+    interpret(*model, string, view().turtle, &derivation);
 }
 
 }  // namespace
@@ -49,6 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size > longest || text.find("include") != std::string_view::npos) return 0;
     ReadOptions options;
     options.quirks = size % 2 == 1;
+    options.resources = view().resources;
     options.predefined = {{"WIDTH", "1"}};
     try {
         const std::shared_ptr<const Model> model = read_model_text(text, "model.l", "/nonexistent", options);

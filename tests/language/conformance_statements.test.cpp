@@ -120,6 +120,8 @@ TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
     quote("ends the derivation after this step");
     CHECK(step("A(0)", "A(x) --> A(x + 1)\n", "derivation length: 9\nEndEach: { if (Q == 3) { stop(1); } }\n") ==
           "A(3)");
+    quote("| `Display(x)`, `play(\"file\")` | nothing |");
+    CHECK(step("A(0)", "A(x) : {Display(x); play(\"leaf.wav\");} --> A(x + 1)\n") == "A(1)");
     quote("the derivation length");
     CHECK(step("A(0)", "A(x) --> A(x + 1)\n",
                "derivation length: 9\nStartEach: { SetDerivationLength(GetDerivationLength() - 1); }\n") == "A(5)");
