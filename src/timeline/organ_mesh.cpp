@@ -79,9 +79,10 @@ private:
             return 1 + (ring_number - 1) * meridians_ + meridian % meridians_;
         };
         for (std::uint32_t i = 0; i < meridians_; ++i) {
-            std::vector<std::uint32_t> face{index(band, i), index(band + 1, i)};
-            if (band + 1 < bands_) face.push_back(index(band + 1, i + 1));
+            // Counter-clockwise seen from outside: up = left x heading runs clockwise about the heading.
+            std::vector<std::uint32_t> face{index(band + 1, i), index(band, i)};
             if (band > 0) face.push_back(index(band, i + 1));
+            if (band + 1 < bands_) face.push_back(index(band + 1, i + 1));
             mesh_.faces.push_back(std::move(face));
         }
     }
