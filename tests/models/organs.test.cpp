@@ -1,4 +1,5 @@
 // Organs: surfaces from files, generalized cylinders, patches the L-system makes.
+#include "espalier/geometry/palette.h"
 #include "espalier/turtle/view_file.h"
 
 #include "catch.h"
@@ -183,4 +184,17 @@ TEST_CASE("patch-leaf: the patch begins at the stalk, is symmetric and grows wit
         width = right - left;
         length = end - 1;
     }
+}
+
+TEST_CASE("plants.map: the indices of the models look like bark, leaves and petals", "[organs]") {
+    Palette palette;
+    read_colour_map(source_path("models/plants.map"), 1, palette);
+    CHECK(palette.entries.size() == 256);
+    const glm::dvec4 leaf = palette.material(40).diffuse, bark = palette.material(128).diffuse;
+    CHECK(leaf.g > 2 * leaf.r);
+    CHECK(leaf.g > 2 * leaf.b);
+    CHECK((bark.r > bark.g && bark.g > bark.b));
+    const glm::dvec4 ray = palette.material(160).diffuse, petal = palette.material(200).diffuse;
+    CHECK(std::min(ray.r, ray.g) > 2 * ray.b);
+    CHECK(petal.r > petal.g);
 }
