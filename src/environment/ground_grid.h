@@ -1,0 +1,47 @@
+// The ground as cells, and how many discs lie over each.
+#pragma once
+
+#include "environment/ground_image.h"
+#include "environment/parameter_file.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <vector>
+
+namespace espalier {
+
+class GroundGrid {
+public:
+    /// Reads `grid size`, `grid position`, `grid range` and `input image`. Throws UserError if the grid is larger than
+    /// memory allows.
+    GroundGrid(ParameterFile& file, const EnvironmentContext& context);
+
+    /// The cell over a place; nothing beside the grid.
+    std::optional<std::size_t> cell(const glm::dvec2& place) const;
+    /// Discs over the cells are counted by their centres. Taking away more than there is leaves 0.
+    void add_disc(const glm::dvec2& centre, double radius);
+    void remove_disc(const glm::dvec2& centre, double radius);
+    void clear() { counts_.assign(counts_.size(), 0); }
+
+    std::uint32_t count(std::size_t cell) const { return counts_[cell]; }
+    /// Of the image over the cell; white if there is none.
+    GroundImage::Colour colour(std::size_t cell) const;
+
+    void save(std::ostream& out) const;
+    void restore(std::istream& in);
+
+private:
+    template <class Change>
+    void visit_disc(const glm::dvec2& centre, double radius, const Change& change);
+    double coordinate(int axis, std::int64_t index) const;
+
+    std::int64_t size_[2];
+    glm::dvec2 lower_, range_;
+    GroundImage image_;
+    std::vector<std::uint32_t> counts_;
+};
+
+}  // namespace espalier

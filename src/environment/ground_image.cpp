@@ -1,0 +1,109 @@
+#include "ground_image.h"
+
+#include "picture_bytes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace espalier {
+namespace {
+
+// --- SGI: planes of rows, the lowest first, plain or run-length coded (Haeberli, SGI image file format 1.00) ---
+
+void read_sgi_run_lengths(const PictureBytes& bytes, std::size_t at, GroundImage& image, std::size_t row,
+                          std::size_t channel) {
+    for (std::size_t x = 0; x < image.width;) {
+        const std::uint8_t code = bytes.at(at++);
+        const std::size_t count = code & 127u;
+        if (count == 0) return;  // the rest of the row stays 0
+        for (std::size_t k = 0; k < count && x < image.width; ++k, ++x) {
+            image.pixels[row * image.width + x][channel] = bytes.at(code & 128u ? at + k : at);
+        }
+        at += code & 128u ? count : 1;
+    }
+}
+
+GroundImage read_sgi(const PictureBytes& bytes) {
+    if (bytes.big(0) != 474) bytes.fail("this is no SGI picture");
+    const bool coded = bytes.at(2) == 1;
+    if (bytes.at(3) != 1) bytes.fail("only SGI pictures of 8 bits a channel can be read");
+    const std::size_t dimensions = bytes.big(4);
+    const std::size_t height = dimensions > 1 ? bytes.big(8) : 1;
+    const std::size_t planes = dimensions > 2 ? bytes.big(10) : 1;
+    GroundImage image = bytes.image(bytes.big(6), height, 512);  // 127 pixels in two bytes at most
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const std::size_t plane = planes >= 3 ? channel : 0;  // grey in all three
+        for (std::size_t row = 0; row < height; ++row) {
+            const std::size_t line = plane * height + row;
+            if (coded) {
+                read_sgi_run_lengths(bytes, bytes.big4(512 + 4 * line), image, row, channel);
+                continue;
+            }
+            for (std::size_t x = 0; x < image.width; ++x) {
+                image.pixels[row * image.width + x][channel] = bytes.at(512 + line * image.width + x);
+            }
+        }
+    }
+    return image;
+}
+
+// --- Targa: blue, green, red, plain or run-length coded (Truevision TGA 2.0) ---
+
+GroundImage::Colour targa_pixel(const PictureBytes& bytes, std::size_t at, std::size_t channels) {
+    if (channels == 1) return {bytes.at(at), bytes.at(at), bytes.at(at)};
+    return {bytes.at(at + 2), bytes.at(at + 1), bytes.at(at)};
+}
+
+GroundImage read_targa(const PictureBytes& bytes) {
+    const int kind = bytes.at(2);
+    const std::size_t channels = bytes.at(16) / 8u;
+    const bool coded = kind == 10 || kind == 11;
+    const bool grey = kind == 3 || kind == 11;
+    if ((kind != 2 && kind != 3 && !coded) || (grey ? channels != 1 : channels != 3 && channels != 4)) {
+        bytes.fail(
+            fmt::format("only Targa pictures in true colours or grey can be read, not of type {} with {} bits a "
+                        "pixel",
+                        kind, int{bytes.at(16)}));
+    }
+    GroundImage image = bytes.image(bytes.little(12), bytes.little(14), 512);
+    const bool top_first = bytes.at(17) & 32u;
+    std::size_t at = 18u + bytes.at(0) + bytes.little(5) * ((bytes.at(7) + 7u) / 8u);
+    std::size_t left = 0;  // of the packet
+    bool repeats = false;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (coded && left == 0) {
+            const std::uint8_t code = bytes.at(at++);
+            left = 1 + (code & 127u);
+            repeats = code & 128u;
+        }
+        const std::size_t row = i / image.width;
+        const std::size_t line = top_first ? image.height - 1 - row : row;
+        image.pixels[line * image.width + i % image.width] = targa_pixel(bytes, at, channels);
+        if (coded) --left;
+        if (!(coded && repeats && left > 0)) at += channels;
+    }
+    return image;
+}
+
+}  // namespace
+
+const GroundImage::Colour& GroundImage::at(double u, double v) const {
+    const auto index = [](double part, std::size_t count) {
+        const double scaled = std::clamp(part, 0.0, 1.0) * static_cast<double>(count);
+        return std::min(static_cast<std::size_t>(scaled), count - 1);
+    };
+    return pixels[index(v, height) * width + index(u, width)];
+}
+
+GroundImage read_ground_image(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    const PictureBytes bytes(path);
+    if (name.ends_with("rgb")) return read_sgi(bytes);
+    if (name.ends_with("tga")) return read_targa(bytes);
+    if (name.ends_with("png")) return read_png(bytes);
+    bytes.fail("the name of a picture must end in rgb, tga or png");
+}
+
+}  // namespace espalier

@@ -1,0 +1,51 @@
+// What the readers of pictures share.
+#pragma once
+
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+
+#include "ground_image.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+
+namespace espalier {
+
+/// The bytes of a file; reading beyond the end is the file's mistake.
+class PictureBytes {
+public:
+    explicit PictureBytes(const std::filesystem::path& path) : name_(path.string()), bytes_(read_text(path)) {}
+
+    std::size_t size() const { return bytes_.size(); }
+    std::uint8_t at(std::size_t i) const {
+        if (i >= bytes_.size()) fail("the picture ends too early");
+        return static_cast<std::uint8_t>(bytes_[i]);
+    }
+    std::size_t little(std::size_t i) const { return at(i) + 256u * at(i + 1); }
+    std::size_t big(std::size_t i) const { return 256u * at(i) + at(i + 1); }
+    std::size_t big4(std::size_t i) const { return 65536u * big(i) + big(i + 2); }
+    [[noreturn]] void fail(const std::string& message) const { throw UserError({name_, 0, 0}, message); }
+
+    /// An image of this size, black. A file of some bytes cannot ask for `most_per_byte` times as many pixels.
+    GroundImage image(std::size_t width, std::size_t height, std::size_t most_per_byte) const {
+        constexpr std::size_t most_pixels = std::size_t{1} << 28;
+        if (width == 0 || height == 0 || width > most_pixels / height) {
+            fail(fmt::format("a picture of {} x {} pixels cannot be read", width, height));
+        }
+        if (width * height / most_per_byte > size()) fail("the picture ends too early");
+        GroundImage made{width, height, {}};
+        made.pixels.resize(width * height);
+        return made;
+    }
+
+private:
+    std::string name_;
+    std::string bytes_;
+};
+
+/// Portable Network Graphics of 8 bits a channel, not interlaced (ISO/IEC 15948).
+GroundImage read_png(const PictureBytes& bytes);
+
+}  // namespace espalier

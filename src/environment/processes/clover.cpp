@@ -1,0 +1,101 @@
+// clover: patches of light on the ground, dimmed under the leaves that stand there.
+// Bell 1986, The simulation of branching patterns in modular organisms; Mech & Prusinkiewicz 1996, section 4.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/ground_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace espalier {
+namespace {
+
+class Clover final : public EnvironmentProcess {
+public:
+    Clover(Settings& settings, const EnvironmentContext& context, Fields&)
+        : Clover(ParameterFile(settings, context,
+                               {"grid size", "grid position", "grid range", "transmittance", "input image",
+                                "remove old leaves", "z is up"}),
+                 context) {}
+
+    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+        if (forgets_) ground_.clear();
+        // First all leaves that come, then all that go: the order of the queries does not matter.
+        for (const Query& query : queries) {
+            if (action(query) == 1) ground_.add_disc(place(query), radius(query));
+        }
+        for (const Query& query : queries) {
+            if (action(query) != 0 && action(query) != 1) ground_.remove_disc(place(query), radius(query));
+        }
+    }
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const std::optional<std::size_t> cell = ground_.cell(place(queries[i]));
+            answers[i][0] = cell ? light(*cell) : 0;
+            if (answers[i].size() > 1) answers[i][1] = cell ? ground_.colour(*cell)[0] / 128.0 : 0;
+        }
+        statistics_.sum_up(queries, answers);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    void save(std::ostream& out) const override { ground_.save(out); }
+    void restore(std::istream& in) override { ground_.restore(in); }
+
+private:
+    Clover(ParameterFile file, const EnvironmentContext& context)
+        : transmittance_(std::max(file.number("transmittance", 0.6, Range::between(0, 1)), 1e-4)),
+          forgets_(file.flag("remove old leaves", false, {"on", "yes"}, {"off", "no"})),
+          z_is_up_(file.flag("z is up", true, {"on", "yes"}, {"no", "off"})),
+          ground_(file, context),
+          statistics_(context.plants) {}
+
+    glm::dvec2 place(const Query& query) const {
+        const glm::dvec3& position = query.pose.position;
+        return {position.x, z_is_up_ ? position.y : position.z};
+    }
+
+    /// 0: asks only, 1: a leaf comes, all others: a leaf goes.
+    static double action(const Query& query) { return query.parameters.size() > 1 ? query.parameters[0] : 0; }
+
+    static double radius(const Query& query) {
+        return std::sqrt(std::max(query.parameters[1], 0.0) / std::numbers::pi);
+    }
+
+    double light(std::size_t cell) const {
+        const double leaves = std::min(ground_.count(cell), 255u);
+        return ground_.colour(cell)[1] / 255.0 * std::pow(transmittance_, leaves);
+    }
+
+    double transmittance_;
+    bool forgets_, z_is_up_;
+    GroundGrid ground_;
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<Clover> entry{
+    {"clover", "patches of light on the ground, dimmed by leaves (Bell 1986; Mech & Prusinkiewicz 1996)",
+     R"(?name(p)         -> light at the place: green of the image (0 to 1) times t^n under n leaves; 0 beside the grid
+?name(action, a) -> light, and a = red of the image / 128. Action 0 asks only; with 1 a leaf of area a comes to stay,
+                    with any other number one goes. All leaves of a step come, then go, then all are answered
+Further parameters (20 in all at most) stay as they are.
+
+transmittance  t, 0.6; 0 is taken as 0.0001
+input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without one all is white
+grid_size      [512, 512]; cells
+grid_position  [0, 0] m; lower left corner
+grid_range     [1, 1] m; from corner to corner
+remove_old_leaves  false: leaves stay until they go; true: each step begins without leaves
+z_is_up        true: the ground is x and y; false: x and z
+parameters     a file with these keys in words, as cpfg's program clover reads it
+
+A leaf is a disc over the cells whose middles it covers. Statistics of a plant: mean, min, max of the light, queries.
+)"}};
+
+}  // namespace
+}  // namespace espalier

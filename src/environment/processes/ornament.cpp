@@ -1,0 +1,70 @@
+// ornament: how many discs lie over a place, and how far a picture lets them spread.
+// Wong, Zongker & Salesin 1998, Computer-generated floral ornament.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/ground_grid.h"
+
+#include <algorithm>
+
+namespace espalier {
+namespace {
+
+class Ornament final : public EnvironmentProcess {
+public:
+    Ornament(Settings& settings, const EnvironmentContext& context, Fields&)
+        : Ornament(ParameterFile(settings, context, {"grid size", "grid position", "grid range", "input image"}),
+                   context) {}
+
+    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+        ground_.clear();
+        for (const Query& query : queries) {
+            if (query.parameters.size() > 1) ground_.add_disc(place(query), query.parameters[1]);
+        }
+    }
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const std::optional<std::size_t> cell = ground_.cell(place(queries[i]));
+            answers[i][0] = cell ? std::min(ground_.count(*cell), 255u) : 0;
+            if (answers[i].size() > 1) answers[i][1] = cell ? ground_.colour(*cell)[1] / 255.0 : 0;
+        }
+        statistics_.sum_up(queries, answers);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // Every step begins anew.
+    void save(std::ostream&) const override {}
+    void restore(std::istream&) override {}
+
+private:
+    Ornament(ParameterFile file, const EnvironmentContext& context)
+        : ground_(file, context), statistics_(context.plants) {}
+
+    static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
+
+    GroundGrid ground_;
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<Ornament> entry{
+    {"ornament", "how many discs lie over a place, for ornaments that fill a plane (Wong et al. 1998)",
+     R"(?name(p, r) -> p = the number of discs over the place, 255 at most, the query's own of radius r among them,
+               r = green of the image there, 0 to 1; both are 0 beside the grid
+?name(p)    -> p = the number of discs
+Further parameters (20 in all at most) stay as they are. Places are x and y.
+
+input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without one all is white
+grid_size      [512, 512]; cells. A disc lies over the cells whose middles it covers
+grid_position  [0, 0] m; lower left corner
+grid_range     [1, 1] m; from corner to corner
+parameters     a file with these keys in words, as cpfg's program ornament reads it
+
+Statistics of a plant: mean, min, max of the counts, queries.
+)"}};
+
+}  // namespace
+}  // namespace espalier
