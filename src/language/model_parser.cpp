@@ -347,7 +347,7 @@ private:
             in_.seek(line);
             in_.skip_lines();
             const std::size_t start = in_.position();
-            if (in_.looking_at_keyword("endlsystem")) break;
+            if (in_.looking_at_keyword("endlsystem") || in_.looking_at_keyword("lsystem")) break;
             if (!in_.accept_keyword("define") || definitions_.contains(start)) continue;
             in_.accept(":");
             if (!in_.looking_at("{")) continue;

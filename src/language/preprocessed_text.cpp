@@ -27,12 +27,11 @@ PreprocessedText preprocess_text(std::string_view text, const std::string& name,
                                  const ReadOptions& options) {
     const auto origin = std::make_shared<PreprocessedText::Origin>();
     language::Mistakes mistakes(origin->sources);
-    ReadOptions lenient = options;
-    for (const auto& [macro, replacement] : options.defines) lenient.predefined[macro] = replacement;
-    lenient.defines.clear();
     try {
         const std::uint32_t file = origin->sources.add(name, std::string(text));
-        origin->text = language::preprocess(origin->sources, file, folder, lenient, mistakes).text;
+        origin->text =
+            language::preprocess(origin->sources, file, folder, options, mistakes, language::Overrides::may_be_unknown)
+                .text;
     } catch (const language::TooManyMistakes&) {
         // Those found so far are reported.
     }

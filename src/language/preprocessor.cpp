@@ -33,21 +33,21 @@ class Preprocessor {
 public:
     Preprocessor(Sources& sources, const ReadOptions& options, Mistakes& mistakes)
         : sources_(sources), options_(options), mistakes_(mistakes) {
-        for (const auto& [name, text] : options.predefined) define_from_outside(name, text);
-        for (const auto& [name, text] : options.defines) define_from_outside(name, text);
+        for (const auto& [name, text] : options.predefined) define_from_outside(name, text, false);
+        for (const auto& [name, text] : options.defines) define_from_outside(name, text, true);
     }
 
-    Preprocessed run(std::uint32_t file, const std::filesystem::path& folder) {
+    Preprocessed run(std::uint32_t file, const std::filesystem::path& folder, Overrides overrides) {
         read_file(file, folder);
-        reject_unknown_overrides(file);
+        if (overrides == Overrides::must_be_known) reject_unknown_overrides(file);
         return std::move(result_);
     }
 
 private:
-    void define_from_outside(const std::string& name, const std::string& text) {
+    void define_from_outside(const std::string& name, const std::string& text, bool overridden) {
         Macro macro;
         macro.body = trimmed(text);
-        macro.overridden = true;
+        macro.overridden = overridden;
         macros_.define(name, std::move(macro));
     }
 
@@ -257,8 +257,10 @@ private:
             throw SyntaxError{at_, fmt::format("'{}' takes arguments here and cannot be overridden", name)};
         }
         if (before && !before->same_meaning(macro)) {
-            mistakes_.warning(at_, fmt::format("'{}' is defined a second time, differently (first in {})", name,
-                                               to_string(sources_.place(before->defined))));
+            const Place first = sources_.place(before->defined);
+            const std::string where = first.line > 0 ? to_string(first) : "the view file, as the name of a function";
+            mistakes_.warning(at_,
+                              fmt::format("'{}' is defined a second time, differently (first in {})", name, where));
         }
         macros_.define(name, std::move(macro));
     }
@@ -326,8 +328,8 @@ private:
 }  // namespace
 
 Preprocessed preprocess(Sources& sources, std::uint32_t file, const std::filesystem::path& folder,
-                        const ReadOptions& options, Mistakes& mistakes) {
-    return Preprocessor(sources, options, mistakes).run(file, folder);
+                        const ReadOptions& options, Mistakes& mistakes, Overrides overrides) {
+    return Preprocessor(sources, options, mistakes).run(file, folder, overrides);
 }
 
 }  // namespace espalier::language

@@ -17,9 +17,12 @@ struct Preprocessed {
     std::set<std::string> macro_names;
 };
 
+/// Whether `ReadOptions::defines` may hold names that a file never mentions.
+enum class Overrides { must_be_known, may_be_unknown };
+
 /// Preprocesses a file already added to `sources`; included files are added to it. Mistakes are collected.
 Preprocessed preprocess(Sources& sources, std::uint32_t file, const std::filesystem::path& folder,
-                        const ReadOptions& options, Mistakes& mistakes);
+                        const ReadOptions& options, Mistakes& mistakes, Overrides overrides = Overrides::must_be_known);
 
 /// The value of an #if expression whose macros are expanded; throws SyntaxError at `at`.
 long long condition_value(std::string_view text, Location at);

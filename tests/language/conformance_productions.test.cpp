@@ -17,8 +17,9 @@ TEST_CASE("3 derivation length, Q and Z", "[conformance]") {
 
 TEST_CASE("3 arrays", "[conformance]") {
     quote(
-        "Each dimension of an array has brackets of its own, `rate[1][2]`; subscripts count from 0. Values fill it row "
-        "by row, with inner braces or without; what they do not fill is 0. One statement may declare several arrays.");
+        "Each dimension of an array has brackets of its own, `rate[1][2]`; subscripts count from 0. Values "
+        "fill it row by row, with inner braces or without; what they do not fill is 0. One statement may "
+        "declare several arrays.");
     const std::string values = "A --> B(a[0][0], a[1][2], b[1], c[0][0][1], c[1][1][1])\n";
     CHECK(step("A", values,
                "define: { array a[2][3] = { {1, 2, 3}, {4, 5, 6} }, b[4] = {7, 8}; array c[2][2][2] = {1, 2}; }\n") ==
@@ -48,15 +49,14 @@ TEST_CASE("3 variables", "[conformance]") {
 
 TEST_CASE("4 the parts of a production", "[conformance]") {
     quote(
-        "Every part but the strict predecessor, the arrow and the successor may be missing. The arrow is `-->` or "
-        "`-o>`.");
+        "Every part but the strict predecessor, the arrow and the successor may be missing. The arrow is "
+        "`-->` or `-o>`.");
     CHECK(step("LAR", "L < A > R : {n = 1;} n > 0 {m = 2;} --> B(n, m)\n") == "LB(1,2)R");
     CHECK(step("A(1)", "A(x) : x > 0 -o> B\n") == "B");
     CHECK(step("A(1)B", "A(x) : {n = x;} --> C(n)\nB : n > 0 --> D\n") == "C(1)D");
     quote(
-        "`*` stands for an empty context, for a condition that always holds, and for an empty successor. A successor "
-        "may "
-        "also be left empty, with a warning.");
+        "`*` stands for an empty context, for a condition that always holds, and for an empty successor. A "
+        "successor may also be left empty, with a warning.");
     CHECK(step("ABC(2)", "* < B > * --> *\nC(x) : * {y = x;} --> D(y)\n") == "AD(2)");
     CHECK(step("AB", "A -->\nB --> C\n") == "C");
     CHECK(reading_warnings(lsystem("", "AB", "A -->\nB --> C\n")).size() == 1);
@@ -67,39 +67,39 @@ TEST_CASE("4 the parts of a production", "[conformance]") {
     CHECK(mistake(lsystem("", "A(1)", "A(x) < B(x) --> C\n")).find("two parameters") != std::string::npos);
     CHECK(mistake(lsystem("", "A(1)", "A(1) --> C\n")).find("the name of a parameter") != std::string::npos);
     quote(
-        "The parameters of the successor are expressions in the parameters of the predecessor and the contexts, "
-        "variables and arrays.");
+        "The parameters of the successor are expressions in the parameters of the predecessor and the "
+        "contexts, variables and arrays.");
     CHECK(step("L(2)A(3)R(5,7)", "L(l) < A(x) > R(r, s) --> B(l + x * r - s + n + a[1])\n",
                "Start: { n = 100; a[1] = 1000; }\ndefine: { array a[2]; }\n") == "L(2)B(1110)R(5,7)");
 }
 
 TEST_CASE("4.1 which production is applied", "[conformance]") {
     quote(
-        "The first production that matches, in the order of the file, replaces its modules; modules that none matches "
-        "are copied.");
+        "The first production that matches, in the order of the file, replaces its modules; modules that none "
+        "matches are copied.");
     CHECK(step("A(1)A(5)C(3)", "A(x) : x > 2 --> B\nA(x) --> D\nA(x) --> E\n") == "DBC(3)");
     quote(
-        "A production matches if its strict predecessor does, then its right context, then its left context; then "
-        "parameters get their values, the block before the condition is run, and the condition must not be 0.");
+        "A production matches if its strict predecessor does, then its right context, then its left context; "
+        "then parameters get their values, the block before the condition is run, and the condition must not "
+        "be 0.");
     CHECK(step("LARLA", "L < A > R : {n = n + 1;} n == 1 --> X(n)\nA : {n = n + 10;} n > 1 --> Y(n)\n") ==
           "LX(1)RLY(11)");
     quote("What the block before the condition assigns remains assigned if the condition fails.");
     CHECK(step("A(1)", "A(x) : {n = n + x;} 0 --> B\nA(x) --> C(n)\n") == "C(1)");
     quote(
-        "The block after the condition is run only if the production is applied, before the successor's parameters are "
-        "evaluated.");
+        "The block after the condition is run only if the production is applied, before the successor's "
+        "parameters are evaluated.");
     CHECK(step("A(1)A(2)", "A(x) : x > 1 {n = n + 1;} --> B(n)\nA(x) --> C(n)\n") == "C(0)B(1)");
     quote(
-        "Variables assigned by one production are seen by those applied after it, from left to right through the "
-        "string.");
+        "Variables assigned by one production are seen by those applied after it, from left to right through "
+        "the string.");
     CHECK(step("AAA", "A : {n = n + 1;} --> B(n)\n") == "B(1)B(2)B(3)");
 }
 
 TEST_CASE("4.3 stochastic L-systems", "[conformance]") {
     quote(
-        "With a `seed:` line one of all the productions that match is drawn. Its chance is its weight divided by the "
-        "sum "
-        "of the weights of those that match.");
+        "With a `seed:` line one of all the productions that match is drawn. Its chance is its weight divided "
+        "by the sum of the weights of those that match.");
     std::string axiom;
     for (int i = 0; i < 4000; ++i) axiom += "A(1)";
     const std::string drawn = step(axiom,
@@ -112,9 +112,8 @@ TEST_CASE("4.3 stochastic L-systems", "[conformance]") {
     CHECK(std::abs(counts['B'] - 4000 * 2 / 9) < 130);  // five standard deviations
     CHECK(std::abs(counts['C'] - 4000 * 6 / 9) < 150);
     quote(
-        "A weight is any expression that is not negative, and 1 where it is missing. Weights without a `seed:` line "
-        "are an "
-        "error.");
+        "A weight is any expression that is not negative, and 1 where it is missing. Weights without a "
+        "`seed:` line are an error.");
     CHECK(step("AAAA", "A --> B : 0\nA --> C\n", "seed: 1\n") == "CCCC");
     CHECK(step("A(2)", "A(x) --> B : x / 3\n", "seed: 1\n") == "B");
     CHECK(mistake(lsystem("", "A", "A --> B : 1\n")).find("a weight needs a 'seed: number' line") != std::string::npos);
@@ -134,14 +133,13 @@ TEST_CASE("5 contexts and branches", "[conformance]") {
     proves("A > [C=]B", "A[C[D]E]B", "X[C[D]E]B");
     proves("A > [C[D]E]B", "A[C[D]E]B", "X[C[D]E]B");
     quote(
-        "The left context is sought towards the beginning of the axis: finished branches are skipped, an opening "
-        "bracket "
-        "is stepped over.");
+        "The left context is sought towards the beginning of the axis: finished branches are skipped, an "
+        "opening bracket is stepped over.");
     CHECK(step("C[D]B[[E]F[A]]", "CB < A --> X\n") == "C[D]B[[E]F[A]]");
     CHECK(step("C[D]B[[E][A]]", "CB < A --> X\n") == "C[D]B[[E][X]]");
     quote(
-        "The right context skips branches beside the axis unless the pattern names their bracket; the end of a branch "
-        "ends the search.");
+        "The right context skips branches beside the axis unless the pattern names their bracket; the end of "
+        "a branch ends the search.");
     CHECK(step("[A[C][D]B]B", "A > BB --> X\n") == "[A[C][D]B]B");
     CHECK(step("[A[C][D]BE]B", "A > BE --> X\n") == "[X[C][D]BE]B");
     CHECK(step("A[C]B", "A > [C]B --> X\n") == "X[C]B");
@@ -149,9 +147,8 @@ TEST_CASE("5 contexts and branches", "[conformance]") {
 
 TEST_CASE("5 ignore and consider", "[conformance]") {
     quote(
-        "`ignore: symbols` names the symbols that contexts do not see, `consider: symbols` those they see only. The "
-        "two "
-        "exclude each other, and neither concerns the strict predecessor.");
+        "`ignore: symbols` names the symbols that contexts do not see, `consider: symbols` those they see "
+        "only. The two exclude each other, and neither concerns the strict predecessor.");
     CHECK(step("B+(3)FA", "B < A --> X\n", "ignore: + - F\n") == "B+(3)FX");
     CHECK(step("B+FA", "B < A --> X\n", "ignore: +\n") == "B+FA");
     CHECK(step("B+FA", "B < A --> X\n", "consider: AB\n") == "B+FX");
@@ -161,10 +158,9 @@ TEST_CASE("5 ignore and consider", "[conformance]") {
     CHECK(mistake(lsystem("ignore: F\nconsider: B\n", "A", "A --> A\n")).find("exclude each other") !=
           std::string::npos);
     quote(
-        "Left contexts know brackets whatever is ignored. Right contexts look at the list first: with brackets "
-        "ignored, "
-        "or not considered, they walk into branches as if these were the axis, so that `A > B` holds for `A[B]`. Write "
-        "`consider: AB[]`.");
+        "Left contexts know brackets whatever is ignored. Right contexts look at the list first: with "
+        "brackets ignored, or not considered, they walk into branches as if these were the axis, so that `A > "
+        "B` holds for `A[B]`. Write `consider: AB[]`.");
     CHECK(step("B[C]A", "B < A --> X\n", "ignore: []\n") == "B[C]X");
     CHECK(step("B[C]A", "C < A --> X\n", "consider: ABC\n") == "B[C]A");
     CHECK(step("A[B]", "A > B --> X\n", "consider: A B\n") == "X[B]");

@@ -18,9 +18,8 @@ std::string value(const std::string& expression, const std::string& start = "") 
 
 TEST_CASE("6 statements", "[conformance]") {
     quote(
-        "Statements are assignments to variables and array elements, expressions, `if` with or without `else`, `while` "
-        "and "
-        "`do`. Bodies are always in braces.");
+        "Statements are assignments to variables and array elements, expressions, `if` with or without "
+        "`else`, `while` and `do`. Bodies are always in braces.");
     CHECK(derived(lsystem("define: { array sum[4]; }\nStart: {\n    i = 0;\n"
                           "    while (i < 4) { sum[i] = 2 ^ i; i = i + 1; }\n"
                           "    do { i = i - 1; } while (i > 0);\n"
@@ -37,9 +36,8 @@ TEST_CASE("6 statements", "[conformance]") {
 
 TEST_CASE("6 operators", "[conformance]") {
     quote(
-        "Operators, from the tightest: `!`; unary `-`; `^`; `*` `/` `%`; `+` `-`; `<` `<=` `>` `>=`; `==` `!=` `<>`; "
-        "`&&`; "
-        "`||`; `? :`; `=`.");
+        "Operators, from the tightest: `!`; unary `-`; `^`; `*` `/` `%`; `+` `-`; `<` `<=` `>` `>=`; `==` "
+        "`!=` `<>`; `&&`; `||`; `? :`; `=`.");
     CHECK(value("!0 + 1") == "2");
     CHECK(value("2 * 3 ^ 2") == "18");
     CHECK(value("1 + 2 * 3 - 8 / 4 % 3") == "5");
@@ -50,9 +48,8 @@ TEST_CASE("6 operators", "[conformance]") {
     CHECK(value("0 ? 1 : 0 ? 2 : 3") == "3");
     CHECK(value("1 == 2 && 3") == "0");
     quote(
-        "All operators on two values associate to the left, so that `2^3^2` is 64; unary minus binds tighter than `^`, "
-        "so "
-        "that `-2^2` is 4.");
+        "All operators on two values associate to the left, so that `2^3^2` is 64; unary minus binds tighter "
+        "than `^`, so that `-2^2` is 4.");
     CHECK(value("2^3^2") == "64");
     CHECK(value("-2^2") == "4");
     CHECK(value("2^-1") == "0.5");
@@ -65,9 +62,8 @@ TEST_CASE("6 operators", "[conformance]") {
     quote("`&&`, `||` and `? :` evaluate only what they need.");
     CHECK(value("n", "0 && (n = 1); 1 || (n = 2); x = 1 ? 3 : (n = 4);") == "0");
     quote(
-        "Division by zero is an error that names the place and the module; with `--cpfg-quirks` it divides by 1. So is "
-        "a "
-        "parameter that is infinite or no number.");
+        "Division by zero is an error that names the place and the module; with `--cpfg-quirks` it divides by "
+        "1. So is a parameter that is infinite or no number.");
     const std::string division = lsystem("derivation length: 1\n", "A(0)", "A(x) --> B(3 / x)\n");
     CHECK(mistake(division).find("model.l:4:14") != std::string::npos);
     ReadOptions quirks;
@@ -135,9 +131,8 @@ TEST_CASE("13 additions to statements and functions", "[conformance]") {
     CHECK(value("n, a", "n = 3; n *= 4; n /= 6; a = 5; --a; a++; ++a;") == "2,6");
     CHECK(value("n", "for (i = 0; i < 3; i++) { while (1) { n++; break; } }") == "3");
     quote(
-        "`min max abs round pow clamp(x, low, high) lerp(a, b, t) noise(x, y, z) atan2(y, x)` are functions, `pi` and "
-        "`e` "
-        "numbers, all of them ordinary names: a model that assigns them has variables.");
+        "`min max abs round pow clamp(x, low, high) lerp(a, b, t) noise(x, y, z) atan2(y, x)` are functions, "
+        "`pi` and `e` numbers, all of them ordinary names: a model that assigns them has variables.");
     CHECK(value("min(3, 1, 2), max(3, 1), abs(-2), round(2.5), pow(2, 3), clamp(7, 0, 5), lerp(2, 4, 0.5)") ==
           "1,3,2,3,8,5,3");
     CHECK(value("noise(1, 2, 3), noise(0.5, 0, 0) <= 1") == "0,1");
@@ -147,9 +142,8 @@ TEST_CASE("13 additions to statements and functions", "[conformance]") {
 
 TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]") {
     quote(
-        "A declared module must be written with a number of parameters it was declared with. `?E ?P ?H ?L ?U ?Q` keep "
-        "their "
-        "meaning whatever is declared.");
+        "A declared module must be written with a number of parameters it was declared with. `?E ?P ?H ?L ?U "
+        "?Q` keep their meaning whatever is declared.");
     const std::string declared =
         "environment light;\nmodule Apex(age, vigour), A(x), Internode(length);\nconst turn = 360 / 1.618^2;\n";
     CHECK(derived(declared + lsystem("derivation length: 1\n", "Apex(0, 1)?light(1)?E(2)A(3)",
@@ -164,10 +158,9 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
     quote("Symbols may be any Unicode code point.");
     CHECK(step("\xC3\xA9\xE2\x9D\x80(1)", "\xE2\x9D\x80(x) --> \xC3\xA9\n") == "\xC3\xA9\xC3\xA9");
     quote(
-        "A `#define` is overridden from a scene (`define = { ANGLE = 30 }`) or the command line (`--define ANGLE=30`); "
-        "the "
-        "file's own definition of that name is then passed over. A name that the file neither defines nor tests is "
-        "refused.");
+        "A `#define` is overridden from a scene (`define = { ANGLE = 30 }`) or the command line (`--define "
+        "ANGLE=30`); the file's own definition of that name is then passed over. A name that the file neither "
+        "defines nor tests is refused.");
     ReadOptions options;
     options.defines = {{"ANGLE", "30"}};
     CHECK(derived("#define ANGLE 25\n" + lsystem("derivation length: 1\n", "A", "A --> +(ANGLE)\n"), options) ==
@@ -177,9 +170,8 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
 
 TEST_CASE("14 differences", "[conformance]") {
     quote(
-        "Only known directives are directives: `#5 F` at the beginning of a line is modules. A double quote that is "
-        "never "
-        "closed ends with its line, not with the file.");
+        "Only known directives are directives: `#5 F` at the beginning of a line is modules. A double quote "
+        "that is never closed ends with its line, not with the file.");
     CHECK(step("A", "#define W 3\n/* 5\" pot */\n// 6\" pot\nA --> F(W)\n") == "F(3)");
     quote("The axiom's brackets must match.");
     CHECK_FALSE(mistake(lsystem("", "A[B", "A --> B\n")).empty());

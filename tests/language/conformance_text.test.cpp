@@ -18,8 +18,9 @@ TEST_CASE("1.1 comments and joined lines", "[conformance]") {
 
 TEST_CASE("1.1 directives", "[conformance]") {
     quote(
-        "Directives are `#define` (with arguments or without), `#undef`, `#include`, `#if`, `#ifdef`, `#ifndef`, "
-        "`#elif`, `#else`, `#endif`, `#error`, `#line` and `#pragma`, of which the last two do nothing.");
+        "Directives are `#define` (with arguments or without), `#undef`, `#include`, `#if`, `#ifdef`, "
+        "`#ifndef`, `#elif`, `#else`, `#endif`, `#error`, `#line` and `#pragma`, of which the last two do "
+        "nothing.");
     CHECK(step("A",
                "#line 7\n  # pragma once\n#define N 2\n#if N == 1\nA --> B\n#elif N == 2\nA --> C\n#else\n"
                "A --> D\n#endif\n#undef N\n#ifndef N\n#ifdef M\nC --> E\n#endif\n#endif\n") == "C");
@@ -33,20 +34,20 @@ TEST_CASE("1.1 macros", "[conformance]") {
     CHECK(step("A", "#define LENGTH 2.5\n#define SEGMENT(l, a) F(l)+(a)\nA --> F(LENGTH) SEGMENT(1, 30)\n") ==
           "F(2.5)F(1)+(30)");
     quote(
-        "A macro is replaced wherever its name stands, also where the name was meant as a module. It is replaced "
-        "from its definition on; a name with arguments is left alone where none follow.");
+        "A macro is replaced wherever its name stands, also where the name was meant as a module. It is "
+        "replaced from its definition on; a name with arguments is left alone where none follow.");
     CHECK(step("AB", "#define B C\nA --> B\nB --> D\n") == "CB");
     CHECK(step("S", "#define S(x) F(x)\nS --> S(2)S\n") == "F(2)S");
     quote("`$` and `_` are letters of names for the preprocessor: in `A$A` it finds no `A`, in `A@A` two.");
     CHECK(step("X", "#define A 1\nX --> A$A A@A F_A\n") == "A$A1@1F_A");
     quote(
-        "Between quotes, single or double, nothing is replaced. A quote that its line does not close reaches to "
-        "the end of the line.");
+        "Between quotes, single or double, nothing is replaced. A quote that its line does not close reaches "
+        "to the end of the line.");
     CHECK(step("X", "#define A 1\nX --> 'A'A 'A\nY --> A\n") == "'A'1'A");
     CHECK(read(lsystem("", "X", "#define A 1\nX --> @L(\"A\", A)\n"))->texts.at(0) == "A");
     quote(
-        "No blanks are put around what replaces a macro, except where two signs would become one: `-N` with N = -3 "
-        "is `- -3`.");
+        "No blanks are put around what replaces a macro, except where two signs would become one: `-N` with N "
+        "= -3 is `- -3`.");
     CHECK(step("X", "#define N -3\n#define M 4\nX --> F(1-N)-(M)\n") == "F(4)-(4)");
     CHECK(derived("#define BOTH(x, y) ((x) > 1 && (y) < 3)\n#define AND &&\n#define BEGIN { n = 2;\n" +
                   lsystem("derivation length: 1\nStart: BEGIN }\n", "A(2, 1)",
@@ -77,32 +78,32 @@ TEST_CASE("1.1 ends of lines", "[conformance]") {
 
 TEST_CASE("1.2 lines", "[conformance]") {
     quote(
-        "A newline ends a statement, and a line that begins with a TAB goes on with the one before. Blank lines and "
-        "comments may stand between the two.");
+        "A newline ends a statement, and a line that begins with a TAB goes on with the one before. Blank "
+        "lines and comments may stand between the two.");
     CHECK(step("A\n\tB", "A --> B\n\tC\n\n/* and */\n\n\tD\nB --> E\n") == "BCDE");
     CHECK(step("A(3)", "A(x) :\n\tx > 1\n\t-->\n\tF(x)[+A(x - 1)]\n") == "F(3)[+A(2)]");
     quote("Inside braces and parentheses a newline is a blank.");
     CHECK(step("A(1)", "A(x) : {\ny = x;\nz = 2;\n} y > 0 {\nw = 3;\n} --> B(y,\nz,\nw)\n") == "B(1,2,3)");
     CHECK(step("A", "A --> B(a[1][0])\n", "define:\n{\narray\na[2][2] = {\n{1, 2},\n{3, 4}\n};\n}\n") == "B(3)");
     quote(
-        "A line indented by blanks is a statement of its own if it holds an arrow or begins with a keyword; else it "
-        "goes on with the line before, as does one that begins with `-->`, `:`, `<` or `>`.");
+        "A line indented by blanks is a statement of its own if it holds an arrow or begins with a keyword; "
+        "else it goes on with the line before, as does one that begins with `-->`, `:`, `<` or `>`.");
     CHECK(derived("lsystem: 1\n  derivation length: 1\n  axiom: A\n    B\n  A\n    --> C\n      D\n  B --> E\n"
                   "endlsystem\n") == "CDE");
 }
 
 TEST_CASE("1.3 modules", "[conformance]") {
     quote(
-        "A module's symbol is one character, any but blanks and `< > : * ( )`. Letters, digits, brackets, braces, `;` "
-        "and `,` are modules like any other.");
+        "A module's symbol is one character, any but blanks and `< > : * ( )`. Letters, digits, brackets, "
+        "braces, `;` and `,` are modules like any other.");
     const std::string all = "`|^&%@#!~_=';,.?/\\$+-{}[]0189azAZ";
     CHECK(step("A", "A --> " + all + "\n") == all);
     CHECK(step("0", "0 --> 1[0]0\n1 --> 11\n", "derivation length: 2\n") == "11[1[0]0]1[0]0");
     CHECK(step("A{;(3)}", "A > { --> B\n; --> ,\n;(c) --> ,(c + 1)\n{ --> {.\n") == "B{.,(4)}");
     CHECK(step("+-++", "+ --> -\n- --> +(30)&\n") == "-+(30)&--");
     quote(
-        "`@o` is two modules, which only the turtle reads together; a production for `o` rewrites the second of them, "
-        "and the context `F@o(d)` is three modules.");
+        "`@o` is two modules, which only the turtle reads together; a production for `o` rewrites the second "
+        "of them, and the context `F@o(d)` is three modules.");
     CHECK(step("@o@o(2)~a", "o --> c\na --> b\n") == "@c@o(2)~b");
     CHECK(step("AF@o(2)", "A > F@o(d) --> A(d)\n") == "A(2)F@o(2)");
     quote(
@@ -113,9 +114,9 @@ TEST_CASE("1.3 modules", "[conformance]") {
     CHECK(step("A (1, 2) B", "A ( x , y ) --> C (x+y)  D\n") == "C(3)DB");
     CHECK(step("A(1)A(2)", "A(x)<A(y):x==1&&y>1-->B(x)-(-30)\n") == "A(1)B(1)-(-30)");
     quote(
-        "A text in double quotes may stand among the parameters of a module, as in `@L(\"%d\", n)`; each distinct text "
-        "of a model is a number, which is the parameter. In texts `\\n`, `\\t` and `\\r` are newline, TAB and carriage "
-        "return.");
+        "A text in double quotes may stand among the parameters of a module, as in `@L(\"%d\", n)`; each "
+        "distinct text of a model is a number, which is the parameter. In texts `\\n`, `\\t` and `\\r` are "
+        "newline, TAB and carriage return.");
     CHECK(read(lsystem("", "@L(\"a\\tb\\r\\n\")", "A --> @S(\"a\")\n"))->texts ==
           std::vector<std::string>{"a\tb\r\n", "a"});
     CHECK(step("@S(\"a\")A", "A --> @L(\"%d\", 7)@L(\"a\", 8)\nL(t, n) --> L(t)\n") == "@S(0)@L(1,7)@L(0,8)");
@@ -128,7 +129,9 @@ TEST_CASE("1.4 numbers", "[conformance]") {
 }
 
 TEST_CASE("2 the parts of a file", "[conformance]") {
-    quote("A file holds one or more L-systems, each from `lsystem:` to `endlsystem`; the first is the one that grows.");
+    quote(
+        "A file holds one or more L-systems, each from `lsystem:` to `endlsystem`; the first is the one that "
+        "grows.");
     CHECK(derived("lsystem: 1\nderivation length: 1\naxiom: A\nA --> B\nendlsystem\n"
                   "lsystem: 2\nderivation length: 5\naxiom: B\nB --> C\nA --> D\nendlsystem\n") == "B");
     quote(
@@ -138,13 +141,14 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
                   "derivation length: 1\ndefine: { array a[2]; }\nseed: 3\nA(x) > B --> C(x)\nendlsystem\n") ==
           "C(4)+B");
     quote(
-        "Productions may follow the axiom's line at once, and so may `decomposition` and `homomorphism`, each of which "
-        "may be missing.");
+        "Productions may follow the axiom's line at once, and so may `decomposition` and `homomorphism`, each "
+        "of which may be missing.");
     CHECK(step("A", "decomposition\nA --> B\n") == "B");
     CHECK(step("A", "homomorphism\nA --> B\n") == "A");
     quote(
-        "A keyword's words begin with a small or a capital letter, and the blanks between them may be missing: "
-        "`start each:`, `Start Each:` and `StartEach:` are the same. So are `lsystem` and `l-system`.");
+        "A keyword's words begin with a small or a capital letter, and the blanks between them may be "
+        "missing: `start each:`, `Start Each:` and `StartEach:` are the same. So are `lsystem` and "
+        "`l-system`.");
     for (const char* each : {"start each:", "Start Each:", "StartEach:", "startEach:", "Start each"}) {
         CHECK(derived("Lsystem: 1\nDerivation length: 2\n" + std::string(each) +
                       " { n = n + 1; }\nAxiom: A(0)\n"
@@ -153,8 +157,8 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
     }
     CHECK(derived("L-system: 1\nRing L-system\nDerivationLength: 1\nAxiom: AB\nB < A --> C\nEndlsystem\n") == "CB");
     quote(
-        "A line with an arrow is a production, even if it begins like a keyword, as `end --> F` does. Variables and "
-        "parameters may have the names of keywords too.");
+        "A line with an arrow is a production, even if it begins like a keyword, as `end --> F` does. "
+        "Variables and parameters may have the names of keywords too.");
     CHECK(step("end", "end --> F\n") == "F");
     CHECK(step("enD", "e < n > D : 1 > 0 --> F\nwarnings --> X\n") == "eFD");
     CHECK(step("A(end)", "A(seed) : if == 3 --> B(seed, start, for)\n",
@@ -163,8 +167,8 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
 
 TEST_CASE("2 several L-systems, missing ends", "[conformance]") {
     quote(
-        "L-systems of one file share symbols, constants and declared modules; variables and arrays are each one's "
-        "own.");
+        "L-systems of one file share symbols, constants and declared modules; variables and arrays are each "
+        "one's own.");
     const auto model = read(
         "module Bud(age);\nlsystem: 1\nconst k = 3;\nStart: {n = 1;}\naxiom: Bud(n)\nA --> A\n"
         "endlsystem\nlsystem: 2\nStart: {n = k;}\naxiom: Bud(n)\nA --> A\nendlsystem\n");

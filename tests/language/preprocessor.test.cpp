@@ -122,6 +122,20 @@ TEST_CASE("a second, different definition is warned about and wins", "[language]
     CHECK(model->main().derivation_length->value == 2);
 }
 
+TEST_CASE("names defined beforehand give way to a file's own definition, overridden ones do not", "[language]") {
+    std::vector<Diagnostic> warnings;
+    ReadOptions options;
+    options.predefined = {{"HILL", "1"}, {"SLOPE", "2"}};
+    options.defines = {{"SLOPE", "3"}, {"UNKNOWN", "4"}};
+    options.warnings = &warnings;
+    const PreprocessedText text = preprocess_text(
+        "HILL SLOPE\n#define HILL 7\n#define SLOPE 8\nHILL SLOPE\n#undef HILL\nHILL\n", "p.v", {}, options);
+    CHECK(text.text() == "1 3\n\n\n7 3\n\nHILL\n");
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].message ==
+          "'HILL' is defined a second time, differently (first in the view file, as the name of a function)");
+}
+
 TEST_CASE("included files are found beside the file that includes them", "[language]") {
     const Folder folder;
     folder.write("parts/angle.h", "#include \"deeper.h\"\n");
