@@ -1,0 +1,125 @@
+// density: how crowded a place of the plane is, and where it is less so.
+// Cohen 1967, Computer simulation of biological pattern generation processes.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/parameter_file.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace espalier {
+namespace {
+
+/// Something that makes its surroundings dense.
+struct Occupant {
+    glm::dvec2 place;
+    bool is_source;
+    double strength;
+};
+
+class Density final : public EnvironmentProcess {
+public:
+    Density(Settings& settings, const EnvironmentContext& context, Fields&) : statistics_(context.plants) {
+        ParameterFile file(settings, context,
+                           {"range", "position", "output image", "frame intervals", "quantization step", "gamma",
+                            "one point value", "return vector"});
+        at_the_point_ = file.flag("one point value", false);
+        as_vector_ = file.flag("return vector", false, {"yes", "on"}, {"no", "off"});
+        // Of the picture that cpfg's program writes, and we record in other ways.
+        for (const char* key : {"range", "position"}) file.numbers(key, {0, 0});
+        for (const char* key : {"quantization step", "gamma"}) file.number(key, 1);
+        for (const char* key : {"output image", "frame intervals"}) file.file(key);
+    }
+
+    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        occupants_.clear();
+        for (const Query& query : queries) {
+            const bool is_source = query.parameters.size() == 1;
+            occupants_.push_back({place(query), is_source, is_source ? query.parameters[0] : 1});
+        }
+        // Sums in an order of their own do not depend on the order of the queries.
+        std::sort(occupants_.begin(), occupants_.end(), [](const Occupant& a, const Occupant& b) {
+            return std::tie(a.place.x, a.place.y, a.is_source, a.strength) <
+                   std::tie(b.place.x, b.place.y, b.is_source, b.strength);
+        });
+        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+            if (queries[i].parameters.size() == 3) answer_one(place(queries[i]), answers[i]);
+        });
+        statistics_.clear();
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (answers[i].size() == 3) statistics_.add(queries[i].plant, answers[i][0]);
+        }
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // Every step begins anew.
+    void save(std::ostream&) const override {}
+    void restore(std::istream&) override {}
+
+private:
+    static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
+
+    double density(const glm::dvec2& at) const {
+        double sum = 0;
+        for (const Occupant& other : occupants_) {
+            const double apart = glm::distance(other.place, at);
+            sum += other.is_source ? other.strength / (1 + apart) : 1 / (1 + apart * apart);
+        }
+        return sum;
+    }
+
+    // 6 x 6 places in the unit square around it.
+    double least_around(const glm::dvec2& at) const {
+        double least = density(at + glm::dvec2(-0.5));
+        for (int i = 0; i < 36; ++i) {
+            least = std::min(least, density(at + glm::dvec2(-0.5 + 0.2 * (i % 6), -0.5 + 0.2 * (i / 6))));
+        }
+        return least;
+    }
+
+    void answer_one(const glm::dvec2& at, Answer answer) const {
+        const glm::dvec2 right(0.5, 0), above(0, 0.5);
+        const glm::dvec2 downhill(density(at - right) - density(at + right), density(at - above) - density(at + above));
+        answer[0] = at_the_point_ ? density(at) : least_around(at);
+        answer[1] = as_vector_ ? downhill.x : std::atan2(downhill.y, downhill.x) * 180 / std::numbers::pi;
+        answer[2] = as_vector_ ? downhill.y : glm::length(downhill);
+    }
+
+    bool at_the_point_, as_vector_;
+    std::vector<Occupant> occupants_;
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<Density> entry{
+    {"density", "how crowded a place of the plane is, and where it is less so (Cohen 1967)",
+     R"(The density at a place is the sum of 1 / (1 + d^2) over all queries but sources and of v / (1 + d) over the sources,
+d being their distance in x and y.
+
+?name(v)          a source of strength v, which may be negative; stays as it is
+?name(r, a, m) -> r: the density; a, m: where it falls most steeply, as an angle in degrees from +x towards +y and how
+                  much it falls over one unit, by differences over half a unit to either side
+Queries with other numbers of parameters only take room.
+
+one_point_value  false: r is the least of 6 x 6 places in the unit square around the query; true: at the query itself
+return_vector    false; true: a and m are the x and y of the fall
+range, position, output_image, frame_intervals, quantization_step, gamma
+                 accepted: they are about the picture that cpfg's program writes
+parameters       a file with these keys in words, as cpfg's program density reads it
+
+Time grows with the square of the queries. Statistics of a plant: mean, min, max of r, queries.
+)"}};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,114 @@
+// density3d: counts what was ever put into each voxel of a box.
+// After Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/parameter_file.h"
+
+#include <fmt/format.h>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <map>
+#include <optional>
+#include <ostream>
+
+namespace espalier {
+namespace {
+
+class Density3d final : public EnvironmentProcess {
+public:
+    Density3d(Settings& settings, const EnvironmentContext& context, Fields&)
+        : memory_(context.memory), statistics_(context.plants) {
+        ParameterFile file(settings, context, {"range", "position", "grid size", "octree level"});
+        const std::vector<double> range = file.numbers("range", {1, 1, 1}, Range::positive());
+        const std::vector<double> lower = file.numbers("position", {0, 0, 0}, Range::between(-1e100, 1e100));
+        const auto level = static_cast<int>(file.whole("octree level", 0, Range::between(0, 20)));
+        const double cells = std::ldexp(1.0, level);
+        const std::vector<double> size = file.numbers("grid size", {cells, cells, cells}, Range::between(1, 1 << 20));
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            lower_[axis] = lower[i];
+            range_[axis] = range[i];
+            size_[axis] = std::floor(size[i]);
+        }
+    }
+
+    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
+
+    // One after the other, in string order: each finds what those before it left.
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const std::optional<std::uint64_t> voxel = voxel_of(queries[i].pose.position);
+            answers[i][0] = voxel ? amounts_[*voxel] += queries[i].parameters[0] : 0;
+        }
+        if (amounts_.size() > memory_ / 64) throw RunError("so many voxels are occupied that memory would run out");
+        statistics_.sum_up(queries, answers);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        std::vector<Quantity> all = statistics_.quantities(plant);
+        double total = 0;
+        for (const auto& voxel : amounts_) total += voxel.second;
+        all.push_back({"total", total});
+        return all;
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    void save(std::ostream& out) const override {
+        for (const auto& [voxel, amount] : amounts_) {
+            out.write(reinterpret_cast<const char*>(&voxel), sizeof voxel);
+            out.write(reinterpret_cast<const char*>(&amount), sizeof amount);
+        }
+    }
+
+    void restore(std::istream& in) override {
+        amounts_.clear();
+        std::uint64_t voxel = 0;
+        double amount = 0;
+        while (in.read(reinterpret_cast<char*>(&voxel), sizeof voxel)) {
+            if (!in.read(reinterpret_cast<char*>(&amount), sizeof amount)) throw UserError("the checkpoint is damaged");
+            amounts_[voxel] = amount;
+        }
+    }
+
+private:
+    std::optional<std::uint64_t> voxel_of(const glm::dvec3& place) const {
+        std::uint64_t number = 0;
+        for (int axis = 2; axis >= 0; --axis) {
+            const double part = (place[axis] - lower_[axis]) / range_[axis];
+            if (!(part >= 0 && part < 1)) return std::nullopt;
+            const double index = std::min(std::floor(part * size_[axis]), size_[axis] - 1);
+            number = number * static_cast<std::uint64_t>(size_[axis]) + static_cast<std::uint64_t>(index);
+        }
+        return number;
+    }
+
+    glm::dvec3 lower_{0}, range_{1}, size_{1};
+    std::size_t memory_;
+    std::map<std::uint64_t, double> amounts_;  ///< of the voxels that were ever asked
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<Density3d> entry{
+    {"density3d", "counts what was ever put into each voxel of a box (after Greene 1989)",
+     R"(?name(v) -> v is added to the voxel, and the answer is all that was ever added to it; 0 outside the box
+Further parameters (20 in all at most) stay as they are.
+
+Queries are answered one after the other in string order, each finding what those before it left: their order matters.
+Nothing is forgotten from step to step.
+
+range         [1, 1, 1] m; of the box
+position      [0, 0, 0] m; its lower corner
+grid_size     [1, 1, 1]; voxels
+octree_level  0; 2^level voxels along each side, where no grid_size is given
+parameters    a file with these keys in words, as cpfg's program density3d reads it
+
+Statistics of a plant: mean, min, max of the answers, queries; total, all that is in the box.
+)"}};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,164 @@
+// shadowpyramid: organs cast pyramids of shadow that multiply, their own among them.
+// Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3, as the
+// environment program of that name does it; voxel-shade is the process of ours.
+#include "espalier/environment/environment_process.h"
+#include "espalier/environment/openvdb_grid.h"
+
+#include "environment/answer_statistics.h"
+#include "environment/parameter_file.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <openvdb/tools/Interpolation.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+using openvdb::Coord;
+
+class ShadowPyramid final : public EnvironmentProcess {
+public:
+    ShadowPyramid(Settings& settings, const EnvironmentContext& context, Fields& fields)
+        : name_(context.name), memory_(context.memory), statistics_(context.plants) {
+        ParameterFile file(settings, context,
+                           {"grid size", "grid span", "shadow spread", "shadow depth", "shadow weight",
+                            "shadow dissipation", "light randomness", "light vertical bias", "sample radius"});
+        const double size = std::floor(file.number("grid size", 201, Range::between(2, 1e6)));
+        const double span = file.number("grid span", 200, Range::positive());
+        voxel_ = 2 * span / (size - 1);
+        farthest_ = static_cast<int>((size - 1) / 2);
+        spread_ = file.number("shadow spread", 1, Range::between(0, 100));
+        depth_ = static_cast<int>(file.whole("shadow depth", 6, Range::between(0, 1000)));
+        weight_ = file.number("shadow weight", 0.58, Range::not_negative());
+        dissipation_ = file.number("shadow dissipation", 6.9, Range::positive());
+        randomness_ = file.number("light randomness", 0, Range::between(0, 1e6));
+        bias_ = file.number("light vertical bias", 0, Range::between(-1e6, 1e6));
+        radius_ = file.number("sample radius", 1.6, Range::positive());
+        draws_ = RandomKey(context.seed, 0, Stream::process, 0x7368616479);
+        initialize_openvdb();
+        cast({}, fields);
+    }
+
+    void advance(const WorldView&, std::span<const Query> queries, Fields& fields) override {
+        std::vector<Coord> casters;
+        for (const Query& query : queries) {
+            if (!(query.parameters[0] > 0)) continue;
+            const glm::dvec3 place = glm::round(query.pose.position / voxel_);
+            if (std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) > farthest_) continue;
+            casters.emplace_back(static_cast<int>(place.x), static_cast<int>(place.y), static_cast<int>(place.z));
+        }
+        std::sort(casters.begin(), casters.end());  // the product of many shadows is the same in any order of queries
+        cast(casters, fields);
+    }
+
+    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), [&](const auto& some) {
+            const auto accessor = light_->getConstAccessor();
+            for (std::size_t i = some.begin(); i < some.end(); ++i) {
+                answer_one(accessor, queries[i], static_cast<std::uint32_t>(world.step), answers[i]);
+            }
+        });
+        statistics_.sum_up(queries, answers);
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    // Shadows are made anew from the queries of every step: nothing lasts.
+    void save(std::ostream&) const override {}
+    void restore(std::istream&) override {}
+
+private:
+    using Accessor = openvdb::FloatGrid::ConstAccessor;
+
+    void cast(const std::vector<Coord>& casters, Fields& fields) {
+        const double widest = 2 * std::floor(spread_ * std::max(depth_ - 1, 0)) + 1;
+        const double side = 2.0 * farthest_ + 1;
+        const double voxels =
+            std::min(static_cast<double>(casters.size()) * widest * widest * depth_, side * side * side);
+        if (voxels * sizeof(float) * 2 > static_cast<double>(memory_)) {
+            throw RunError(fmt::format("{} shadows of {} layers need up to {:.3g} voxels, more than memory allows",
+                                       casters.size(), depth_, voxels));
+        }
+        light_ = openvdb::FloatGrid::create(1.0F);
+        light_->setTransform(cell_centred_transform(voxel_, glm::dvec3(-0.5 * voxel_)));
+        auto accessor = light_->getAccessor();
+        for (const Coord& caster : casters) {
+            for (int layer = 0; layer < depth_; ++layer) cast_layer(accessor, caster, layer);
+        }
+        fields.provide({name_, "1", "part of the light that the shadows leave",
+                        std::make_shared<FieldGrid>(FieldGrid{light_, light_->evalActiveVoxelBoundingBox()}), true});
+    }
+
+    void cast_layer(openvdb::FloatGrid::Accessor& accessor, const Coord& caster, int layer) const {
+        if (caster.y() - layer < -farthest_) return;
+        const int half = static_cast<int>(spread_ * layer);
+        for (int x = std::max(-half, -farthest_ - caster.x()); x <= std::min(half, farthest_ - caster.x()); ++x) {
+            for (int z = std::max(-half, -farthest_ - caster.z()); z <= std::min(half, farthest_ - caster.z()); ++z) {
+                const double away = std::sqrt(double(x) * x + double(layer) * layer + double(z) * z);
+                const double left = 1 - std::min(1.0, weight_ * std::pow(dissipation_, -away));
+                const Coord voxel = caster.offsetBy(x, -layer, z);
+                accessor.setValue(voxel, accessor.getValue(voxel) * static_cast<float>(left));
+            }
+        }
+    }
+
+    double light_at(const Accessor& accessor, const glm::dvec3& place) const {
+        const glm::dvec3 index = place / voxel_;
+        if (std::max({std::abs(index.x), std::abs(index.y), std::abs(index.z)}) > farthest_ + 1) return 1;
+        return openvdb::tools::BoxSampler::sample(accessor, openvdb::Vec3d(index.x, index.y, index.z));
+    }
+
+    void answer_one(const Accessor& accessor, const Query& query, std::uint32_t step, Answer answer) const {
+        const glm::dvec3& place = query.pose.position;
+        answer[0] = light_at(accessor, place);
+        if (answer.size() < 4) return;
+        RandomDraws draws(draws_, mix(query.identity, query.plant), step);
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 reach(0);
+            reach[axis] = radius_;
+            const double rise = light_at(accessor, place + reach) - light_at(accessor, place - reach);
+            const double chance = randomness_ > 0 ? randomness_ * (2 * draws.uniform() - 1) : 0;
+            answer[static_cast<std::size_t>(axis) + 1] = rise / (2 * radius_) + chance + (axis == 1 ? bias_ : 0);
+        }
+    }
+
+    std::string name_;
+    std::size_t memory_;
+    double voxel_, spread_, weight_, dissipation_, randomness_, bias_, radius_;
+    int farthest_, depth_;
+    RandomKey draws_;
+    openvdb::FloatGrid::Ptr light_;
+    AnswerStatistics statistics_;
+};
+
+const RegisteredProcess<ShadowPyramid> entry{
+    {"shadowpyramid", "light left by shadow pyramids that multiply (Palubicki et al. 2009, as cpfg's program has it)",
+     R"(Every query with p > 0 casts a pyramid on its own voxel and the layers below: in layer i = 0 ... depth - 1, a square of
+half-width floor(spread i) voxels, each multiplied by 1 - min(1, weight * dissipation^-d), d its distance in voxels.
+
+?name(p)          -> light, 1 in the open. A query that casts stands in its own shadow
+?name(p, x, y, z) -> light, and its gradient per metre by differences over the sample radius, not normalised
+Further parameters (20 in all at most) stay as they are.
+
+grid_size           n, 201; voxels along each side, the middle one around the origin
+grid_span           X, 200 m; the grid reaches from -X to X, so that a voxel is 2 X / (n - 1) wide
+shadow_spread       1
+shadow_depth        6; layers
+shadow_weight       0.58
+shadow_dissipation  6.9
+sample_radius       1.6 m
+light_vertical_bias 0; added to the y of the gradient
+light_randomness    0; each part of the gradient is changed by up to this, at random
+parameters          a file with these keys in words, as cpfg's program shadowpyramid reads it
+
+Outside the grid is full light. Field: name (the light). Statistics of a plant: mean, min, max of the light, queries.
+)"}};
+
+}  // namespace
+}  // namespace espalier
