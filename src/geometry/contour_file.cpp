@@ -53,10 +53,10 @@ private:
         if (version.size() != 2 || version[0] != 1 || version[1] < 1 || version[1] > 3) {
             return refuse(line, "contours are read from 'cver 1 1' to 'cver 1 3' only");
         }
-        lines_.take_line("name:");
+        lines_.take_line();  // its name
         const int count = lines_.take_integer("points:", 1, LineReader::most_lines);
         if (!read_type(lines_.take_line("type:"), version[1] == 1)) return false;
-        if (version[1] == 3) lines_.take_line("samples:");
+        if (version[1] == 3) lines_.take_line();  // samples, which depend on the turtle instead
         lines_.pass_over_editor_lines();
         for (int i = 0; i < count; ++i) take_point(most_dimensions, true);
         return true;
