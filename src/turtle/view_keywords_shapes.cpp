@@ -191,7 +191,8 @@ void contour_sides(ViewReader& reader) {
     if (!reader.read_integer(sides)) return;
     const int kept = sides <= 2 ? 3 : std::min(sides, most_sides);
     if (kept != sides) {
-        reader.complain(fmt::format("{} contour sides are taken as {}: from 3 to {}", sides, kept, most_sides));
+        reader.complain(fmt::format("{} contour sides are taken as {}: from 3 to {}", sides, kept, most_sides),
+                        Severity::warning);
     }
     reader.view.turtle.contour_sides = kept;
 }

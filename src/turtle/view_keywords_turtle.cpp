@@ -71,7 +71,7 @@ void line_width_increment(ViewReader& reader) {
 void read_factor(ViewReader& reader, double& factor, const char* name) {
     if (!reader.read_number(factor) || factor != 0) return;
     factor = 1;
-    reader.complain(fmt::format("'{}' must not be 0; it is 1", name));
+    reader.complain(fmt::format("'{}' must not be 0; it is 1", name), Diagnostic::Severity::warning);
 }
 
 void initial_scale(ViewReader& reader) {

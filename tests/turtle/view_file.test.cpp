@@ -325,9 +325,9 @@ TEST_CASE("settings outside their range are moved into it, with a word", "[turtl
     CHECK(view.turtle.scale == 1);
     CHECK_FALSE(view.exchanges_first);
     CHECK(messages_of(view) ==
-          Messages{"a.v:1:1: 2 contour sides are taken as 3: from 3 to 1000",
+          Messages{"a.v:1:1: warning: 2 contour sides are taken as 3: from 3 to 1000",
                    "a.v:2:1: warning: colour 300 is taken as 44: indices go from 0 to 255",
-                   "a.v:4:1: 'initial scale' must not be 0; it is 1",
-                   "a.v:5:1: 'scale multiplier' must not be 0; it is 1",
+                   "a.v:4:1: warning: 'initial scale' must not be 0; it is 1",
+                   "a.v:5:1: warning: 'scale multiplier' must not be 0; it is 1",
                    "a.v:6:1: warning: 'environment display: on' does nothing; the word is 'before'"});
 }
