@@ -104,13 +104,13 @@ TEST_CASE("several processes behind one ?E are told apart by its first parameter
     Environment environment =
         environment_of("[a]\nprocess = 'test-where'\nmark = 5\n[b]\nprocess = 'test-where'\nmark = 6");
     environment.route_by_first_parameter();
-    AskingPlants plants({});
+    AskingPlants plants(std::vector<std::string>{});
     plants.add({{{7, 8, 9}, {1, 0, 0, 0, 0}, ""}, {{1, 2, 3}, {0, 0, 0, 0, 0}, ""}});
     plants.exchange(environment);
     CHECK(plants.parameters() == std::vector<double>{1, 7, 8, 9, 6, 0, 1, 2, 3, 5});
     CHECK(Where::seen.size() == 4);
 
-    AskingPlants lost({});
+    AskingPlants lost(std::vector<std::string>{});
     lost.add({{{0, 0, 0}, {2, 0}, ""}});
     CHECK_THROWS_AS(lost.exchange(environment), RunError);
     CHECK(lacks(message_of([&] { lost.exchange(environment); }), {"?E(2", "0 to 1"}) == "");
@@ -118,7 +118,7 @@ TEST_CASE("several processes behind one ?E are told apart by its first parameter
 
 TEST_CASE("where queries may stay unanswered they keep their parameters", "[environment]") {
     Environment environment = environment_of("");
-    AskingPlants plants({});
+    AskingPlants plants(std::vector<std::string>{});
     plants.add({{{0, 0, 0}, {4, 5}, ""}});
     CHECK_THROWS_AS(plants.exchange(environment), UserError);
     environment.keep_unanswered();
