@@ -194,6 +194,11 @@ double Machine::print(const PrintCall& call, const Place& place) {
     for (const PrintCall::Argument& argument : call.arguments) {
         values.push_back({argument.text ? 0 : registers_[argument.reg], argument.text});
     }
+    if (values.size() < call.format.conversions()) {
+        services_->warn(place,
+                        fmt::format("the format asks for {} values and is given {}; those that are missing are 0",
+                                    call.format.conversions(), values.size()));
+    }
     const std::string text = call.format.fill(values);
     if (!call.file) {
         services_->print(text);

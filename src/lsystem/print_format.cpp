@@ -1,7 +1,5 @@
 #include "print_format.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstdio>
 
@@ -10,6 +8,7 @@ namespace {
 
 constexpr std::string_view floating = "fFeEgGaA";
 constexpr std::string_view whole = "diuxXoc";
+constexpr std::size_t longest_specification = 8;
 
 bool one_of(std::string_view set, char letter) {
     return set.find(letter) != std::string_view::npos;
@@ -33,7 +32,7 @@ long long to_whole(double value) {
 
 }  // namespace
 
-PrintFormat::PrintFormat(std::string_view format, const Place& place) {
+PrintFormat::PrintFormat(std::string_view format) {
     std::string literal;
     for (std::size_t i = 0; i < format.size(); ++i) {
         if (format[i] != '%') {
@@ -51,9 +50,9 @@ PrintFormat::PrintFormat(std::string_view format, const Place& place) {
         while (end < format.size() && one_of("hlLqjzt", format[end])) ++end;
         const char conversion = end < format.size() ? format[end] : '\0';
         const bool known = one_of(floating, conversion) || one_of(whole, conversion) || conversion == 's';
-        if (conversion == '\0' || !known || specification.size() > 8) {
-            throw UserError(place, fmt::format("'{}' is not a conversion that printf knows",
-                                               format.substr(i, end - i + (end < format.size() ? 1 : 0))));
+        if (conversion == '\0' || !known || specification.size() > longest_specification) {
+            literal += '%';
+            continue;
         }
         if (one_of(whole, conversion) && conversion != 'c') specification += "ll";
         specification += conversion;
@@ -69,14 +68,15 @@ std::string PrintFormat::fill(const std::vector<Value>& values) const {
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const Piece& piece = pieces_[k];
         text += piece.before;
+        const Value value = k < values.size() ? values[k] : Value();
         if (piece.conversion == 's') {
-            text += print_one(piece.specification, values[k].text ? values[k].text->c_str() : "");
+            text += print_one(piece.specification, value.text ? value.text->c_str() : "");
         } else if (piece.conversion == 'c') {
-            text += print_one(piece.specification, static_cast<int>(to_whole(values[k].number) & 0xFF));
+            text += print_one(piece.specification, static_cast<int>(to_whole(value.number) & 0xFF));
         } else if (one_of(whole, piece.conversion)) {
-            text += print_one(piece.specification, to_whole(values[k].number));
+            text += print_one(piece.specification, to_whole(value.number));
         } else {
-            text += print_one(piece.specification, values[k].number);
+            text += print_one(piece.specification, value.number);
         }
     }
     return text + after_;

@@ -1,8 +1,6 @@
 // printf of the language: the format is taken apart once, checked against its arguments, and then only filled in.
 #pragma once
 
-#include "espalier/base/error.h"
-
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,8 +9,8 @@ namespace espalier {
 
 class PrintFormat {
 public:
-    /// Throws UserError at `place` for a conversion that does not exist.
-    PrintFormat(std::string_view format, const Place& place);
+    /// A '%' that begins no conversion stands for itself, as in "100%!".
+    explicit PrintFormat(std::string_view format);
 
     struct Value {
         double number = 0;
@@ -21,7 +19,7 @@ public:
     std::size_t conversions() const { return pieces_.size(); }
     /// True if the k-th conversion is %s.
     bool wants_text(std::size_t k) const { return pieces_[k].conversion == 's'; }
-    /// `values` holds at least as many as there are conversions.
+    /// Values that are missing are 0.
     std::string fill(const std::vector<Value>& values) const;
 
 private:

@@ -257,13 +257,9 @@ ProgramCompiler::Operand ProgramCompiler::print(const Expression& expression) {
     if (format.kind != Expression::Kind::text) {
         throw UserError(format.place, fmt::format("{} needs a format in quotes", name));
     }
-    PrintCall call{PrintFormat(format.text, format.place), {}, std::nullopt};
+    PrintCall call{PrintFormat(format.text), {}, std::nullopt};
     if (at > 0) call.file = reg(compile(expression.operands[0]));
     const std::size_t given = expression.operands.size() - at - 1;
-    if (given < call.format.conversions()) {
-        throw UserError(expression.place, fmt::format("the format asks for {} values, but {} is given {}",
-                                                      call.format.conversions(), name, given));
-    }
     for (std::size_t k = 0; k < given; ++k) {
         const Expression& operand = expression.operands[at + 1 + k];
         const bool text = operand.kind == Expression::Kind::text;

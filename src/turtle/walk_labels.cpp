@@ -3,8 +3,7 @@
 
 #include "lsystem/print_format.h"
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace espalier {
 namespace {
@@ -17,14 +16,10 @@ const std::string* text_at(const Model& model, double index) {
 }
 
 std::string filled(const Model& model, const std::string& format, std::span<const double> values) {
-    try {
-        const PrintFormat print(format, {});
-        std::vector<PrintFormat::Value> arguments(std::max(print.conversions(), values.size()));
-        for (std::size_t k = 0; k < values.size(); ++k) arguments[k] = {values[k], text_at(model, values[k])};
-        return print.fill(arguments);
-    } catch (const UserError&) {
-        return format;  // a label that printf could not write stands as it is
-    }
+    const PrintFormat print(format);
+    std::vector<PrintFormat::Value> arguments(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) arguments[k] = {values[k], text_at(model, values[k])};
+    return print.fill(arguments);
 }
 
 }  // namespace
