@@ -21,6 +21,9 @@
 namespace espalier::language {
 namespace {
 
+// Shorter keywords may be the modules of a predecessor before a condition.
+constexpr std::size_t longest_plain_word = 6;
+
 class ModelParser {
 public:
     ModelParser(const Preprocessed& source, const Sources& sources, Mistakes& mistakes, Model& model)
@@ -172,7 +175,7 @@ private:
             const std::size_t after = in_.rest().find_first_not_of(" \t", length);
             const char next = after == Scanner::npos ? '\n' : in_.rest()[after];
             const bool production = in_.line_has_arrow(in_.position());
-            return next == '{' || !production || (next == ':' && !axiom_read_);
+            return next == '{' || !production || (next == ':' && (!axiom_read_ || keyword.size() > longest_plain_word));
         };
         const auto header = header_keywords();
         const auto section = section_keywords();

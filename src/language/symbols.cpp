@@ -2,24 +2,19 @@
 
 #include "language/characters.h"
 
-#include <algorithm>
-
 namespace espalier::language {
 
 void Symbols::declare(const std::string& name) {
-    std::vector<std::string>& names = declared_[name.front()];
-    if (std::find(names.begin(), names.end(), name) != names.end()) return;
-    names.push_back(name);
-    std::stable_sort(names.begin(), names.end(),
-                     [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+    declared_.insert(name);
+    lengths_[name.front()].insert(name.size());
 }
 
 std::string_view Symbols::at(std::string_view text) const {
     const char first = text.empty() ? '\0' : text.front();
-    if (!declared_.empty()) {
-        if (const auto names = declared_.find(first); names != declared_.end()) {
-            for (const std::string& name : names->second) {
-                if (text.starts_with(name)) return text.substr(0, name.size());
+    if (!lengths_.empty()) {
+        if (const auto lengths = lengths_.find(first); lengths != lengths_.end()) {
+            for (const std::size_t length : lengths->second) {
+                if (length <= text.size() && declared_.contains(text.substr(0, length))) return text.substr(0, length);
             }
         }
     }

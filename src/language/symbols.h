@@ -3,8 +3,9 @@
 
 #include "language/source.h"
 
+#include <functional>
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ public:
     const std::vector<std::size_t>* declared_arities(std::string_view name) const;
 
 private:
-    std::map<char, std::vector<std::string>> declared_;  // by first character, longest first
+    std::set<std::string, std::less<>> declared_;
+    std::map<char, std::set<std::size_t, std::greater<>>> lengths_;  // of declared names, by first character
     std::map<std::string, std::vector<std::size_t>, std::less<>> arities_;
 };
 

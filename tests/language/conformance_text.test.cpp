@@ -160,6 +160,8 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
         "A line with an arrow is a production, even if it begins like a keyword, as `end --> F` does. "
         "Variables and parameters may have the names of keywords too.");
     CHECK(step("end", "end --> F\n") == "F");
+    CHECK(step("end", "end : 1 > 0 --> F\n") == "F");
+    CHECK_FALSE(mistake(lsystem("", "A", "homomorphism: A --> B\n")).empty());
     CHECK(step("enD", "e < n > D : 1 > 0 --> F\nwarnings --> X\n") == "eFD");
     CHECK(step("A(end)", "A(seed) : if == 3 --> B(seed, start, for)\n",
                "Start: { end = 2; start = 1; if = 3; for = 4; axiom = 5; }\n") == "B(2,1,4)");

@@ -50,6 +50,18 @@ TEST_CASE("reading takes time in proportion to the length of axiom, successors, 
     check_linear([](int n) { return "#define W 0.5\n" + lsystem("", repeated("F(W)@L(\"%d\",1)", n), "A --> B\n"); });
     check_linear([](int n) { return lsystem("", "A", repeated("A(x) : x > 1 {y = x;} --> F(x)A(x - 1)\n", n)); });
     check_linear([](int n) {
+        std::string declared;
+        for (int i = 0; i < n / 4; ++i) declared += fmt::format("module Bud{}(a);\n", i);
+        return declared + lsystem("", repeated("Bud7(1)", n), "A --> B\n");
+    });
+    check_linear([](int n) {
+        std::string systems;
+        for (int i = 0; i < n / 4; ++i) {
+            systems += fmt::format("lsystem: {}\nStart: {{x = 1;}}\naxiom: A\nA --> B\n", i);
+        }
+        return systems;
+    });
+    check_linear([](int n) {
         std::string names;
         for (int i = 0; i < n / 4; ++i) names += fmt::format("v{0} = u{0} + a{0}[1];\n", i);
         std::string arrays;
