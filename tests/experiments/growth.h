@@ -5,6 +5,7 @@
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/world.h"
 #include "espalier/turtle/interpretation.h"
+#include "espalier/turtle/view_file.h"
 
 #include <map>
 #include <memory>
@@ -25,8 +26,14 @@ struct LonePlant {
     Interpretation interpretation;
 
     explicit LonePlant(const std::string& file, Defines defines = {}, std::uint64_t seed = 0)
-        : model(read_model(source_path(file), {std::move(defines), false})),
-          derivation(compile(model), with_seed(seed)) {
+        : LonePlant(View{}, file, std::move(defines), seed) {}
+
+    /// With the functions, curves and turtle of a view.
+    LonePlant(const View& view, const std::string& file, Defines defines = {}, std::uint64_t seed = 0)
+        : model(
+              read_model(source_path(file), {std::move(defines), false, view.function_names, view.resources, nullptr})),
+          derivation(compile(model), settings_of(source_path(file), seed)),
+          turtle(view.turtle) {
         derivation.start(string);
         look();
     }
@@ -50,9 +57,10 @@ struct LonePlant {
     std::string text() const { return to_text(string, model->alphabet); }
 
 private:
-    static DerivationSettings with_seed(std::uint64_t seed) {
+    static DerivationSettings settings_of(const std::filesystem::path& file, std::uint64_t seed) {
         DerivationSettings settings;
         settings.seed = seed;
+        settings.input_folder = file.parent_path();
         settings.lineage = true;
         return settings;
     }

@@ -3,6 +3,7 @@
 #include "experiments/growth.h"
 #include "models/paths.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -69,6 +70,18 @@ TEST_CASE("Koch's snowflake: its area tends to 8/5 of the triangle's, its outlin
         CHECK(scaled == Approx(triangle * (8 - 3 * std::pow(4.0 / 9.0, n)) / 5));
         REQUIRE(geometry.polygons.size() == 1);
         CHECK(enclosed_area(geometry.vertices) == Approx(scaled * std::pow(9.0, n)));
+    }
+}
+
+TEST_CASE("Koch's curve with gaps: 2^n segments, all of them the curve's", "[curves]") {
+    LonePlant dust("models/curves/koch-gaps.l"), curve("models/curves/koch.l");
+    for (int n = 1; n <= 5; ++n) {
+        dust.grow(1);
+        curve.grow(1);
+        const auto drawn = edges(dust.interpretation.geometry), whole = edges(curve.interpretation.geometry);
+        CHECK(drawn.size() == static_cast<std::size_t>(power(2, n)));
+        CHECK(std::includes(whole.begin(), whole.end(), drawn.begin(), drawn.end()));
+        CHECK(dust.interpretation.geometry.internodes.back().tip.y == Approx(power(3, n)));
     }
 }
 

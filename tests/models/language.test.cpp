@@ -1,11 +1,15 @@
 // models/language: each construct does what the model's first lines say.
+#include "app/program.h"
 #include "catch.h"
 #include "experiments/growth.h"
 #include "models/paths.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -215,4 +219,176 @@ TEST_CASE("Queries: every answer is the pose of a turtle of one's own", "[langua
     CHECK(stopped);
     CHECK(lowest > -4);
     CHECK(lowest < -2);
+}
+
+TEST_CASE("Table: internodes are as long as the file says, and as many", "[language]") {
+    LonePlant shoot(file("table/growth"));
+    shoot.grow(14);
+    const std::vector<double> expected{0.45, 0.62, 0.88, 1.10, 1.26, 1.21, 1.02, 0.81, 0.66, 0.41, 0.30, 0.18};
+    const auto& segments = shoot.interpretation.geometry.internodes;
+    REQUIRE(segments.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        CHECK(glm::length(segments[i].tip - segments[i].base) == Approx(expected[i]));
+    }
+}
+
+TEST_CASE("Labels: one for each internode, with the values it was given", "[language]") {
+    LonePlant shoot(file("labels"));
+    shoot.grow(5);
+    const auto& labels = shoot.interpretation.geometry.labels;
+    REQUIRE(labels.size() == 5);
+    CHECK(labels[0].text == "0: 0.5");
+    CHECK(labels[4].text == "4: 1.3");
+    CHECK(labels[0].position.x == Approx(0.2));
+    CHECK(labels[0].position.y == Approx(0.5));
+}
+
+TEST_CASE("Preprocessor: an included leaf, opposite or alternate, wide or narrow", "[language]") {
+    const auto width_of_oldest = [](const LonePlant& twig) {
+        const auto& polygon = twig.interpretation.geometry.polygons.front();
+        const auto first = twig.interpretation.geometry.vertices.begin() + polygon.first;
+        return glm::length(first[1] - first[3]);
+    };
+    LonePlant alternate(file("shared/twig"));
+    LonePlant opposite(file("shared/twig"), {{"OPPOSITE", "1"}, {"SHAPE", "2"}});
+    alternate.grow(8);
+    opposite.grow(8);
+    CHECK(alternate.counts()["L"] == 8);
+    CHECK(opposite.counts()["L"] == 16);
+    CHECK(width_of_oldest(alternate) == Approx(2 * 0.15 * 7 * std::sin(35 * std::numbers::pi / 180)));
+    CHECK(width_of_oldest(opposite) == Approx(2 * 0.15 * 7 * std::sin(15 * std::numbers::pi / 180)));
+}
+
+namespace {
+
+/// The n-th L-system of a model's file on its own, grown by so many steps, as text.
+std::string alone(const std::string& name, int system, int steps) {
+    std::ifstream in(source_path(file(name)));
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    std::size_t begin = text.find("lsystem: " + std::to_string(system));
+    text = text.substr(begin, text.find("endlsystem", begin) - begin) + "endlsystem\n";
+    text = std::regex_replace(text, std::regex("define: .*external (.*); .*"), "Start: { $1 = 0; }");
+    const auto model = read_model_text(text, name);
+    Derivation derivation(compile(model));
+    ModuleString string, next;
+    derivation.start(string);
+    for (int step = 0; step < steps; ++step) {
+        derivation.step(string, next);
+        std::swap(string, next);
+    }
+    return to_text(string, model->alphabet);
+}
+
+/// What stands between the signs of the sub-L-systems, in string order.
+std::vector<std::string> parts(const std::string& text) {
+    std::vector<std::string> result;
+    for (std::size_t at = text.find('?'); at != std::string::npos; at = text.find('?', at + 1)) {
+        const std::size_t begin = text.find(')', at) + 1;
+        result.push_back(text.substr(begin, text.find('$', at) - begin));
+    }
+    return result;
+}
+
+double height_between(const PlantGeometry& geometry, double left, double right) {
+    double height = 0;
+    for (const Internode& internode : geometry.internodes) {
+        if (internode.tip.x > left && internode.tip.x < right) height = std::max(height, internode.tip.y);
+    }
+    return height;
+}
+
+}  // namespace
+
+TEST_CASE("Species: each is what its own L-system makes alone, drawn at its scale", "[language]") {
+    LonePlant grove(file("species/grove"));
+    for (int step = 1; step <= 7; ++step) {
+        grove.grow(1);
+        const auto species = parts(grove.text());
+        REQUIRE(species.size() == 3);
+        CHECK(species[0] == alone("species/grove", 1, step));
+        CHECK(species[1] == alone("species/grove", 2, step));
+        CHECK(species[2] == species[0]);
+    }
+    const PlantGeometry& geometry = grove.interpretation.geometry;
+    CHECK(height_between(geometry, -6.001, -5.999) == Approx(7));
+    CHECK(height_between(geometry, 4.999, 5.001) == Approx(3.5));
+}
+
+TEST_CASE("Compound leaf: a leaf made k steps ago is its own L-system after k steps; all turn at once", "[language]") {
+    LonePlant plant(file("species/compound-leaf"));
+    for (int step = 1; step <= 16; ++step) {
+        plant.grow(1);
+        const auto leaves = parts(plant.text());
+        REQUIRE(leaves.size() == static_cast<std::size_t>(std::min(step, 8)));
+        for (std::size_t node = 0; node < leaves.size(); ++node) {
+            const std::string& leaf = leaves[node];
+            const auto green = std::count(leaf.begin(), leaf.end(), 'G');
+            const auto brown = std::count(leaf.begin(), leaf.end(), 'H');
+            if (step < 14) {
+                CHECK(brown == 0);
+                CHECK(leaf == alone("species/compound-leaf", 1, step - 1 - static_cast<int>(node)));
+            } else {
+                // Every G of the step before has turned; those made in this step have not yet.
+                CHECK((brown > 0) == (step - 1 - static_cast<int>(node) > 1));
+                const int before = step - 2 - static_cast<int>(node);
+                const std::string old = before >= 0 ? alone("species/compound-leaf", 1, before) : "";
+                CHECK(green == 2 * std::count(old.begin(), old.end(), 'A'));
+            }
+        }
+    }
+}
+
+TEST_CASE("Shoot: lengths and angles are the values of the function set", "[language]") {
+    const View view = read_view_file(source_path("models/language/shoot/shoot.v"));
+    CHECK(view.function_names == Defines{{"INTERNODE", "1"}, {"BRANCH", "2"}, {"ANGLE", "3"}});
+    LonePlant shoot(view, file("shoot/shoot"));
+    shoot.grow(30);
+    REQUIRE(view.resources);
+    const auto& functions = view.resources->functions;
+    REQUIRE(functions.size() == 3);
+    const auto internodes = parameters_of(shoot, "I"), branches = parameters_of(shoot, "B");
+    const auto angles = parameters_of(shoot, "&");
+    REQUIRE(internodes.size() == 30);
+    REQUIRE(branches.size() == 30);
+    for (std::size_t n = 0; n < 30; ++n) {
+        const double place = static_cast<double>(n) / 30;
+        CHECK(internodes[n][0] == Approx(0.4 + 0.5 * functions[0](place)));
+        CHECK(branches[n][0] == Approx(functions[1](place)));
+        CHECK(angles[n][0] == Approx(functions[2](place)));
+    }
+    // A function's value is found within 0.001 of the abscissa.
+    CHECK(functions[0](0) == Approx(1).margin(0.002));
+    CHECK(functions[1](1) == Approx(0.05).margin(0.002));
+    CHECK(functions[2](0) == Approx(95).margin(0.1));
+    CHECK(shoot.interpretation.geometry.internodes.front().colour == 16);
+}
+
+TEST_CASE("Shoot: the frames of the object are those its animation file asks for", "[language]") {
+    const Workplace workplace;
+    const std::string object = source_path("models/language/shoot").string();
+    REQUIRE(workplace.run("run '" + object + "' --output out --quiet").code == 0);
+    std::set<std::string> frames;
+    for (const auto& entry : std::filesystem::directory_iterator(workplace.path() / "out" / "plants")) {
+        frames.insert(entry.path().filename());
+    }
+    CHECK(frames == std::set<std::string>{"0005.vtp", "0010.vtp", "0015.vtp", "0020.vtp", "0025.vtp", "0030.vtp"});
+}
+
+TEST_CASE("Liana: nodes on the curve, a segment apart, as long together as the curve", "[language]") {
+    const View view = read_view_file(source_path("models/language/spiral/liana.v"));
+    REQUIRE(view.resources);
+    REQUIRE(view.resources->curves.size() == 1);
+    const SpaceCurve& curve = view.resources->curves[0];
+    LonePlant liana(view, file("spiral/liana"));
+    liana.grow(40);
+    const auto& segments = liana.interpretation.geometry.internodes;
+    REQUIRE(segments.size() == 40);
+    for (std::size_t i = 0; i < 40; ++i) {
+        CHECK(glm::length(segments[i].tip - curve(static_cast<double>(i + 1) / 40)) < 1e-9);
+        CHECK(glm::length(segments[i].tip - segments[i].base) == Approx(curve.length() / 40).epsilon(0.02));
+    }
+    CHECK(glm::length(segments.front().base - glm::dvec3(1, 0, 0)) < 1e-9);
+    const double sum = total_length(liana.interpretation.geometry);
+    CHECK(sum < curve.length());
+    CHECK(sum == Approx(curve.length()).epsilon(0.01));
 }

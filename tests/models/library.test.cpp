@@ -1,0 +1,84 @@
+// The library as a whole: every model reads without a warning, says what it is, and stands in docs/models.md.
+#include "app/program.h"
+#include "catch.h"
+#include "experiments/growth.h"
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace espalier;
+
+namespace {
+
+std::string text_at(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// Paths of all models, below the root of the project.
+std::vector<std::string> all_models() {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_path("models"))) {
+        if (entry.path().extension() != ".l") continue;
+        paths.push_back(std::filesystem::relative(entry.path(), source_path("")).generic_string());
+    }
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+/// The folder of an object, or the model with the view file of its name.
+std::string with_side_files(std::filesystem::path model) {
+    if (exists(model.parent_path() / "specifications")) return "'" + model.parent_path().string() + "'";
+    std::string arguments = "'" + model.string() + "'";
+    if (exists(model.replace_extension(".v"))) arguments += " --view '" + model.string() + "'";
+    return arguments;
+}
+
+bool is_grown_by_experiments(const std::string& path) {
+    for (const char* folder : {"course", "light", "water", "topiary", "together"}) {
+        if (path.starts_with(std::string("models/") + folder + "/")) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("Every model of the library reads without a mistake or a warning", "[library]") {
+    const Workplace workplace;
+    REQUIRE(all_models().size() > 80);
+    for (const std::string& path : all_models()) {
+        const Outcome outcome = workplace.run("check " + with_side_files(source_path(path)));
+        INFO(path << ": " << outcome.out << outcome.err);
+        CHECK(outcome.code == 0);
+        // Alone, a model that asks its surroundings gets no answer; check says so.
+        const std::string warning = std::regex_replace(outcome.out + outcome.err, std::regex(".*nobody answers.*"), "");
+        CHECK(warning.find("warning") == std::string::npos);
+    }
+}
+
+TEST_CASE("Every model of the library begins with a title, its source, what is checked and what to try", "[library]") {
+    const std::regex head(R"(/\* [^\n]+\n[^]*\n +Source: [^]*\n +Check: [^]*\n +Try: [^]*\*/)");
+    for (const std::string& path : all_models()) {
+        if (is_grown_by_experiments(path)) continue;
+        const std::string text = text_at(source_path(path));
+        const std::string comment = text.substr(0, text.find("*/") + 2);
+        INFO(path);
+        CHECK(std::regex_match(comment, head));
+    }
+}
+
+TEST_CASE("Every model of the library stands in docs/models.md under its title", "[library]") {
+    const std::string page = text_at(source_path("docs/models.md"));
+    for (const std::string& path : all_models()) {
+        if (is_grown_by_experiments(path)) continue;
+        const std::string text = text_at(source_path(path));
+        const std::string title = text.substr(3, text.find('\n') - 3);
+        INFO(path);
+        CHECK(page.find("](../" + path + ") | " + title + " |") != std::string::npos);
+    }
+}
