@@ -118,7 +118,7 @@ TEST_CASE("1000 clusters in a box have the mean light that testing every pair gi
     CHECK(mean(answers(lines, crown(1000, 100))) == Approx(at_origin).epsilon(1e-9));
 }
 
-TEST_CASE("light is the same bytes in any order of queries and on any number of threads", "[chiba]") {
+TEST_CASE("light among clusters is the same bytes in any order of queries and on any number of threads", "[chiba]") {
     std::vector<Asked> questions = crown(400, -5);
     std::vector<double> light = answers("", questions);
     {

@@ -201,7 +201,7 @@ TEST_CASE("a picture's green is the light, its red the second answer", "[clover]
           std::vector<double>{121 / 255.0, 21 / 128.0, 100 / 255.0, 0});
 }
 
-TEST_CASE("the order of the queries changes no answer", "[clover]") {
+TEST_CASE("the order of the queries changes no answer about the ground", "[clover]") {
     std::vector<Asked> questions;
     for (int i = 0; i < 300; ++i) questions.push_back({{i % 17 - 8.0, i % 13 - 6.0, 0}, {double(i % 3), 5.0}});
     Environment forward = field(), backward = field();

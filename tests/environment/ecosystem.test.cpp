@@ -87,7 +87,7 @@ TEST_CASE("who has lost ends nobody: in string order it depends on who comes fir
     CHECK(winners("vigor = true\nscan = \"string\"", twins) == std::vector<double>{0, 1});
 }
 
-TEST_CASE("the search finds what comparing every pair finds", "[ecosystem]") {
+TEST_CASE("the search for overlapping discs finds what comparing every pair finds", "[ecosystem]") {
     for (const bool flat : {true, false}) {
         const std::vector<Asked> questions = stand(400, 6);
         const std::string dimensions = flat ? "" : "3d_case = true\n";

@@ -119,7 +119,7 @@ TEST_CASE("with radius 0 only the very same place counts", "[honda81]") {
     CHECK(answers("", {{{0, 0, 0}, {1}}, {{0, 0, 0}, {2}}}) == std::vector<double>{0, 1});
 }
 
-TEST_CASE("the search finds what comparing every pair finds", "[honda81]") {
+TEST_CASE("the search for dominating branches finds what comparing every pair finds", "[honda81]") {
     for (const bool flat : {true, false}) {
         for (const double radius : {0.0, 0.02, 0.3, 1.0, 40.0}) {
             const std::vector<Asked> questions = random_questions(300, 4, 40);
@@ -135,7 +135,7 @@ TEST_CASE("the search finds what comparing every pair finds", "[honda81]") {
     }
 }
 
-TEST_CASE("the order of the queries and the number of threads change no answer", "[honda81]") {
+TEST_CASE("the order of the queries and the number of threads change no collision", "[honda81]") {
     std::vector<Asked> questions = random_questions(5000, 20, 30);
     const std::vector<double> first = answers("radius = 0.6\n3d_case = true", questions);
     std::vector<double> alone;

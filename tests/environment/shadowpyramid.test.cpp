@@ -60,7 +60,8 @@ TEST_CASE("the gradient points out of the shadow, with bias and chance added whe
     CHECK(chance == answers("light_randomness = 0.1\n", beside));
 }
 
-TEST_CASE("light is the same bytes in any order of queries and on any number of threads", "[shadowpyramid]") {
+TEST_CASE("light among pyramids is the same bytes in any order of queries and on any number of threads",
+          "[shadowpyramid]") {
     RandomDraws draws({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < 500; ++i) {
