@@ -77,6 +77,15 @@ void turn_to_x_axis(std::vector<Contour::Vertex>& vertices) {
     for (Contour::Vertex& vertex : vertices) vertex = {turned(vertex.position), turned(vertex.normal)};
 }
 
+/// Across the chord between the vertices on both sides: at corners the curve has no direction of its own.
+glm::dvec3 normal_of_chord(const std::vector<Contour::Vertex>& vertices, std::size_t k, bool closed) {
+    const std::size_t last = vertices.size() - 1;
+    const std::size_t before = k > 0 ? k - 1 : closed ? last - 1 : 0;
+    const std::size_t after = k < last ? k + 1 : closed ? 1 : last;
+    const glm::dvec3 chord = vertices[after].position - vertices[before].position;
+    return {chord.y, -chord.x, 0};
+}
+
 std::vector<Contour::Vertex> circle(int sides) {
     std::vector<Contour::Vertex> vertices;
     for (int k = 0; k < sides; ++k) {
@@ -123,9 +132,11 @@ std::vector<Contour::Vertex> Contour::sample(int sides) const {
         turn_to_x_axis(vertices);
     }
     const double outward = closed_ && !counter_clockwise() ? -1 : 1;
-    for (Vertex& vertex : vertices) {
-        const double length = glm::length(vertex.normal);
-        vertex.normal = length > 0 ? vertex.normal * (outward / length) : glm::dvec3(1, 0, 0);
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        glm::dvec3& normal = vertices[k].normal;
+        if (glm::length(normal) < 1e-9 * table.lengths.back()) normal = normal_of_chord(vertices, k, closed_);
+        const double length = glm::length(normal);
+        normal = length > 0 ? normal * (outward / length) : glm::dvec3(1, 0, 0);
     }
     return vertices;
 }

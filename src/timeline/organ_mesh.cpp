@@ -71,7 +71,7 @@ private:
         mesh_.vertices.push_back({pose.position + organ_.size.x / 2 * outward, outward, {round, 1 - down}});
     }
 
-    // A quadrilateral; across its first or last edge a triangle where that edge is a pole.
+    // Quadrilaterals that face outward (left, up and heading are a left-handed frame); triangles at the poles.
     void add_band(std::uint32_t band) {
         const auto index = [&](std::uint32_t ring_number, std::uint32_t meridian) {
             if (ring_number == 0) return 0u;
@@ -150,7 +150,7 @@ bool SurfaceMeshes::textured_as_whole(const Organ& organ) const {
 SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ) {
     const Pose& pose = organ.pose;
     const auto in_world = [&](const glm::dvec3& v) { return v.x * pose.left + v.y * pose.heading + v.z * pose.up; };
-    // Normals are stretched by the cofactors, so that they stay normals and go with the faces.
+    // Normals are stretched by the cofactors, so that they stay normals and go with the faces, mirrored or not.
     const glm::dvec3 &s = organ.size, cofactors(s.y * s.z, s.z * s.x, s.x * s.y);
     const glm::dvec3 normal = in_world(vertex.normal * cofactors);
     const double length = glm::length(normal);

@@ -165,14 +165,12 @@ void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ
         if (as_whole) vertex.uv = entry.whole[i];
         mesh.add_point(vertex, 0, owner);
     }
-    // A mirrored surface turns its faces round, so that they still agree with their normals.
-    const bool mirrored = organ.size.x * organ.size.y * organ.size.z < 0;
     std::size_t at = 0;
     for (std::size_t face = 0; face < shape.faces.size(); ++face) {
         const Owner of_face = owner_of_patch(owner, *entry.surface, shape, face);
         const std::size_t count = shape.faces[face];
         for (std::size_t k = 0; k < count; ++k) {
-            const auto point = origin + static_cast<std::int32_t>(shape.indices[at + (mirrored ? count - 1 - k : k)]);
+            const auto point = origin + static_cast<std::int32_t>(shape.indices[at + k]);
             mesh.polygons.connectivity.push_back(point);
             mesh.owners[static_cast<std::size_t>(point)] = of_face;
         }

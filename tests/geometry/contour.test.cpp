@@ -85,6 +85,21 @@ TEST_CASE("a repeated point makes a corner the curve goes through", "[geometry]"
     CHECK(nearest < 0.01);
 }
 
+TEST_CASE("at a corner the normal lies between those of its sides", "[geometry]") {
+    std::vector<glm::dvec3> points;
+    for (const glm::dvec3 corner :
+         {glm::dvec3(2, 0, 0), glm::dvec3(0, 2, 0), glm::dvec3(-2, 0, 0), glm::dvec3(0, -2, 0)}) {
+        points.insert(points.end(), 3, corner);
+    }
+    // The curve begins at its first corner, which is its own place on the x axis.
+    const auto vertices = Contour(points, true).sample(16);
+    for (int corner = 0; corner < 4; ++corner) {
+        const Contour::Vertex& vertex = vertices[4 * corner];
+        CHECK(glm::length(vertex.position) == Approx(2));
+        CHECK(glm::distance(vertex.normal, glm::normalize(vertex.position)) < 1e-6);
+    }
+}
+
 TEST_CASE("a contour of too few points is refused, one whose points coincide is not", "[geometry]") {
     CHECK_THROWS_AS(Contour({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, false), UserError);
     CHECK_THROWS_AS(Contour({{0, 0, 0}, {1, 0, 0}}, true), UserError);

@@ -167,7 +167,11 @@ TEST_CASE("a generalized cylinder is triangles that belong to its control points
     CHECK(values(data->GetCellData(), "kind") == std::vector<double>(48, 4));
     CHECK(data->GetNumberOfPoints() == 3 * 9 + 2 * 10);
     CHECK(worst_normal(data) > 0.92);
-    CHECK(vector_at(data->GetPointData()->GetNormals(), 0).y == 0);
+    int across = 0;
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        across += vector_at(data->GetPointData()->GetNormals(), i).y == 0 ? 1 : 0;
+    }
+    CHECK(across == 3 * 9);  // all but those of the caps
 }
 
 TEST_CASE("labels are points, and the frame holds their texts in order", "[timeline]") {
