@@ -235,3 +235,15 @@ TEST_CASE("stochastic sub-L-systems draw by their own weights", "[language]") {
     const std::string others = inner("2", "A --> b : 0\nA --> c : 3\nA --> d : 0\n", "seed: 5\n");
     CHECK(grown(systems("?(2)AAAA$A", "A --> a\n", others), 1) == "?(2)cccc$a");
 }
+
+TEST_CASE("the example of the page on derivation grows as it says", "[language]") {
+    const std::string leaf =
+        "lsystem: 2\ndefine: { external leaves; }\nStart: { age = 0; }\n"
+        "StartEach: { age = age + 1; }\nB : 1 {leaves = leaves + 1;} --> L(age)B\nendlsystem\n";
+    const std::string model =
+        "lsystem: 1\nderivation length: 3\nStart: { leaves = 0; }\nEnd: { printf(\"%g\", leaves); }\n"
+        "axiom: A\nA --> F[?(2, 0.5)B$]A\nendlsystem\n";
+    Grown plant(model + leaf);
+    CHECK(plant.steps(3).text() == "F[?(2,0.5)L(1)L(2)B$]F[?(2,0.5)L(1)B$]F[?(2,0.5)B$]A");
+    CHECK(plant.said == "3");
+}
