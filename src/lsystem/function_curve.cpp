@@ -20,7 +20,6 @@ FunctionCurve::FunctionCurve(std::vector<glm::dvec2> points, int samples) : poin
     if (points_.size() < least_points) {
         throw UserError(fmt::format("a function needs at least {} points, not {}", least_points, points_.size()));
     }
-    for (glm::dvec2& point : points_) point = glm::dvec2(glm::vec2(point));
     if (samples <= 2) return;
     samples_.reserve(std::size_t(samples));
     for (int j = 0; j < samples; ++j) samples_.push_back(exact(double(j) / (samples - 1)));

@@ -65,7 +65,6 @@ SpaceCurve::SpaceCurve(std::vector<glm::dvec3> points, Type type, int samples)
     if (points_.size() < least_points) {
         throw UserError(fmt::format("a curve needs at least {} points, not {}", least_points, points_.size()));
     }
-    for (glm::dvec3& point : points_) point = glm::dvec3(glm::vec3(point));
     extend(points_, type_);
     samples = std::max(samples, 2);
     lengths_.push_back(0);

@@ -1,6 +1,7 @@
 #include "espalier/language/side_files.h"
 
 #include "espalier/base/error.h"
+#include "espalier/language/text_cursor.h"
 
 #include "catch.h"
 #include "temporary_folder.h"
@@ -44,6 +45,21 @@ TEST_CASE("a function file gives points and samples", "[language]") {
 TEST_CASE("the samples of a function file count, not those of whoever names it", "[language]") {
     CHECK(function_of(hill, 100)(0.3) == function_of(hill)(0.3));
     CHECK(function_of(replaced(hill, "samples: 5", "samples: 0"), 5)(0.3) != function_of(hill)(0.3));
+}
+
+TEST_CASE("numbers of side files are kept with 32 bits", "[language]") {
+    const double tenth = static_cast<float>(0.1);
+    const FunctionCurve constant =
+        function_of("fver 1 1\nname: c\nsamples: 0\nflip: off\npoints: 4\n0 0.1\n0.3 0.1\n0.6 0.1\n1 0.1\n");
+    CHECK(std::abs(constant(0.4) - tenth) < 1e-15);
+    CHECK(TextCursor("1e39", "a").number() == std::nullopt);
+    CHECK(TextCursor("+2.5e-3x", "a").number() == double(static_cast<float>(0.0025)));
+    for (const char* none : {"inf", "nan", "-", "+-1", "-+1", ".", "e5", ""}) {
+        CHECK(TextCursor(none, "a").number() == std::nullopt);
+        CHECK(TextCursor(none, "a").integer() == std::nullopt);
+    }
+    CHECK(TextCursor("-12.5", "a").integer() == -12);
+    CHECK(TextCursor("99999999999", "a").integer() == std::nullopt);
 }
 
 TEST_CASE("the multiplicity of a function's point repeats it", "[language]") {

@@ -63,12 +63,6 @@ TEST_CASE("the spline of a function has the knots 0 0 0 0 1 2 2 2 2 for five poi
     CHECK(function(0.5) == Approx(8 / 4.0 - 2 / 2.0 + 4 / 4.0).margin(1e-7));
 }
 
-TEST_CASE("control points of functions are 32-bit numbers", "[lsystem]") {
-    const double tenth = 0.1;
-    const FunctionCurve constant({{0, tenth}, {0.3, tenth}, {0.6, tenth}, {1, tenth}}, 0);
-    CHECK(std::abs(constant(0.4) - double(float(tenth))) < 1e-15);
-}
-
 TEST_CASE("threefold points make corners of functions", "[lsystem]") {
     // A rise that ends in the corner (0.5, 1) and a plateau behind it.
     const FunctionCurve roof({{0, 0}, {0.25, 0.5}, {0.5, 1}, {0.5, 1}, {0.5, 1}, {0.75, 1}, {1, 1}}, 0);
