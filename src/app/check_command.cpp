@@ -63,7 +63,7 @@ void review_notes(const SceneNotes& notes, Findings& findings) {
     for (const fs::path& file : notes.files) files.push_back(file.string());
     if (!files.empty()) findings.facts.push_back(fmt::format("side files: {}", fmt::join(files, ", ")));
     for (const std::string& setting : notes.unused) {
-        findings.facts.push_back(setting + " (read; without meaning where there is no window)");
+        findings.facts.push_back(setting + " (read; has no meaning here)");
     }
 }
 

@@ -67,7 +67,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     settings.seed = scene.seed;
     // Old and new string, and the text they are printed as.
     settings.memory = (arguments.memory == 0 ? default_memory() : arguments.memory) / 2;
-    settings.input_folder = source_of(*plant.model).path.parent_path();
+    settings.input_folder = folder_with(source_of(*plant.model));
     settings.output_folder = arguments.files;
     Derivation derivation(plant.model, settings);
     derivation.set_length(scene.steps);

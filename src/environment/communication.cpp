@@ -95,6 +95,10 @@ double Communication::rounded(double parameter) const {
     return std::strtod(text, nullptr);
 }
 
+bool Communication::changes_queries() const {
+    return !following_module_ || position_ || heading_ || left_ || up_ || line_width_ || scale_factor_;
+}
+
 void Communication::send(Query& query) const {
     espalier::round(position_, query.pose.position);
     espalier::round(heading_, query.pose.heading);

@@ -54,28 +54,29 @@ void Environment::gather(const PlantView& plant, int step) {
     by_name_.clear();
     for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
     for (const Query& asked : plant.interpretation->queries) {
-        Query query = asked;
-        const std::optional<std::size_t> process = process_for(query, plant, step);
+        const std::optional<std::size_t> process = process_for(asked, plant, step);
         if (!process) continue;
         Batch& batch = batches_[*process];
+        Query& query = batch.queries.emplace_back(asked);
+        if (is_routed(query)) {
+            query.parameters = query.parameters.subspan(1);
+            ++query.parameters_at;
+        }
         if (*process != batches_end()) require_sound(query, *process, plant, step);
-        batch.queries.push_back(query);
         batch.values.insert(batch.values.end(), query.parameters.begin(), query.parameters.end());
     }
 }
 
 // Nothing for a query that is to stay as it is.
-std::optional<std::size_t> Environment::process_for(Query& query, const PlantView& plant, int step) const {
+std::optional<std::size_t> Environment::process_for(const Query& query, const PlantView& plant, int step) const {
     if (query.kind != QueryKind::communication) return batches_end();
     const bool unnamed = query.process < 0;
-    if (unnamed && routed_ && !query.parameters.empty()) {
+    if (is_routed(query)) {
         const double number = query.parameters[0];
         if (!(number >= 0 && number < static_cast<double>(processes_.size()))) {
             throw RunError(fmt::format("{} asks ?E({}, ...), but the processes are numbered from 0 to {}",
                                        described(plant, step), number, processes_.size() - 1));
         }
-        query.parameters = query.parameters.subspan(1);
-        ++query.parameters_at;
         return static_cast<std::size_t>(number);
     }
     const std::optional<std::size_t> process = unnamed ? default_ : by_name_[static_cast<std::size_t>(query.process)];
@@ -85,11 +86,17 @@ std::optional<std::size_t> Environment::process_for(Query& query, const PlantVie
                                 plant.model->name, name));
 }
 
+bool Environment::is_routed(const Query& query) const {
+    return routed_ && query.kind == QueryKind::communication && query.process < 0 && !query.parameters.empty();
+}
+
 // Lets the process see the questions as its communication carries them.
 void Environment::send(std::size_t process) {
     const Communication& communication = communications_[process];
     Batch& batch = batches_[process];
-    for (Query& query : batch.queries) communication.send(query);
+    if (communication.changes_queries()) {
+        for (Query& query : batch.queries) communication.send(query);
+    }
     if (!communication.rounds_parameters()) return;
     batch.sent.resize(batch.values.size());
     for (std::size_t i = 0; i < batch.values.size(); ++i) batch.sent[i] = communication.rounded(batch.values[i]);

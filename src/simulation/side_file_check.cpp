@@ -1,5 +1,6 @@
 #include "espalier/simulation/side_file_check.h"
 
+#include "espalier/base/file.h"
 #include "espalier/geometry/palette.h"
 
 #include "animation_file.h"
@@ -19,8 +20,29 @@ namespace fs = std::filesystem;
 void add_unused(const fs::path& path, const std::vector<std::string>& unused, Findings& findings) {
     for (const std::string& setting : unused) {
         findings.facts.push_back(
-            fmt::format("{}: {} (read; without meaning where there is no window)", path.string(), setting));
+            fmt::format("{}: {} (read; has no meaning here)", path.string(), setting));
     }
+}
+
+// "2 surfaces", "1 function", ...
+std::vector<std::string> parts_of(const View& view) {
+    std::vector<std::string> parts;
+    const auto count = [&](std::size_t number, const char* what) {
+        if (number > 0) parts.push_back(fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"));
+    };
+    count(view.turtle.tropisms.size(), "tropism");
+    if (view.turtle.shapes) {
+        count(view.turtle.shapes->surfaces.size(), "surface");
+        count(view.turtle.shapes->contours.size(), "contour");
+        count(view.turtle.shapes->textures.size(), "texture");
+    }
+    if (view.resources) {
+        count(view.resources->functions.size(), "function");
+        count(view.resources->curves.size(), "curve");
+    }
+    count(view.lights.size(), "light");
+    count(view.backgrounds.size(), "background");
+    return parts;
 }
 
 void check_view(const fs::path& path, Findings& findings) {
@@ -55,6 +77,29 @@ void check_colours(const fs::path& path, Findings& findings) {
     findings.facts.push_back(fmt::format("{}: {} colours", path.string(), palette.entries.size()));
 }
 
+// How a view file would name it; "" for what no view file names. Curves and contours have the same extension.
+std::string view_line(const fs::path& path) {
+    const std::string extension = path.extension().string(), name = path.filename().string();
+    if (extension == ".s") return fmt::format("surface: a {} 1\n", name);
+    if (extension == ".ray") return fmt::format("tsurface: a {} 1\n", name);
+    if (extension == ".func") return fmt::format("function: {}\n", name);
+    if (extension == ".fset") return fmt::format("function set: {}\n", name);
+    if (extension != ".con") return "";
+    const std::string text = read_text(path);
+    const bool is_curve = text.starts_with("version:") || text.find("\nrange:") != std::string::npos;
+    return is_curve ? fmt::format("curve: {}\n", name) : fmt::format("contour: 1 {}\n", name);
+}
+
+// What a run passes over is a mistake here, where nothing else is looked at.
+void check_named_by_view(const fs::path& path, Findings& findings) {
+    const View view = read_view_text(view_line(path), path.string());
+    findings.diagnostics = view.diagnostics;
+    for (Diagnostic& diagnostic : findings.diagnostics) diagnostic.severity = Diagnostic::Severity::error;
+    if (findings.diagnostics.empty()) {
+        findings.facts.push_back(fmt::format("{}: {}", path.string(), fmt::join(parts_of(view), ", ")));
+    }
+}
+
 using Check = void (*)(const fs::path&, Findings&);
 
 const std::map<std::string, Check>& checks() {
@@ -62,7 +107,12 @@ const std::map<std::string, Check>& checks() {
                                                   {".a", check_animation},
                                                   {".e", check_environment},
                                                   {".map", check_colours},
-                                                  {".mat", check_colours}};
+                                                  {".mat", check_colours},
+                                                  {".s", check_named_by_view},
+                                                  {".ray", check_named_by_view},
+                                                  {".func", check_named_by_view},
+                                                  {".fset", check_named_by_view},
+                                                  {".con", check_named_by_view}};
     return all;
 }
 
@@ -77,23 +127,9 @@ void check_side_file(const fs::path& path, Findings& findings) {
 }
 
 void review_view(const View& view, Findings& findings) {
-    const Shapes none;
-    const Shapes& shapes = view.turtle.shapes ? *view.turtle.shapes : none;
-    const std::size_t functions = view.resources ? view.resources->functions.size() : 0;
-    const std::size_t curves = view.resources ? view.resources->curves.size() : 0;
-    std::vector<std::string> parts{fmt::format("angle {:g}", glm::degrees(view.turtle.angle))};
-    const auto count = [&](std::size_t number, const char* what) {
-        if (number > 0) parts.push_back(fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"));
-    };
-    count(view.turtle.tropisms.size(), "tropism");
-    count(shapes.surfaces.size(), "surface");
-    count(shapes.contours.size(), "contour");
-    count(shapes.textures.size(), "texture");
-    count(functions, "function");
-    count(curves, "curve");
-    count(view.lights.size(), "light");
-    count(view.backgrounds.size(), "background");
-    findings.facts.push_back(fmt::format("view: {}", fmt::join(parts, ", ")));
+    const std::vector<std::string> parts = parts_of(view);
+    findings.facts.push_back(fmt::format("view: angle {:g}{}{}", glm::degrees(view.turtle.angle),
+                                         parts.empty() ? "" : ", ", fmt::join(parts, ", ")));
 }
 
 }  // namespace espalier

@@ -66,7 +66,7 @@ Specifications read_specifications(const std::filesystem::path& path) {
             if (!words.empty()) result.commands.push_back({std::move(words), line.place, line.text});
         } else if (text == "*") {
             in_menu = true;
-        } else if (text == "ignore:") {
+        } else if (text.starts_with("ignore:")) {
             keeps = false;
         } else if (keeps && !sets_refresh_mode(text)) {
             if (names.insert(text).second) {

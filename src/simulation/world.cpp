@@ -133,9 +133,14 @@ DerivationSettings World::State::settings_of(const PlantDescription& plant, cons
     settings.plant = plant.stream;
     settings.lineage = true;
     settings.memory = shares.strings;
-    settings.input_folder = source_of(*plant.model).path.parent_path();
+    settings.input_folder = folder_with(source_of(*plant.model));
     if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
     return settings;
+}
+
+std::filesystem::path folder_with(const Model& model) {
+    const std::filesystem::path folder = model.path.parent_path();
+    return folder.empty() ? "." : folder;
 }
 
 World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files)

@@ -63,7 +63,8 @@ TEST_CASE_METHOD(BadInput, "files that are missing, or are not what they should 
     CHECK(run("run nowhere.toml").code == 1);
     CHECK_THAT(run("run nowhere.toml").err, Contains("nowhere.toml") && Contains("No such file"));
     CHECK(run("run nowhere.l").code == 1);
-    CHECK(run("run .").code == 1);
+    fs::create_directories(path() / "empty");
+    CHECK_THAT(run("run empty").err, Contains("empty holds no model"));
     CHECK(run("info nowhere").code == 1);
     CHECK(run_scene("[[plant]]\nmodel = 'oak.l'\n").code == 1);
     CHECK_THAT(run_scene("[[plant]]\nmodel = 'oak.l'\n").err, Contains("scene.toml:2:1") && Contains("oak.l"));
@@ -108,14 +109,29 @@ TEST_CASE_METHOD(BadInput, "a domain of 10^12 voxels is refused before it is all
 }
 
 TEST_CASE_METHOD(BadInput, "a typo in a model names its place, in a scene too", "[app]") {
-    write("typo.l", "lsystem: 1\nderivation length: 3\naxiom: A(1)\nA(length) --> F(lenght)A(length)\nendlsystem\n");
+    write("typo.l",
+          "lsystem: 1\nderivation length: 3\naxiom: A(1)\nA(length) --> F(sqr(length))A(length)\nendlsystem\n");
     for (const char* command : {"derive typo.l", "check typo.l", "run typo.l"}) {
         const Outcome outcome = run(command);
         INFO(outcome.err);
         CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.err, Contains("typo.l:4:17") && Contains("lenght") && Contains("did you mean 'length'?"));
+        CHECK_THAT(outcome.err, Contains("typo.l:4:17") && Contains("sqr") && Contains("did you mean 'sqrt'?"));
     }
     CHECK(run_scene("[[plant]]\nmodel = 'typo.l'\n").code == 1);
+}
+
+TEST_CASE_METHOD(BadInput, "a name that nothing assigns is warned of, once", "[app]") {
+    write("typo.l", "lsystem: 1\naxiom: A(1)\nA(length) --> F(lenght)F(lenght)\nendlsystem\n");
+    write("scene.toml", "[[plant]]\nmodel = 'typo.l'\n[[plant]]\nmodel = 'typo.l'\n");
+    for (const char* command : {"derive typo.l", "run typo.l", "run scene.toml"}) {
+        const Outcome outcome = run(command);
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        CHECK_THAT(outcome.err, Contains("typo.l:3:17: warning") && Contains("did you mean 'length'?"));
+        CHECK(outcome.err.find("warning") == outcome.err.rfind("warning"));
+    }
+    CHECK_THAT(run("check typo.l").out, Contains("typo.l:3:17: warning"));
+    CHECK(run("derive typo.l --quiet").err.empty());
 }
 
 TEST_CASE_METHOD(BadInput, "growth without end stops within its memory and keeps its frames", "[app]") {

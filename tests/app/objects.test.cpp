@@ -190,7 +190,8 @@ TEST_CASE_METHOD(Objects, "check lists what an object uses, what it does not, an
     CHECK_THAT(run("check shoot/shoot.v").out, Contains("angle 90"));
     CHECK_THAT(run("check shoot/shoot.a").out, Contains("frames from 1 to 3, every 2"));
     CHECK_THAT(run("check shoot/shoot.map").out, Contains("256 colours"));
-    for (const char* file : {"leaf.s", "lengths.fset"}) CHECK(run(std::string("check shoot/") + file).code == 0);
+    CHECK(run("check shoot/leaf.s").out == "shoot/leaf.s: 1 surface\n");
+    CHECK(run("check shoot/lengths.fset").out == "shoot/lengths.fset: 1 function\n");
     put("leaf.s", "no surface\n");
     CHECK(run("check shoot/leaf.s").code == 1);
     CHECK(run("check shoot").code == 1);
@@ -219,6 +220,41 @@ TEST_CASE_METHOD(Objects, "folders that are no objects exit with 1 and say why",
     put("second.l", model);
     fails_with("second.l, shoot.l");
     CHECK_THAT(run("run shoot/ext").err, Contains("holds no model"));
+}
+
+TEST_CASE_METHOD(Objects, "side files that are broken in any way are refused by name", "[app]") {
+    const std::string noise("\x7f\x45\x4c\x46\x00\xff\xfe\n:\t:\n", 12);
+    for (const char* name : {"x.s", "x.ray", "x.con", "x.func", "x.fset", "x.mat", "x.v", "x.e"}) {
+        write(name, noise);
+        const Outcome outcome = run(std::string("check ") + name);
+        INFO(name << ": " << outcome.out << outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(name));
+        CHECK(run(std::string("check lost") + name).code == 1);
+    }
+    write("x.a", "frame intervals: much\n");
+    CHECK_THAT(run("check x.a").err, Contains("x.a:1:1") && Contains("'much' is no frame"));
+    CHECK(run("check lost.a").code == 1);
+}
+
+TEST_CASE_METHOD(Objects, "what a model writes lies in the output folder, and what it reads beside it", "[app]") {
+    write("write.l",
+          "lsystem: 1\ndefine: { array a[1]; }\nStart: { f = fopen(\"in.txt\",\"r\"); fscanf(f,\"%f\",&x); fclose(f); "
+          "g = fopen(\"log.txt\",\"w\"); fprintf(g,\"%g\\n\",x); }\nderivation length: 1\naxiom: A(x)\n"
+          "A(x) --> A(x+1)\nEnd: { fclose(g); }\nendlsystem\n");
+    write("in.txt", "2.5\n");
+    const Outcome outcome = run("run write.l --quiet --output out");
+    INFO(outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(text_of(path() / "out/files/log.txt") == "2.5\n");
+    CHECK(run("derive write.l").out == "A(3.5)\n");
+    CHECK_FALSE(fs::exists(path() / "log.txt"));
+    CHECK(run("derive write.l --files kept").out == "A(3.5)\n");
+    CHECK(text_of(path() / "kept/log.txt") == "2.5\n");
+    write("two.toml", "[[plant]]\nmodel = 'write.l'\nname = 'a/b'\n[[plant]]\nmodel = 'write.l'\n");
+    CHECK(run("run two.toml --quiet --output two").code == 0);
+    CHECK(text_of(path() / "two/files/a%2Fb/log.txt") == "2.5\n");
+    CHECK(text_of(path() / "two/files/write/log.txt") == "2.5\n");
 }
 
 TEST_CASE_METHOD(Objects, "scenes may name view, colours and environment files, too", "[app]") {

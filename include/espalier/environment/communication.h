@@ -34,6 +34,7 @@ public:
 
     bool rounds_parameters() const { return digits_ > 0; }
     double rounded(double parameter) const;
+    bool changes_queries() const;
     /// Everything but the parameters of the query.
     void send(Query& query) const;
 

@@ -62,7 +62,8 @@ private:
 
     void gather(const WorldView& world);
     void gather(const PlantView& plant, int step);
-    std::optional<std::size_t> process_for(Query& query, const PlantView& plant, int step) const;
+    std::optional<std::size_t> process_for(const Query& query, const PlantView& plant, int step) const;
+    bool is_routed(const Query& query) const;
     void send(std::size_t process);
     void require_sound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
     void answer_turtle_queries();

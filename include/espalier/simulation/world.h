@@ -10,6 +10,9 @@
 
 namespace espalier {
 
+/// The folder of the model's file, where it reads files of its own.
+std::filesystem::path folder_with(const Model& model);
+
 /// Seconds spent per stage of the last step.
 struct StageTimes {
     double derive = 0, interpret = 0, exchange = 0, record = 0;
