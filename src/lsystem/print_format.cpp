@@ -1,4 +1,4 @@
-#include "print_format.h"
+#include "espalier/lsystem/print_format.h"
 
 #include <cmath>
 #include <cstdio>

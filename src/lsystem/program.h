@@ -2,8 +2,8 @@
 #pragma once
 
 #include "espalier/lsystem/lsystem.h"
+#include "espalier/lsystem/print_format.h"
 
-#include "print_format.h"
 #include "scan_format.h"
 
 #include <bit>
