@@ -253,7 +253,7 @@ TEST_CASE("one thread and two write the same string", "[lsystem]") {
             model.system().decomposition.productions.back().condition = formal(0) < number(0.3);
         }
         tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        Derivation derivation(model.compiled(), {11, 4, true, std::size_t(-1), {}});
+        Derivation derivation(model.compiled(), with_lineage(11, 4));
         return grow(derivation, 14);
     };
     const ModuleString plain = grown(1, false, false);
@@ -273,13 +273,13 @@ TEST_CASE("a derivation restored from a checkpoint goes on as if nothing had hap
                                  assign(element(0, {number(1)}), global(n))};
     model.rule({{"+", 1}}, {model.module("+", {formal(0) + global(n) + element(0, {number(1)})})});
     const auto compiled = model.compiled();
-    Derivation first(compiled, {5, 0, true, std::size_t(-1), {}});
+    Derivation first(compiled, with_lineage(5, 0));
     const ModuleString halfway = grow(first, 4);
     std::stringstream checkpoint;
     first.save(checkpoint);
     ModuleString expected, found;
     first.step(halfway, expected);
-    Derivation second(compiled, {5, 0, true, std::size_t(-1), {}});
+    Derivation second(compiled, with_lineage(5, 0));
     second.restore(checkpoint);
     second.step(halfway, found);
     CHECK(same(expected, found));

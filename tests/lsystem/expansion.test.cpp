@@ -85,7 +85,7 @@ TEST_CASE("identities stay distinct when a successor is decomposed in the same s
     model.rule("A", "AB");
     decompose(model, "A", "AB");
     decompose(model, "B", "BC");
-    Derivation derivation(model.compiled(), {1, 0, true, std::size_t(-1), {}});
+    Derivation derivation(model.compiled(), with_lineage(1, 0));
     const ModuleString string = grow(derivation, 4);
     const std::set<Identity> distinct(string.identities.begin(), string.identities.end());
     CHECK(distinct.size() == string.size());

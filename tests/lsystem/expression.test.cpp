@@ -15,7 +15,7 @@ double value_of(const Expression& expression, double x = 0, bool quirks = false)
     model.model().quirks = quirks;
     model.system().axiom = {model.module("A", {number(x)})};
     model.rule({{"A", 1}}, {model.module("B", {expression})});
-    Derivation derivation(model.compiled(), {1, 0, true, std::size_t(-1), {}});
+    Derivation derivation(model.compiled(), with_lineage(1, 0));
     return grow(derivation, 1).parameters.at(0);
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("random functions have their distributions and ranges", "[lsystem]") {
         ModelBuilder model;
         for (int k = 0; k < n; ++k) model.system().axiom.push_back(model.module("A", {}));
         model.rule({{"A", 0}}, {model.module("B", {std::move(expression)})});
-        Derivation derivation(model.compiled(), {1, 0, true, std::size_t(-1), {}});
+        Derivation derivation(model.compiled(), with_lineage(1, 0));
         double sum = 0;
         for (const double value : grow(derivation, 1).parameters) sum += value;
         return sum / n;

@@ -201,6 +201,14 @@ private:
     std::shared_ptr<Model> model_;
 };
 
+inline DerivationSettings with_lineage(std::uint64_t seed = 1, std::uint32_t plant = 0) {
+    DerivationSettings settings;
+    settings.seed = seed;
+    settings.plant = plant;
+    settings.lineage = true;
+    return settings;
+}
+
 /// The string after some steps.
 inline ModuleString grow(Derivation& derivation, int steps) {
     ModuleString string, next;

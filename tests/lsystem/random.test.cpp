@@ -8,14 +8,6 @@
 using namespace espalier;
 using namespace espalier::test;
 
-namespace {
-
-DerivationSettings with_lineage(std::uint64_t seed = 1, std::uint32_t plant = 0) {
-    return {seed, plant, true, std::size_t(-1), {}};
-}
-
-}  // namespace
-
 TEST_CASE("productions are chosen with the frequency of their weights", "[lsystem]") {
     ModelBuilder chooser;
     chooser.system().seed = number(1);
