@@ -10,6 +10,27 @@
 namespace espalier {
 namespace {
 
+GroundImage black(const PictureBytes& bytes, std::size_t width, std::size_t height) {
+    bytes.require_size(width, height, 512);  // no run-length code says more
+    GroundImage image{width, height, {}};
+    image.pixels.resize(width * height);
+    return image;
+}
+
+GroundImage from_png(const PngPicture& picture) {
+    GroundImage image{picture.width, picture.height, {}};
+    for (std::size_t y = picture.height; y-- > 0;) {
+        for (std::size_t x = 0; x < picture.width; ++x) {
+            GroundImage::Colour& colour = image.pixels.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int sample = picture.at(x, y, k);
+                colour[k] = static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
+            }
+        }
+    }
+    return image;
+}
+
 // --- SGI: planes of rows, the lowest first, plain or run-length coded (Haeberli, SGI image file format 1.00) ---
 
 void read_sgi_run_lengths(const PictureBytes& bytes, std::size_t at, GroundImage& image, std::size_t row,
@@ -32,7 +53,7 @@ GroundImage read_sgi(const PictureBytes& bytes) {
     const std::size_t dimensions = bytes.big(4);
     const std::size_t height = dimensions > 1 ? bytes.big(8) : 1;
     const std::size_t planes = dimensions > 2 ? bytes.big(10) : 1;
-    GroundImage image = bytes.image(bytes.big(6), height, 512);  // 127 pixels in two bytes at most
+    GroundImage image = black(bytes, bytes.big(6), height);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const std::size_t plane = planes >= 3 ? channel : 0;  // grey in all three
         for (std::size_t row = 0; row < height; ++row) {
@@ -67,7 +88,7 @@ GroundImage read_targa(const PictureBytes& bytes) {
                         "pixel",
                         kind, int{bytes.at(16)}));
     }
-    GroundImage image = bytes.image(bytes.little(12), bytes.little(14), 512);
+    GroundImage image = black(bytes, bytes.little(12), bytes.little(14));
     const bool top_first = bytes.at(17) & 32u;
     std::size_t at = 18u + bytes.at(0) + bytes.little(5) * ((bytes.at(7) + 7u) / 8u);
     std::size_t left = 0;  // of the packet
@@ -102,7 +123,7 @@ GroundImage read_ground_image(const std::filesystem::path& path) {
     const PictureBytes bytes(path);
     if (name.ends_with("rgb")) return read_sgi(bytes);
     if (name.ends_with("tga")) return read_targa(bytes);
-    if (name.ends_with("png")) return read_png(bytes);
+    if (name.ends_with("png")) return from_png(read_png(bytes));
     bytes.fail("the name of a picture must end in rgb, tga or png");
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// What the chunks of a file say, the picture still compressed.
 struct Chunks {
-    std::size_t width = 0, height = 0, channels = 0;
+    std::size_t width = 0, height = 0, channels = 0, bytes = 1;  ///< bytes of a channel
     bool has_palette = false;
     std::vector<GroundImage::Colour> palette;
     std::string data;
@@ -41,8 +41,10 @@ void read_header(const PictureBytes& bytes, std::size_t at, Chunks& chunks) {
     chunks.height = bytes.big4(at + 4);
     chunks.channels = channels_of(bytes.at(at + 9));
     chunks.has_palette = bytes.at(at + 9) == 3;
-    if (bytes.at(at + 8) != 8 || chunks.channels == 0 || bytes.at(at + 12) != 0) {
-        bytes.fail("only PNG pictures of 8 bits a channel that are not interlaced can be read");
+    const int bits = bytes.at(at + 8);
+    chunks.bytes = bits == 16 ? 2 : 1;
+    if ((bits != 8 && bits != 16) || chunks.channels == 0 || bytes.at(at + 12) != 0) {
+        bytes.fail("only PNG pictures of 8 or 16 bits a channel that are not interlaced can be read");
     }
 }
 
@@ -97,36 +99,43 @@ void unfilter(int filter, std::uint8_t* row, const std::uint8_t* above, std::siz
     }
 }
 
-GroundImage::Colour colour(const PictureBytes& bytes, const Chunks& chunks, const std::uint8_t* pixel) {
+void add_pixel(const PictureBytes& bytes, const Chunks& chunks, const std::uint8_t* pixel, PngPicture& picture) {
     if (chunks.has_palette) {
         if (pixel[0] >= chunks.palette.size()) bytes.fail("the picture uses a colour that its palette lacks");
-        return chunks.palette[pixel[0]];
+        const GroundImage::Colour& colour = chunks.palette[pixel[0]];
+        picture.samples.insert(picture.samples.end(), colour.begin(), colour.end());
+        return;
     }
-    if (chunks.channels < 3) return {pixel[0], pixel[0], pixel[0]};
-    return {pixel[0], pixel[1], pixel[2]};
+    for (std::size_t k = 0; k < picture.channels; ++k) {
+        const int sample = chunks.bytes == 2 ? 256 * pixel[2 * k] + pixel[2 * k + 1] : pixel[k];
+        picture.samples.push_back(static_cast<std::uint16_t>(sample));
+    }
 }
 
 }  // namespace
 
-GroundImage read_png(const PictureBytes& bytes) {
+PngPicture read_png(const PictureBytes& bytes) {
     for (std::size_t i = 0; i < 8; ++i) {
         if (bytes.at(i) != static_cast<std::uint8_t>("\x89PNG\r\n\x1a\n"[i])) bytes.fail("this is no PNG picture");
     }
     const Chunks chunks = read_chunks(bytes);
-    GroundImage image = bytes.image(chunks.width, chunks.height, 1100);  // zlib packs 1032 bytes into one at most
-    const std::size_t length = chunks.width * chunks.channels;
+    bytes.require_size(chunks.width, chunks.height, 1100);  // zlib packs 1032 bytes into one at most
+    PngPicture picture{chunks.width,
+                       chunks.height,
+                       chunks.channels >= 3 || chunks.has_palette ? 3U : 1U,
+                       chunks.bytes == 2 ? 65535 : 255,
+                       {}};
+    const std::size_t step = chunks.channels * chunks.bytes, length = chunks.width * step;
     std::vector<std::uint8_t> rows = inflated(bytes, chunks.data, (length + 1) * chunks.height);
     const std::uint8_t* above = nullptr;
     for (std::size_t y = 0; y < chunks.height; ++y) {
         std::uint8_t* row = rows.data() + y * (length + 1) + 1;
         if (row[-1] > 4) bytes.fail("the picture is damaged");
-        unfilter(row[-1], row, above, length, chunks.channels);
+        unfilter(row[-1], row, above, length, step);
         above = row;
-        for (std::size_t x = 0; x < chunks.width; ++x) {
-            image.pixels[(chunks.height - 1 - y) * chunks.width + x] = colour(bytes, chunks, row + x * chunks.channels);
-        }
+        for (std::size_t x = 0; x < chunks.width; ++x) add_pixel(bytes, chunks, row + x * step, picture);
     }
-    return image;
+    return picture;
 }
 
 }  // namespace espalier

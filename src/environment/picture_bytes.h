@@ -10,6 +10,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace espalier {
 
@@ -19,6 +21,7 @@ public:
     explicit PictureBytes(const std::filesystem::path& path) : name_(path.string()), bytes_(read_text(path)) {}
 
     std::size_t size() const { return bytes_.size(); }
+    bool begins_with(std::string_view start) const { return std::string_view(bytes_).starts_with(start); }
     std::uint8_t at(std::size_t i) const {
         if (i >= bytes_.size()) fail("the picture ends too early");
         return static_cast<std::uint8_t>(bytes_[i]);
@@ -28,16 +31,13 @@ public:
     std::size_t big4(std::size_t i) const { return 65536u * big(i) + big(i + 2); }
     [[noreturn]] void fail(const std::string& message) const { throw UserError({name_, 0, 0}, message); }
 
-    /// An image of this size, black. A file of some bytes cannot ask for `most_per_byte` times as many pixels.
-    GroundImage image(std::size_t width, std::size_t height, std::size_t most_per_byte) const {
+    /// A file of some bytes cannot ask for `most_per_byte` times as many pixels.
+    void require_size(std::size_t width, std::size_t height, std::size_t most_per_byte) const {
         constexpr std::size_t most_pixels = std::size_t{1} << 28;
         if (width == 0 || height == 0 || width > most_pixels / height) {
             fail(fmt::format("a picture of {} x {} pixels cannot be read", width, height));
         }
         if (width * height / most_per_byte > size()) fail("the picture ends too early");
-        GroundImage made{width, height, {}};
-        made.pixels.resize(width * height);
-        return made;
     }
 
 private:
@@ -45,7 +45,18 @@ private:
     std::string bytes_;
 };
 
-/// Portable Network Graphics of 8 bits a channel, not interlaced (ISO/IEC 15948).
-GroundImage read_png(const PictureBytes& bytes);
+/// What a PNG file shows, from the highest row down; palettes are looked up, opacity is left out.
+struct PngPicture {
+    std::size_t width = 0, height = 0, channels = 0;  ///< one channel of grey, or red, green, blue
+    int greatest = 255;                               ///< what white is
+    std::vector<std::uint16_t> samples;
+
+    int at(std::size_t x, std::size_t y, std::size_t channel) const {
+        return samples[(y * width + x) * channels + (channels == 3 ? channel : 0)];
+    }
+};
+
+/// Portable Network Graphics of 8 or 16 bits a channel, not interlaced (ISO/IEC 15948). Throws UserError.
+PngPicture read_png(const PictureBytes& bytes);
 
 }  // namespace espalier

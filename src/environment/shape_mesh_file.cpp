@@ -2,6 +2,7 @@
 
 #include "espalier/base/file.h"
 
+#include "picture_bytes.h"
 #include "shape_mesh_formats.h"
 
 #include <fmt/format.h>
@@ -215,8 +216,28 @@ TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& plac
     return mesh;
 }
 
+namespace {
+
+// Not by VTK's reader, which libpng's complaints crash.
+HeightImage read_height_png(const PictureBytes& bytes) {
+    const PngPicture picture = read_png(bytes);
+    HeightImage image{picture.width, {}};
+    for (std::size_t y = 0; y < picture.height; ++y) {
+        for (std::size_t x = 0; x < picture.width; ++x) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 3; ++k) sum += picture.at(x, y, k);
+            image.brightness.push_back(sum / (3.0 * picture.greatest));
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
 HeightImage read_height_image(const std::filesystem::path& file, const Place& place) {
     require_file(file, place);
+    const PictureBytes bytes(file);
+    if (file.extension() == ".png" || bytes.begins_with("\x89PNG")) return read_height_png(bytes);
     const VtkReports silence;  // of readers that are asked in turn whether they know this file
     const vtkSmartPointer<vtkImageReader2> reader =
         vtkSmartPointer<vtkImageReader2>::Take(vtkImageReader2Factory::CreateImageReader2(file.c_str()));

@@ -214,6 +214,11 @@ TEST_CASE("a height field read from an image has the picture's rows along z", "[
     CHECK_FALSE(field->inside({0.5, 1.1, 1.5}));
     CHECK(field->inside({0.5, 0.9, 1.5}));
 
+    const std::string whole = read_text(folder / "hill.png");
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        write_text(folder / "cut.png", whole.substr(0, length));
+        CHECK_THROWS_AS(shape_of(table + (folder / "cut.png").string() + "'"), UserError);
+    }
     write_text(folder / "no.png", "no image");
     CHECK_THROWS_AS(shape_of(table + (folder / "no.png").string() + "'"), UserError);
 }
