@@ -374,6 +374,30 @@ TEST_CASE("Shoot: the frames of the object are those its animation file asks for
     CHECK(frames == std::set<std::string>{"0005.vtp", "0010.vtp", "0015.vtp", "0020.vtp", "0025.vtp", "0030.vtp"});
 }
 
+TEST_CASE("Scale: of every order, lengths and widths alike, and back again", "[language]") {
+    for (const double ratio : {0.5, 0.6}) {
+        LonePlant plant(file("scale"), {{"RATIO", std::to_string(ratio)}});
+        plant.grow(4);
+        const auto& segments = plant.interpretation.geometry.internodes;
+        REQUIRE(segments.size() == 2 * (1 + 4 + 16 + 64) + 1);
+        for (const Internode& segment : segments) {
+            const double scale = std::pow(ratio, segment.order);
+            CHECK(glm::length(segment.tip - segment.base) == Approx(scale));
+            CHECK(segment.tip_radius == Approx(0.05 * scale));
+        }
+        CHECK(segments.back().order == 0);
+    }
+}
+
+TEST_CASE("Protocol: the file a model writes lies in the run's folder, with a line for every step", "[language]") {
+    const Workplace workplace;
+    const std::string model = source_path(file("protocol")).string();
+    REQUIRE(workplace.run("run '" + model + "' --output out --quiet").code == 0);
+    std::ifstream in(workplace.path() / "out" / "files" / "buds.txt");
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    CHECK(text == "step,buds\n1,2\n2,4\n3,8\n4,16\n5,32\n6,64\n");
+}
+
 TEST_CASE("Liana: nodes on the curve, a segment apart, as long together as the curve", "[language]") {
     const View view = read_view_file(source_path("models/language/spiral/liana.v"));
     REQUIRE(view.resources);

@@ -149,6 +149,27 @@ TEST_CASE("Two signals meet where the ratio of their speeds says, and make one b
     }
 }
 
+TEST_CASE("Apical dominance: buds break from below, and also from above once the apex is gone", "[signals]") {
+    LonePlant plant(file("apical-dominance"));
+    std::map<int, int> breaking;
+    for (int step = 1; step <= 40; ++step) {
+        plant.grow(1);
+        const auto offsets = parameter_offsets(plant.string, plant.model->alphabet);
+        for (std::size_t i = 0; i < plant.string.size(); ++i) {
+            if (plant.model->alphabet.name(plant.string.letters[i]) != "Branch") continue;
+            breaking.emplace(static_cast<int>(plant.string.parameters[offsets[i]]), step);
+        }
+    }
+    REQUIRE(breaking.size() == 20);
+    const int from_below = breaking.at(0), from_above = breaking.at(19);
+    CHECK(from_below < 20);
+    CHECK(from_above == 22);
+    for (int node = 0; node < 20; ++node) {
+        CHECK(breaking.at(node) == std::min(from_below + node, from_above + 19 - node));
+    }
+    CHECK(plant.counts()["Bud"] + plant.counts()["Apex"] == 0);
+}
+
 TEST_CASE("Hogeweg and Hesper's patterns: the strings of all steps are those of an interpreter of their own",
           "[signals]") {
     struct Pattern {
