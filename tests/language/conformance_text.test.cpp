@@ -183,3 +183,18 @@ TEST_CASE("2 several L-systems, missing ends", "[conformance]") {
     CHECK(reading_warnings(open + "lsystem: 2\naxiom: C\nC --> D\nendlsystem\n").size() == 1);
     CHECK(reading_warnings(open + "endlsystem\nremember to\nprune\nlsystem: 2\naxiom: C\nC --> D\n").size() == 2);
 }
+
+TEST_CASE("the models on the page grow", "[conformance]") {
+    const std::string page = read_text(std::filesystem::path(ESPALIER_SOURCE_DIR) / "docs/language.md");
+    const std::string fence = "```";
+    int models = 0;
+    for (std::size_t at = page.find(fence + "c\n"); at != std::string::npos; at = page.find(fence + "c\n", at + 1)) {
+        const std::string block = page.substr(at + 5, page.find(fence, at + 5) - at - 5);
+        if (block.find("endlsystem") == std::string::npos) continue;
+        INFO(block);
+        CHECK_FALSE(derived(block).empty());
+        CHECK(reading_warnings(block).empty());
+        ++models;
+    }
+    CHECK(models == 4);
+}
