@@ -48,7 +48,7 @@ Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings&
     turtle.width = turtle.node_width = settings.line_width;
     turtle.scale = settings.scale;
     turtle.colour = settings.colour;
-    turtle.back_colour = settings.back_colour;
+    turtle.back_colour = settings.back_colour.value_or(-1);
     turtle.elasticity = settings.initial_elasticity;
     for (const Tropism& tropism : settings.tropisms) elasticities.push_back(tropism.elasticity);
     known_rotations_.fill({0, Rotation()});
@@ -171,7 +171,7 @@ void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
 }
 
 Look Walk::look() const {
-    return {std::uint16_t(turtle.back_colour), turtle.texture};
+    return {std::uint16_t(turtle.back_colour < 0 ? turtle.colour : turtle.back_colour), turtle.texture};
 }
 
 void Walk::enter_system(double scale) {

@@ -388,6 +388,10 @@ TEST_CASE("labels are texts filled in as printf does, where the turtle is", "[tu
 }
 
 TEST_CASE("the colour of the back goes with polygons and organs", "[turtle]") {
+    Drawing plain(";(5)@O[@;@O]@O");
+    CHECK(plain.geometry().organs.at(0).look.back_colour == 5);  // the front's, until it is set
+    CHECK(plain.geometry().organs.at(1).look.back_colour == 129);
+    CHECK(plain.geometry().organs.at(2).look.back_colour == 5);
     Drawing drawing("@;(9){.f+f.}@O@;@o");
     drawing.settings.back_colour_increment = 2;
     const PlantGeometry& geometry = drawing.geometry();

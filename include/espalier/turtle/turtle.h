@@ -34,7 +34,7 @@ struct TurtleSettings {
     double line_width_increment = 0;
     int colour = 128;
     int colour_increment = 1;
-    int back_colour = 128;
+    std::optional<int> back_colour;  ///< none: the front's
     int back_colour_increment = 1;
     double scale = 1;
     double scale_multiplier = 1;
@@ -66,7 +66,7 @@ struct TurtleState {
     double width = 1;
     double scale = 1;
     int colour = 128;
-    int back_colour = 128;
+    int back_colour = -1;  ///< -1: the front's
     std::uint32_t axis = 0;
     std::uint16_t order = 0;     ///< depth of branching, at most 65535
     bool on_axis = false;        ///< the axis has an internode that ends here

@@ -18,6 +18,13 @@ void change_colour(Walk& walk, int& colour, std::span<const double> parameters, 
     colour = colour - wrapped(colour) + wrapped(index);
 }
 
+/// The back has no colour of its own until it is set; cpfg counts from 128 then.
+void change_back(Walk& walk, std::span<const double> parameters, int increment) {
+    int back = walk.turtle.back_colour < 0 ? 128 : walk.turtle.back_colour;
+    change_colour(walk, back, parameters, increment);
+    walk.turtle.back_colour = back;
+}
+
 const Symbol next{";",
                   {},
                   ";(index): set the colour index; without parameter, add the increment",
@@ -34,12 +41,12 @@ const Symbol previous{",",
 
 const Symbol next_back{
     "@;", {}, "@;(index): as ; for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
-        change_colour(walk, walk.turtle.back_colour, parameters, walk.settings.back_colour_increment);
+        change_back(walk, parameters, walk.settings.back_colour_increment);
     }};
 
 const Symbol previous_back{
     "@,", {}, "@,(index): as , for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
-        change_colour(walk, walk.turtle.back_colour, parameters, -walk.settings.back_colour_increment);
+        change_back(walk, parameters, -walk.settings.back_colour_increment);
     }};
 
 const Symbol texture{"@Tx",
