@@ -14,15 +14,21 @@
 #include <filesystem>
 #include <numbers>
 #include <sstream>
+#include <unistd.h>
 
 using namespace espalier;
 
 namespace {
 
-std::filesystem::path folder() {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / "espalier-clover";
-    std::filesystem::create_directories(path);
-    return path;
+/// A folder that goes away with the program.
+const std::filesystem::path& folder() {
+    static const struct Folder {
+        Folder() { std::filesystem::create_directories(path); }
+        ~Folder() { std::filesystem::remove_all(path); }
+        std::filesystem::path path =
+            std::filesystem::temp_directory_path() / ("espalier-clover-" + std::to_string(::getpid()));
+    } made;
+    return made.path;
 }
 
 std::filesystem::path written(const std::string& name, const std::string& bytes) {

@@ -7,6 +7,7 @@
 #include "exchange_plants.h"
 
 #include <filesystem>
+#include <unistd.h>
 
 using namespace espalier;
 
@@ -15,17 +16,20 @@ namespace {
 /// A parameter file on disk and what its reader says about it.
 struct Read {
     explicit Read(const std::string& text, const std::string& scene = "") {
-        const std::filesystem::path folder = std::filesystem::temp_directory_path() / "espalier-parameter-file";
         std::filesystem::create_directories(folder);
         write_text(folder / "process.spec", text);
         context.warnings = &warnings;
         table = Settings::parse_toml("parameters = \"process.spec\"\n" + scene, "scene.toml", folder);
     }
 
+    ~Read() { std::filesystem::remove_all(folder); }
+
     ParameterFile file() {
         return {table, context, {"radius", "grid size", "3d case", "source direction", "input image"}};
     }
 
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("espalier-parameter-file-" + std::to_string(::getpid()));
     std::vector<Diagnostic> warnings;
     EnvironmentContext context;
     Settings table;
@@ -105,7 +109,7 @@ TEST_CASE("files are looked for beside the parameter file", "[environment][param
     const auto path = file.file("input image");
     REQUIRE(path);
     CHECK(path->filename() == "ground.rgb");
-    CHECK(path->parent_path().filename() == "espalier-parameter-file");
+    CHECK(path->parent_path() == read.folder);
     CHECK_FALSE(Read("").file().file("input image"));
 }
 
