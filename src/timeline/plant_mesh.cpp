@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "timeline/organ_mesh.h"
+#include "timeline/polygon_triangles.h"
 
 #include <glm/geometric.hpp>
 
@@ -126,10 +127,15 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
         const Owner owner{plant, polygon.module, polygon.order, polygon.colour, Kind::polygon, polygon.look};
         const glm::dvec3* vertices = &geometry.vertices[polygon.first];
         const glm::dvec3 normal = normal_of(vertices, polygon.count);
-        for (std::uint32_t i = 0; i < polygon.count; ++i) {
-            mesh.polygons.connectivity.push_back(mesh.add_point({vertices[i], normal, {}}, 0, owner));
+        const auto origin = static_cast<std::int32_t>(mesh.owners.size());
+        for (std::uint32_t i = 0; i < polygon.count; ++i) mesh.add_point({vertices[i], normal, {}}, 0, owner);
+        const std::vector<std::uint32_t> triangles = triangles_of({vertices, polygon.count}, normal);
+        const std::size_t corners = triangles.empty() ? polygon.count : triangles.size();
+        for (std::uint32_t i = 0; i < corners; ++i) {
+            const std::uint32_t corner = triangles.empty() ? i : triangles[i];
+            mesh.polygons.connectivity.push_back(origin + static_cast<std::int32_t>(corner));
+            if (i + 1 == corners || (!triangles.empty() && i % 3 == 2)) mesh.polygons.close(owner);
         }
-        mesh.polygons.close(owner);
     }
 }
 

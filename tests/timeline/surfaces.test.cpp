@@ -218,6 +218,35 @@ TEST_CASE("a polygon has the normal of its plane at every vertex", "[timeline]")
     CHECK(values(data->GetPointData(), "Normals") == std::vector<double>{0, 0, 1, 0, 0, 1, 0, 0, 1});
 }
 
+TEST_CASE("a polygon that bends inward is cut into triangles that cover it once, facing as it does", "[timeline]") {
+    constexpr int points = 40;
+    const double pi = std::acos(-1.0);
+    HandmadePlant plant;
+    PlantGeometry& geometry = plant.interpretation.geometry;
+    plant.add_triangle(1);
+    geometry.polygons.back().first = static_cast<std::uint32_t>(geometry.vertices.size());
+    geometry.polygons.back().count = points;
+    for (int i = 0; i < points; ++i) {
+        const double angle = 2 * pi * i / points, radius = i % 2 ? 1 : 3;
+        geometry.vertices.push_back({radius * std::cos(angle), radius * std::sin(angle), 2});
+    }
+    const auto data = recorded(plant);
+    CHECK(data->GetNumberOfPoints() == points);
+    REQUIRE(data->GetNumberOfPolys() == points - 2);
+    double area = 0;
+    for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
+        double a[3], b[3], c[3];
+        data->GetPoint(data->GetCell(cell)->GetPointId(0), a);
+        data->GetPoint(data->GetCell(cell)->GetPointId(1), b);
+        data->GetPoint(data->GetCell(cell)->GetPointId(2), c);
+        const double twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        CHECK(twice > 0);
+        area += twice / 2;
+    }
+    // Every corner spans a triangle with the middle and its neighbour.
+    CHECK(area == Approx(points * 0.5 * 1 * 3 * std::sin(2 * pi / points)));
+}
+
 TEST_CASE("a sphere has as many meridians as the turtle's sides, a disc at least sixteen", "[timeline]") {
     HandmadePlant plant;
     plant.add_organ(Organ::Shape::sphere, 1, 2);
