@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 
@@ -58,8 +59,11 @@ struct Tip {
     }
 };
 
-/// Forks of a tier of Terminalia catappa in `steps` steps, with the ratios and angles of Honda, Tomlinson & Fisher.
-int forks(double radius, int steps) {
+using Answers = std::function<std::vector<double>(const std::vector<Asked>&)>;
+
+/// Forks of a tier of Terminalia catappa in `steps` steps, with the ratios and angles of Honda, Tomlinson & Fisher
+/// (1981); `free` tells of all ends, old ones first, which have room.
+int forks(int steps, const Answers& free) {
     std::vector<Tip> tips;
     std::vector<Asked> ends;
     for (int axis = 0; axis < 5; ++axis) {
@@ -69,22 +73,39 @@ int forks(double radius, int steps) {
     int forked = 0;
     for (int step = 0; step < steps; ++step) {
         forked += static_cast<int>(tips.size());
-        for (const Tip& tip : tips) ends.push_back({tip.place, {1}});
+        for (const Tip& tip : tips) ends.push_back({tip.place, {1, 0}});
         std::vector<Tip> daughters;
         std::vector<Asked> questions = ends;
         for (const Tip& tip : tips) {
             for (const bool straight : {true, false}) {
                 daughters.push_back(tip.daughter(straight));
-                questions.push_back({daughters.back().place, {straight ? 0.9 : 0.8}});
+                questions.push_back({daughters.back().place, {straight ? 0.9 : 0.8, 0}});
             }
         }
-        const std::vector<double> answered = answers("radius = " + std::to_string(radius), questions);
+        const std::vector<double> answered = free(questions);
         tips.clear();
         for (std::size_t i = 0; i < daughters.size(); ++i) {
             if (answered[ends.size() + i] == 1) tips.push_back(daughters[i]);
         }
     }
     return forked;
+}
+
+int forks_of_process(int steps, double radius) {
+    return forks(steps, [&](const std::vector<Asked>& questions) {
+        const std::vector<double> parameters = answers("radius = " + std::to_string(radius), questions);
+        std::vector<double> free;
+        for (std::size_t i = 0; i < parameters.size(); i += 2) free.push_back(parameters[i]);
+        return free;
+    });
+}
+
+int forks_of_definition(int steps, double radius) {
+    return forks(steps, [&](const std::vector<Asked>& questions) {
+        std::vector<double> free;
+        for (std::size_t i = 0; i < questions.size(); ++i) free.push_back(by_definition(questions, i, radius, true));
+        return free;
+    });
 }
 
 }  // namespace
@@ -163,10 +184,16 @@ TEST_CASE("a crowd at one place takes no more than linear time", "[honda81]") {
     CHECK(answered.back() == 1);
 }
 
-TEST_CASE("a tier of Terminalia catappa forks the less the wider its branches stand off each other", "[honda81]") {
-    CHECK(forks(0, 7) == 5 * (128 - 1));
-    CHECK(forks(0.3, 7) == 232);
-    CHECK(forks(0.5, 7) == 107);
+TEST_CASE("a tier of Terminalia catappa forks everywhere without a radius, less the wider it is", "[honda81]") {
+    CHECK(forks_of_process(7, 0) == 5 * (128 - 1));
+    int before = forks_of_process(7, 0);
+    for (const double radius : {0.1, 0.3, 0.5, 0.7}) {
+        const int forked = forks_of_process(7, radius);
+        CAPTURE(radius);
+        CHECK(forked == forks_of_definition(7, radius));
+        CHECK(forked < before);
+        before = forked;
+    }
 }
 
 TEST_CASE("a radius below 0 is a mistake", "[honda81]") {
