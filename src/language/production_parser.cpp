@@ -78,9 +78,23 @@ std::vector<ModulePattern> ProductionParser::patterns(Production& production, bo
     return result;
 }
 
+// `{ x = 1; }` among the modules of the predecessor.
+bool ProductionParser::looking_at_block() {
+    if (in_.peek() != '{') return false;
+    const std::string_view line = in_.text(in_.position(), in_.end_of_line(in_.position()));
+    const std::size_t assignment = line.find('=');
+    const std::size_t semicolon = line.find(';', std::min(assignment, line.size()));
+    return semicolon < line.find('}') && line.find('}') < line.size();
+}
+
 ModulePattern ProductionParser::pattern(Production& production, bool right_context) {
     ModulePattern result;
     const Location at = in_.here();
+    if (looking_at_block()) {
+        mistakes_.warning(at,
+                          "this is read as modules of the predecessor; a block stands behind a ':', as in "
+                          "A : { x = 1; } --> B");
+    }
     const std::string_view name = symbol();
     result.place = names_.place(at);
     result.first_formal = static_cast<std::uint32_t>(production.formals.size());

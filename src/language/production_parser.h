@@ -37,6 +37,7 @@ private:
     std::vector<ModulePattern> patterns(Production& production, bool right_context);
     ModulePattern pattern(Production& production, bool right_context);
     bool at_end_of_patterns();
+    bool looking_at_block();
     void expect_arrow();
     std::vector<ModuleTemplate> successor();
     ModuleTemplate module();

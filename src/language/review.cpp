@@ -38,6 +38,7 @@ public:
                 if (production.condition) review_condition(*production.condition);
                 review_statements(production.after);
             });
+            review_symbol_parts(system);
         }
         review_processes();
         review_calls();
@@ -224,14 +225,69 @@ private:
         }
     }
 
+    /// The letters that stand alone in some strings, and those in symbols of the turtle with the symbol.
+    struct Uses {
+        std::set<LetterId> alone;
+        std::map<LetterId, std::string> parts;
+    };
+
+    // A production of T finds the T of @Ts as well. That is meant where T stands in @Ts only, say for O(d) --> O(2 * d)
+    // and @O(1), and hardly where it stands alone too.
+    void review_symbol_parts(const LSystem& system) {
+        Uses uses;
+        collect_uses(system.axiom, {}, uses);
+        for (const auto* productions : {&system.productions, &system.decomposition.productions}) {
+            for (const Production& production : *productions) collect_uses(production, uses);
+        }
+        review_symbol_parts(system.productions, uses);
+        review_symbol_parts(system.decomposition.productions, uses);
+        if (system.homomorphism.maximum_depth) {
+            for (const Production& production : system.homomorphism.productions) collect_uses(production, uses);
+        }
+        review_symbol_parts(system.homomorphism.productions, uses);
+    }
+
+    void collect_uses(const Production& production, Uses& uses) const {
+        collect_uses(production.successor, production.strict.front().letter, uses);
+    }
+
+    // A letter that replaces itself stands alone there only because its symbol's beginning stays where it is.
+    void collect_uses(const std::vector<ModuleTemplate>& modules, std::optional<LetterId> replaced, Uses& uses) const {
+        for (std::size_t i = 0; i < modules.size();) {
+            const LetterId letter = modules[i].letter;
+            const std::string& symbol = model_.alphabet.name(letter);
+            const bool pair = symbol == "~" || (symbol == "?" && model_.alphabet.arity(letter) == 0);
+            const std::size_t length = pair ? 2 : std::max<std::size_t>(1, turtle_symbol_length(modules, i));
+            if (length == 1 && letter != replaced) uses.alone.insert(letter);
+            for (std::size_t k = i + 1; k < i + length && !pair; ++k) {
+                uses.parts.emplace(modules[k].letter, word(modules, i, length));
+            }
+            i += length;
+        }
+    }
+
+    void review_symbol_parts(const std::vector<Production>& productions, const Uses& uses) {
+        for (const Production& production : productions) {
+            const LetterId letter = production.strict.front().letter;
+            const bool plain = production.strict.size() == 1 && production.left.empty();
+            if (!plain || !uses.alone.contains(letter) || !uses.parts.contains(letter)) continue;
+            warn(production.place, fmt::format("this production replaces the {} in {} too: call the module otherwise",
+                                               described(letter), uses.parts.at(letter)));
+        }
+    }
+
+    std::string word(const std::vector<ModuleTemplate>& modules, std::size_t begin, std::size_t length) const {
+        std::string result;
+        for (std::size_t i = begin; i < begin + length; ++i) result += model_.alphabet.name(modules[i].letter);
+        return result;
+    }
+
     // How many modules from `i` on spell a symbol of the turtle, such as @o or @Gs; the longest counts.
     std::size_t turtle_symbol_length(const std::vector<ModuleTemplate>& modules, std::size_t i) const {
-        std::string word;
         std::size_t longest = 0;
-        for (std::size_t k = i; k < std::min(modules.size(), i + 4); ++k) {
-            word += model_.alphabet.name(modules[k].letter);
-            const bool known = std::find(turtle_symbols_.begin(), turtle_symbols_.end(), word) != turtle_symbols_.end();
-            if (known) longest = k - i + 1;
+        for (std::size_t length = 1; length <= std::min<std::size_t>(4, modules.size() - i); ++length) {
+            const auto last = turtle_symbols_.end();
+            if (std::find(turtle_symbols_.begin(), last, word(modules, i, length)) != last) longest = length;
         }
         return longest;
     }

@@ -102,3 +102,17 @@ TEST_CASE("L-systems that are not there, or that nobody calls, are pointed out",
 TEST_CASE("texts among the parameters of modules are nothing odd", "[language]") {
     CHECK(warnings(lsystem("", "A", "A --> A@L(\"%d\", 2)\n")) == "");
 }
+
+TEST_CASE("a production that also replaces a part of a symbol of the turtle is pointed out", "[language]") {
+    const std::vector<std::string> symbols{"F", "@Ts", "@o", "@O"};
+    CHECK(warnings(lsystem("", "T@Ts(1, 2)", "T --> FT\n"), symbols) ==
+          "3: this production replaces the 'T' in @Ts too: call the module otherwise");
+    CHECK(warnings(lsystem("", "o(1)F", "o(x) --> F@o(x)\n"), symbols) ==
+          "3: this production replaces the 'o' with 1 parameter in @o too: call the module otherwise");
+    // Another arity, a context, a symbol whose part is what is to be replaced, a question: all as they should be.
+    CHECK(warnings(lsystem("", "T(1)@Ts(1, 2)", "T(x) --> FT(x)\n"), symbols) == "");
+    CHECK(warnings(lsystem("", "FT@Ts(1, 2)", "F < T --> FT\n"), symbols) == "");
+    CHECK(warnings(lsystem("", "@O(1)F", "O(d) --> O(2 * d)\n"), symbols) == "");
+    CHECK(warnings(lsystem("", "o(1)", "o(x) --> Fo(x)\nhomomorphism\no(x) --> @o(x)\n"), symbols) == "");
+    CHECK(warnings(lsystem("", "E(1)?E(1)", "E(x) --> E(x)\n"), symbols) == "");
+}
