@@ -182,7 +182,7 @@ void curve(ViewReader& reader) {
 
 void blob(ViewReader& reader) {
     const std::vector<ViewWord> words = reader.rest_of_line();
-    reader.complain(fmt::format("blob fields{} are not supported: inblob() is 0 everywhere",
+    reader.complain(fmt::format("blob fields{} are not read, and inblob() is not available",
                                 words.empty() ? "" : " such as '" + words[0].text + "'"));
 }
 

@@ -35,7 +35,7 @@ Drawing leafy(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a surface is an organ at the turtle's pose, and the turtle goes to its end point", "[turtle]") {
-    // SIDEFILES: position + g (a x L + b y H + c z U), and the end point with the first factor alone.
+    // position + g (a x L + b y H + c z U), and the end point with the first factor alone.
     const glm::dvec3 end(-0.5, 2, -0.25);  // in the first frame L = -x, H = y, U = -z
     CHECK(leafy("~l").pose().position == end);
     CHECK(leafy("~l(2)").pose().position == 2.0 * end);

@@ -251,7 +251,7 @@ TEST_CASE("a later background scene takes the place of an earlier one", "[turtle
 
 TEST_CASE("blob fields are refused in so many words", "[turtle]") {
     CHECK(read_view_text("blob: b.sdat 1 1 1\n", "a.v").diagnostics.at(0).message ==
-          "blob fields such as 'b.sdat' are not supported: inblob() is 0 everywhere");
+          "blob fields such as 'b.sdat' are not read, and inblob() is not available");
 }
 
 TEST_CASE("broken surfaces and curves stop the reading, refused surfaces do not", "[turtle]") {
