@@ -23,7 +23,10 @@ std::string complaint(const std::filesystem::path& path) {
     } catch (const UserError& error) {
         text = error.what();
     }
-    for (const Diagnostic& warning : warnings) text += (text.empty() ? "" : "\n") + to_string(warning);
+    for (const Diagnostic& warning : warnings) {
+        if (!text.empty()) text += '\n';
+        text += to_string(warning);
+    }
     const std::string folder = path.parent_path().string() + "/";
     for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
         text.erase(at, folder.size());

@@ -51,7 +51,7 @@ inline std::string modules(const Model& model, const std::vector<ModuleTemplate>
     for (const ModuleTemplate& module : templates) {
         if (!result.empty()) result += ' ';
         result += model.alphabet.name(module.letter);
-        if (!module.arguments.empty()) result += "/" + std::to_string(module.arguments.size());
+        if (!module.arguments.empty()) result.append("/").append(std::to_string(module.arguments.size()));
     }
     return result;
 }

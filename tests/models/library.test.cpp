@@ -3,6 +3,8 @@
 #include "catch.h"
 #include "experiments/growth.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -33,10 +35,10 @@ std::vector<std::string> all_models() {
 
 /// The folder of an object, or the model with the view file of its name.
 std::string with_side_files(std::filesystem::path model) {
-    if (exists(model.parent_path() / "specifications")) return "'" + model.parent_path().string() + "'";
-    std::string arguments = "'" + model.string() + "'";
-    if (exists(model.replace_extension(".v"))) arguments += " --view '" + model.string() + "'";
-    return arguments;
+    if (exists(model.parent_path() / "specifications")) return fmt::format("'{}'", model.parent_path().string());
+    const std::string arguments = fmt::format("'{}'", model.string());
+    if (!exists(model.replace_extension(".v"))) return arguments;
+    return fmt::format("{} --view '{}'", arguments, model.string());
 }
 
 bool is_grown_by_experiments(const std::string& path) {
