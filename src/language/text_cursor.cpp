@@ -1,18 +1,15 @@
 #include "espalier/language/text_cursor.h"
 
+#include "language/characters.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
 
 namespace espalier {
-namespace {
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-}  // namespace
+using language::is_digit;
 
 struct TextCursor::Source {
     std::string text, name;                        // a plain file's

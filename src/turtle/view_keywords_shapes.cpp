@@ -2,6 +2,7 @@
 #include "espalier/geometry/side_files.h"
 #include "espalier/language/side_files.h"
 
+#include "turtle/surface_id.h"
 #include "view_reader.h"
 
 #include <fmt/format.h>
@@ -18,15 +19,6 @@ using Severity = Diagnostic::Severity;
 
 constexpr int most_sides = 1000;
 constexpr int most_precision = 10;
-
-/// The code point a character stands for.
-std::uint32_t code_point(const std::string& character) {
-    const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(character[i])); };
-    std::uint32_t code = byte(0);
-    if (character.size() > 1) code &= 0xFFu >> (character.size() + 1);
-    for (std::size_t i = 1; i < character.size(); ++i) code = code << 6 | (byte(i) & 0x3F);
-    return code;
-}
 
 /// What `surface`, `line` and `tsurface` have in common: an id, a file and a size.
 struct SurfaceLine {
@@ -46,7 +38,7 @@ std::optional<SurfaceLine> read_surface_line(ViewReader& reader) {
         reader.complain(fmt::format("'{}' is no id: the id of a surface is one character", line.id));
         return std::nullopt;
     }
-    if (reader.shapes.surfaces.contains(code_point(line.id))) {
+    if (reader.shapes.surfaces.contains(surface_id(line.id))) {
         reader.complain(fmt::format("surface '{}' is there already; this one is passed over", line.id),
                         Severity::warning);
         return std::nullopt;
@@ -83,7 +75,7 @@ void surface(ViewReader& reader) {
         surface->precision_t = precision(reader, numbers[1], surface->precision_t);
     }
     if (numbers.size() % 2 == 1 && numbers.back() >= 0) surface->texture = numbers.back();
-    reader.shapes.surfaces.emplace(code_point(line->id), std::move(*surface));
+    reader.shapes.surfaces.emplace(surface_id(line->id), std::move(*surface));
 }
 
 // A surface by another name; '~' as its id means lines, and must be the first.
@@ -101,7 +93,7 @@ void triangle_surface(ViewReader& reader) {
     const fs::path file = reader.require_file(line->file);
     std::optional<Surface> surface = read_triangles(file, line->size, reader.view.diagnostics);
     reader.view.files.push_back(file);
-    if (surface) reader.shapes.surfaces.emplace(code_point(line->id), std::move(*surface));
+    if (surface) reader.shapes.surfaces.emplace(surface_id(line->id), std::move(*surface));
 }
 
 void contour(ViewReader& reader) {

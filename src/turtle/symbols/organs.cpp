@@ -1,7 +1,7 @@
 // Discs, spheres, outlines and surfaces where the turtle is.
 #include "espalier/turtle/symbol.h"
 
-#include <cstdint>
+#include "turtle/surface_id.h"
 
 namespace espalier {
 namespace {
@@ -17,21 +17,10 @@ double diameter(const Walk& walk, std::span<const double> parameters) {
     return parameters.empty() ? walk.turtle.width : parameters[0] * walk.turtle.scale;
 }
 
-/// The first code point of UTF-8 text.
-std::uint32_t code_point(const std::string& text) {
-    const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
-    const std::uint32_t lead = byte(0);
-    const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-    if (length == 1 || text.size() < length) return lead;
-    std::uint32_t result = lead & (0xFFu >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) result = result << 6 | (byte(i) & 0x3F);
-    return result;
-}
-
 void place_surface(Walk& walk, std::span<const double> parameters) {
     glm::dvec3 factors(parameters.empty() ? 1 : parameters[0]);
     if (parameters.size() >= 3) factors = {parameters[0], parameters[1], parameters[2]};
-    walk.place_surface(code_point(walk.symbol()), factors);
+    walk.place_surface(surface_id(walk.symbol()), factors);
 }
 
 const Symbol screen_disc{"@o",
