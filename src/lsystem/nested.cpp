@@ -68,12 +68,9 @@ void NestedStep::run(const ModuleString& from, const ModuleString& to) {
     variables_.assign(scopes_.all().size(), nullptr);
     variables_[0] = &state_.variables;
     for (const Passage& passage : scopes_.passages()) {
-        if (passage.kind == Passage::Kind::rewrite)
-            rewrite(passage);
-        else if (passage.kind == Passage::Kind::enter)
-            enter(passage.scope);
-        else
-            leave(passage.scope);
+        if (passage.kind == Passage::Kind::rewrite) rewrite(passage);
+        if (passage.kind == Passage::Kind::enter) enter(passage.scope);
+        if (passage.kind == Passage::Kind::leave) leave(passage.scope);
     }
     end_what_is_gone(to);
     for (const auto& part : parts_) {

@@ -63,11 +63,10 @@ void Scopes::find(const CompiledModel& model, const ModuleString& string, std::u
     }
 }
 
-/// Hands on the modules since the last passage, but for those that are cut off.
+/// Hands on the modules since the last passage.
 void Scopes::end_run(std::size_t module, std::size_t parameters_at) {
-    if (!cutting_ && module > run_) {
-        passages_.push_back({Passage::Kind::rewrite, current_, run_, module, run_parameters_});
-    }
+    using enum Passage::Kind;
+    if (module > run_) passages_.push_back({cutting_ ? cut_off : rewrite, current_, run_, module, run_parameters_});
     run_ = module;
     run_parameters_ = parameters_at;
 }
@@ -121,7 +120,7 @@ std::uint32_t Scopes::of_module(std::size_t module) const {
                                         [](std::size_t at, const Passage& passage) { return at < passage.begin; });
     for (auto passage = after; passage != passages_.begin();) {
         --passage;
-        if (passage->kind != Passage::Kind::rewrite) continue;
+        if (passage->kind == Passage::Kind::enter || passage->kind == Passage::Kind::leave) continue;
         return module < passage->end ? passage->scope : 0;
     }
     return 0;

@@ -21,10 +21,10 @@ struct Scope {
 
 /// What a walk along the string meets, in order. The modules `?` and `$` belong to the scope around.
 struct Passage {
-    enum class Kind : std::uint8_t { rewrite, enter, leave };
+    enum class Kind : std::uint8_t { rewrite, cut_off, enter, leave };
     Kind kind = Kind::rewrite;
     std::uint32_t scope = 0;
-    std::size_t begin = 0, end = 0;  ///< modules to be rewritten; what a `%` cuts off is in none
+    std::size_t begin = 0, end = 0;  ///< modules to be rewritten, or that a `%` cuts off
     std::size_t parameters_at = 0;   ///< of `begin`
 };
 
@@ -36,7 +36,7 @@ public:
 
     const std::vector<Scope>& all() const { return scopes_; }
     const std::vector<Passage>& passages() const { return passages_; }
-    /// The scope of a module that no `%` cuts off, else scope 0.
+    /// The scope of a module, also of one that a `%` cuts off: it is still drawn.
     std::uint32_t of_module(std::size_t module) const;
 
 private:

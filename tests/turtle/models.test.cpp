@@ -130,6 +130,27 @@ TEST_CASE("pictures of pictures are drawn to the maximum depth", "[turtle]") {
     for (const Internode& internode : geometry.internodes) CHECK(internode.module == 0);
 }
 
+TEST_CASE("what a cut will take is drawn by the L-system it stands in until then", "[turtle]") {
+    Growing plant(
+        "lsystem: 1\n"
+        "axiom: ?(2,0.5)%Y$Y?P(0,0)%?(2)Y$\n"
+        "\n"
+        "homomorphism\n"
+        "Y --> f(100)\n"
+        "endlsystem\n"
+        "lsystem: 2\n"
+        "axiom: Y\n"
+        "\n"
+        "homomorphism\n"
+        "Y --> FF\n"
+        "endlsystem\n");
+    const Interpretation& drawn = plant.draw();
+    CHECK(drawn.queries.at(0).pose.position.y == 101);
+    REQUIRE(drawn.geometry.internodes.size() == 4);
+    CHECK(drawn.geometry.internodes[1].tip.y == 1);
+    CHECK(drawn.geometry.internodes[3].tip.y == 103);
+}
+
 TEST_CASE("queries in pictures are not sent, those of the string are", "[turtle]") {
     Growing plant(
         "lsystem: 1\n"
