@@ -62,9 +62,7 @@ void review_notes(const SceneNotes& notes, Findings& findings) {
     std::vector<std::string> files;
     for (const fs::path& file : notes.files) files.push_back(file.string());
     if (!files.empty()) findings.facts.push_back(fmt::format("side files: {}", fmt::join(files, ", ")));
-    for (const std::string& setting : notes.unused) {
-        findings.facts.push_back(setting + " (read; has no meaning here)");
-    }
+    for (const std::string& settings : notes.unused) findings.facts.push_back(settings + " (read; no meaning here)");
 }
 
 // Makes everything a run would make, except steps.

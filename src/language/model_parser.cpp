@@ -85,8 +85,11 @@ private:
                 in_.recover(in_.position());
                 return;
             }
-            mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
-                                                    fits ? hint(keyword) : ""));
+            // Without its head every line of an L-system stands outside: the first tells.
+            if (fits || model_.systems.size() > 0 || !std::exchange(outside_reported_, true)) {
+                mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
+                                                        fits ? hint(keyword) : ""));
+            }
             if (keyword != "lsystem") {
                 in_.recover(in_.position());
                 return;

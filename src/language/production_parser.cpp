@@ -136,19 +136,9 @@ std::vector<ModuleTemplate> ProductionParser::successor() {
 
 std::vector<ModuleTemplate> ProductionParser::axiom() {
     std::vector<ModuleTemplate> result;
-    std::vector<Location> open;
     if (in_.at_end()) in_.expected("the modules of the axiom");
     if (in_.accept("*") && in_.at_end()) return result;
-    while (!in_.at_end()) {
-        const Location at = in_.here();
-        result.push_back(module());
-        const LetterId letter = result.back().letter;
-        if (letter == Alphabet::open_bracket) open.push_back(at);
-        if (letter != Alphabet::close_bracket) continue;
-        if (open.empty()) throw SyntaxError{at, "this ']' closes no branch"};
-        open.pop_back();
-    }
-    if (!open.empty()) throw SyntaxError{open.back(), "this branch is never closed: ']' is missing"};
+    while (!in_.at_end()) result.push_back(module());
     return result;
 }
 

@@ -30,6 +30,7 @@ public:
             review(system.productions, system.seed.has_value());
             review_filter(system);
             review_homomorphism(system.homomorphism);
+            review_brackets(system.axiom, "axiom");
             review_modules(system.axiom);
             for (const Block* block : {&system.start, &system.start_each, &system.end_each, &system.end})
                 review_statements(*block);
@@ -116,7 +117,7 @@ private:
         for (const Production& production : productions) {
             review_applicability(production);
             if (!stochastic) review_shadow(production);
-            review_brackets(production.successor);
+            review_brackets(production.successor, "successor");
             review_modules(production.successor);
         }
         if (stochastic) review_weights(productions);
@@ -190,18 +191,19 @@ private:
         }
     }
 
-    void review_brackets(const std::vector<ModuleTemplate>& modules) {
+    void review_brackets(const std::vector<ModuleTemplate>& modules, const char* where) {
         std::vector<const ModuleTemplate*> open;
         for (const ModuleTemplate& module : modules) {
             if (module.letter == Alphabet::open_bracket) open.push_back(&module);
             if (module.letter != Alphabet::close_bracket) continue;
             if (open.empty()) {
-                warn(module.place, "this ']' closes no branch of this successor");
+                warn(module.place, fmt::format("this ']' closes no branch of this {}", where));
                 return;
             }
             open.pop_back();
         }
-        if (!open.empty()) warn(open.back()->place, "this branch is not closed in this successor: ']' is missing");
+        if (!open.empty())
+            warn(open.back()->place, fmt::format("this branch is not closed in this {}: ']' is missing", where));
     }
 
     // --- modules ------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include "plant_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -44,7 +45,7 @@ std::optional<int> read_simulation(const Settings& table, Scene& scene) {
 void add_notes(SceneNotes& notes, const std::filesystem::path& path, const std::vector<Diagnostic>& diagnostics,
                const std::vector<std::string>& unused) {
     notes.diagnostics.insert(notes.diagnostics.end(), diagnostics.begin(), diagnostics.end());
-    for (const std::string& setting : unused) notes.unused.push_back(path.string() + ": " + setting);
+    if (!unused.empty()) notes.unused.push_back(fmt::format("{}: {}", path.string(), fmt::join(unused, ", ")));
 }
 
 // Processes of an environment file (.e) stand before the scene's own.

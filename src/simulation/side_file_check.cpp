@@ -18,10 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 void add_unused(const fs::path& path, const std::vector<std::string>& unused, Findings& findings) {
-    for (const std::string& setting : unused) {
-        findings.facts.push_back(
-            fmt::format("{}: {} (read; has no meaning here)", path.string(), setting));
-    }
+    if (unused.empty()) return;
+    findings.facts.push_back(fmt::format("{}: {} (read; no meaning here)", path.string(), fmt::join(unused, ", ")));
 }
 
 // "2 surfaces", "1 function", ...

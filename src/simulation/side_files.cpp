@@ -1,6 +1,7 @@
 #include "side_files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace espalier {
 namespace {
@@ -37,7 +38,9 @@ std::shared_ptr<const View> SideFiles::view(const fs::path& path, const Defines&
     notes_.files.push_back(path);
     notes_.files.insert(notes_.files.end(), view->files.begin(), view->files.end());
     notes_.diagnostics.insert(notes_.diagnostics.end(), view->diagnostics.begin(), view->diagnostics.end());
-    for (const std::string& setting : view->unused) notes_.unused.push_back(path.string() + ": " + setting);
+    if (!view->unused.empty()) {
+        notes_.unused.push_back(fmt::format("{}: {}", path.string(), fmt::join(view->unused, ", ")));
+    }
     return view;
 }
 

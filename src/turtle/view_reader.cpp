@@ -115,6 +115,9 @@ void ViewReader::unknown(const std::string& label, const TextCursor& start) {
         return complain(start.diagnostic(fmt::format("'{}' is not read because a tab stands before it",
                                                      name.substr(name.find_first_not_of("\t ")))));
     }
+    if (label.ends_with(" :") && std::find(known.begin(), known.end(), name) != known.end()) {
+        return complain(start.diagnostic(fmt::format("'{}' is not read because blanks stand before its colon", name)));
+    }
     complain(start.diagnostic(label.ends_with(':')
                                   ? fmt::format("view files have no setting '{}'{}", name, did_you_mean(name, known))
                                   : fmt::format("'{}' is no setting: its name ends with a colon", name)));

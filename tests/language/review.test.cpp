@@ -57,7 +57,9 @@ TEST_CASE("in a stochastic L-system a second production is another choice", "[la
           "4: all productions of 'A' have weight 0");
 }
 
-TEST_CASE("unmatched brackets of a successor are a warning", "[language]") {
+TEST_CASE("unmatched brackets of an axiom or a successor are a warning", "[language]") {
+    CHECK(warnings(lsystem("", "A]", "A --> A\n")) == "2: this ']' closes no branch of this axiom");
+    CHECK(warnings(lsystem("", "A[[A]", "A --> A\n")) == "2: this branch is not closed in this axiom: ']' is missing");
     CHECK(warnings(lsystem("", "A", "A --> [A\n")) == "3: this branch is not closed in this successor: ']' is missing");
     CHECK(warnings(lsystem("", "A", "A --> A]\n")) == "3: this ']' closes no branch of this successor");
 }

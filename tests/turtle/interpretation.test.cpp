@@ -314,12 +314,20 @@ TEST_CASE("an empty string draws nothing", "[turtle]") {
     CHECK(drawing.geometry().bounds.empty());
 }
 
-TEST_CASE("one bracket too many is an error that names the module and shows its surroundings", "[turtle]") {
-    const std::string message = message_of("F(2)[+F]]F");
-    CHECK(message.find("module 5") != std::string::npos);
-    CHECK(message.find("F(2)[+F]]F") != std::string::npos);
-    CHECK(message.find("']'") != std::string::npos);
-    CHECK_NOTHROW(Drawing("[[F").draw());  // the other way round leaves branches open
+TEST_CASE("brackets without a partner are drawn as they stand", "[turtle]") {
+    Drawing drawing("F(2)]+[F]]F");
+    const auto& internodes = drawing.geometry().internodes;
+    REQUIRE(internodes.size() == 3);
+    CHECK(internodes[2].base == internodes[0].tip);
+    CHECK(internodes[2].tip == internodes[1].tip);
+    CHECK(Drawing("[[F").geometry().internodes.size() == 1);
+}
+
+TEST_CASE("a turtle that is lost names the module and shows its surroundings", "[turtle]") {
+    const std::string message = message_of("F(2)[+F]f(1e308)f(1e308)F");
+    CHECK(message.find("module 6") != std::string::npos);
+    CHECK(message.find("F(2)[+F]") != std::string::npos);
+    CHECK(message.find("position") != std::string::npos);
 }
 
 TEST_CASE("a letter with more parameters acts by the first, as ABOP says", "[turtle]") {

@@ -30,7 +30,7 @@ struct PlantDescription {
 /// What was noticed in the files of a scene and did not keep it from being read.
 struct SceneNotes {
     std::vector<Diagnostic> diagnostics;       ///< errors are what `check` refuses and a run passes over
-    std::vector<std::string> unused;           ///< "plant.v: window": read, without meaning outside a window
+    std::vector<std::string> unused;           ///< "plant.v: twist, font": read, without meaning outside a window
     std::vector<std::filesystem::path> files;  ///< side files that were read, in the order of reading
 };
 
