@@ -152,6 +152,13 @@ TEST_CASE("aono-kunii: both presets have exact angles and one ratio; (0, -70) ha
             }
             CHECK(degrees_between(direction_of(geometry.internodes[children[i][0]]),
                                   direction_of(geometry.internodes[children[i][1]])) == Approx(h1 + h2));
+            // The plane of the fork holds the parent, and what lies across the parent in it is horizontal.
+            const glm::dvec3 lateral = direction_of(geometry.internodes[children[i][0]]);
+            const glm::dvec3 straight = direction_of(geometry.internodes[children[i][1]]);
+            CHECK(std::abs(glm::dot(glm::cross(parent, lateral), straight)) < 1e-9);
+            for (const glm::dvec3& child : {lateral, straight}) {
+                CHECK(std::abs((child - glm::dot(child, parent) * parent).y) < 1e-9);
+            }
         }
         if (h1 != 0) continue;
         for (const auto& axis : axes_of(geometry)) {
