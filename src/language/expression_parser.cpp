@@ -55,9 +55,11 @@ ExpressionParser::AssignmentSign ExpressionParser::assignment_sign(std::string_v
 }
 
 ExpressionParser::AssignmentSign ExpressionParser::sign_after_name() {
-    const std::size_t length = in_.looking_at_name().size();
-    const std::size_t after = length == 0 ? std::string_view::npos : in_.rest().find_first_not_of(" \t", length);
-    return after == std::string_view::npos ? AssignmentSign{} : assignment_sign(in_.rest().substr(after));
+    if (in_.looking_at_name().empty()) return {};
+    Scanner ahead = in_;
+    ahead.accept_name();
+    ahead.skip();
+    return assignment_sign(ahead.rest());
 }
 
 Expression ExpressionParser::expression() {
@@ -287,7 +289,6 @@ Expression ExpressionParser::name_or_call() {
 }
 
 Expression ExpressionParser::element(std::string_view name, Location at) {
-    const Scanner::Inside inside(in_);
     const bool ends_at_arrow = std::exchange(ends_at_arrow_, false);
     const std::optional<std::uint32_t> array = names_.subscripted(name, at);
     if (!array) throw SyntaxError{at, fmt::format("'{}' is not a declared array{}", name, names_.suggestion(name))};
@@ -297,6 +298,7 @@ Expression ExpressionParser::element(std::string_view name, Location at) {
     result.place = names_.place(at);
     int highest = 0;
     while (in_.accept("[")) {
+        const Scanner::Inside inside(in_);
         result.operands.push_back(expression());
         highest = std::max(highest, height_);
         if (in_.looking_at(",")) throw SyntaxError{in_.here(), "each dimension has its own brackets: a[i][j]"};

@@ -82,6 +82,7 @@ TEST_CASE("1.2 lines", "[conformance]") {
         "lines and comments may stand between the two.");
     CHECK(step("A\n\tB", "A --> B\n\tC\n\n/* and */\n\n\tD\nB --> E\n") == "BCDE");
     CHECK(step("A(3)", "A(x) :\n\tx > 1\n\t-->\n\tF(x)[+A(x - 1)]\n") == "F(3)[+A(2)]");
+    CHECK(step("AC", "A : a[1] --> B : a[1]\nC\n\t--> D\n", "define: { array a[2] = {0, 1}; }\nseed: 1\n") == "BD");
     quote("Inside braces and parentheses a newline is a blank.");
     CHECK(step("A(1)", "A(x) : {\ny = x;\nz = 2;\n} y > 0 {\nw = 3;\n} --> B(y,\nz,\nw)\n") == "B(1,2,3)");
     CHECK(step("A", "A --> B(a[1][0])\n", "define:\n{\narray\na[2][2] = {\n{1, 2},\n{3, 4}\n};\n}\n") == "B(3)");
