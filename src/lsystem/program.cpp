@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace espalier {
 namespace {
@@ -336,11 +337,12 @@ std::optional<double> ProgramCompiler::fold(const Expression& expression) const 
     if (expression.op == Operator::logical_or && *a != 0) return 1;
     const std::optional<double> b = fold(expression.operands[1]);
     if (!b) return std::nullopt;
-    try {
-        if (expression.op == Operator::divide) return espalier::divide(*a, *b, quirks_, expression.place);
-        if (expression.op == Operator::remainder) return espalier::remainder(*a, *b, quirks_, expression.place);
-    } catch (const EvaluationError& error) {
-        throw UserError(error.place, error.what());
+    if (expression.op == Operator::divide || expression.op == Operator::remainder) {
+        // A division by zero is a mistake only where it is evaluated, as in if (N > 0) { x = 1 / N; }.
+        const bool by_zero = (expression.op == Operator::divide ? *b : std::trunc(*b)) == 0;
+        if (by_zero && !quirks_) return std::nullopt;
+        return expression.op == Operator::divide ? espalier::divide(*a, *b, quirks_, expression.place)
+                                                 : espalier::remainder(*a, *b, quirks_, expression.place);
     }
     return espalier::apply(expression.op, *a, *b);
 }

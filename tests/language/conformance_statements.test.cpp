@@ -67,6 +67,8 @@ TEST_CASE("6 operators", "[conformance]") {
         "1. So is a parameter that is infinite or no number.");
     const std::string division = lsystem("derivation length: 1\n", "A(0)", "A(x) --> B(3 / x)\n");
     CHECK(mistake(division).find("model.l:4:14") != std::string::npos);
+    CHECK(mistake(lsystem("", "A(1 / 0)", "B --> C\n")).find("division by zero: 1 / 0") != std::string::npos);
+    CHECK(value("n", "if (0) { n = 1 / 0; } else { n = 2 > 1 ? 3 : 5 % 0; }") == "3");
     ReadOptions quirks;
     quirks.quirks = true;
     CHECK(derived(division, quirks) == "B(3)");
