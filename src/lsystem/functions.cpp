@@ -165,7 +165,7 @@ double apply(Operator op, double a, double b) {
 double divide(double a, double b, bool quirks, const Place& place) {
     if (b != 0) return a / b;
     if (quirks) return a;
-    throw EvaluationError(place, fmt::format("division by zero: {:g} / {:g}", a, b));
+    throw EvaluationError(place, fmt::format("division by zero: {:g} / {:g} (--cpfg-quirks divides by 1)", a, b));
 }
 
 // Both sides are truncated to whole numbers, as in C.
@@ -173,7 +173,7 @@ double remainder(double a, double b, bool quirks, const Place& place) {
     const double divisor = std::trunc(b);
     if (divisor != 0) return std::fmod(std::trunc(a), divisor);
     if (quirks) return 0;
-    throw EvaluationError(place, fmt::format("division by zero: {:g} % {:g}", a, b));
+    throw EvaluationError(place, fmt::format("division by zero: {:g} % {:g} (--cpfg-quirks divides by 1)", a, b));
 }
 
 double call(Function function, std::span<const double> values, bool quirks) {

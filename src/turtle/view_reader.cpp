@@ -111,9 +111,11 @@ void ViewReader::unknown(const std::string& label, const TextCursor& start) {
     std::sort(known.begin(), known.end());
     std::string name = without_colon(label);
     while (name.ends_with('\r') || name.ends_with(' ')) name.pop_back();
+    const std::size_t first = name.find_first_not_of("\t ");
+    if (first == std::string::npos) return complain(start.diagnostic("no setting stands before this sign"));
     if (name.starts_with('\t')) {
-        return complain(start.diagnostic(fmt::format("'{}' is not read because a tab stands before it",
-                                                     name.substr(name.find_first_not_of("\t ")))));
+        return complain(
+            start.diagnostic(fmt::format("'{}' is not read because a tab stands before it", name.substr(first))));
     }
     if (label.ends_with(" :") && std::find(known.begin(), known.end(), name) != known.end()) {
         return complain(start.diagnostic(fmt::format("'{}' is not read because blanks stand before its colon", name)));

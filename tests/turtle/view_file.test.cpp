@@ -139,6 +139,8 @@ TEST_CASE("labels are known letter for letter, blanks before them do not count",
           Messages{"a.v:1:1: 'render mode' is not read because a tab stands before it"});
     CHECK(messages_of(view_of("render mode : shaded")) ==
           Messages{"a.v:1:1: 'render mode' is not read because blanks stand before its colon"});
+    CHECK(messages_of(view_of("\t\t: 3\nangle increment: 30")) ==
+          Messages{"a.v:1:1: no setting stands before this sign"});
 }
 
 TEST_CASE("what a setting leaves on its line is taken for the next", "[turtle]") {
