@@ -54,7 +54,8 @@ Answer answer(const Expression& expression, std::shared_ptr<const Resources> res
 TEST_CASE("functions, curves and the view's extents are those of the side files", "[lsystem]") {
     const auto resources = some_resources();
     CHECK(answer(call(Function::func, {number(1), number(0.25)}), resources).value == Approx(0.25).epsilon(1e-6));
-    CHECK(answer(call(Function::func, {number(1.9), number(7)}), resources).value == Approx(1).margin(2e-3));  // id is truncated
+    CHECK(answer(call(Function::func, {number(1.9), number(7)}), resources).value ==
+          Approx(1).margin(2e-3));  // id is truncated
     CHECK(answer(call(Function::curve_x, {number(1), number(0.5)}), resources).value == Approx(1.5).epsilon(1e-3));
     CHECK(answer(call(Function::curve_y, {number(1), number(0.5)}), resources).value == 0);
     CHECK(answer(call(Function::curve_z, {number(1), number(1)}), resources).value == Approx(6));
