@@ -79,17 +79,19 @@ std::optional<std::uint32_t> Names::subscripted(std::string_view name, Location 
     return static_cast<std::uint32_t>(system_->arrays.size() - 1);
 }
 
+bool Names::take_formal(std::string_view name, Expression& result) const {
+    if (!formals_) return false;
+    const auto formal = std::find(formals_->begin(), formals_->end(), name);
+    if (formal == formals_->end()) return false;
+    result.kind = Expression::Kind::formal;
+    result.index = static_cast<std::uint32_t>(formal - formals_->begin());
+    return true;
+}
+
 Expression Names::read(std::string_view name, Location at) {
     Expression result;
     result.place = place(at);
-    if (formals_) {
-        const auto formal = std::find(formals_->begin(), formals_->end(), name);
-        if (formal != formals_->end()) {
-            result.kind = Expression::Kind::formal;
-            result.index = static_cast<std::uint32_t>(formal - formals_->begin());
-            return result;
-        }
-    }
+    if (take_formal(name, result)) return result;
     if (const auto constant = constants_.find(name); constant != constants_.end()) {
         result.value = constant->second;
         return result;
@@ -114,14 +116,7 @@ Expression Names::read(std::string_view name, Location at) {
 Expression Names::assigned(std::string_view name, Location at) {
     Expression result;
     result.place = place(at);
-    if (formals_) {
-        const auto formal = std::find(formals_->begin(), formals_->end(), name);
-        if (formal != formals_->end()) {
-            result.kind = Expression::Kind::formal;
-            result.index = static_cast<std::uint32_t>(formal - formals_->begin());
-            return result;
-        }
-    }
+    if (take_formal(name, result)) return result;
     if (constants_.contains(name)) {
         mistakes_.error(at, fmt::format("'{}' is a constant and cannot be assigned", name));
     } else if (array(name)) {

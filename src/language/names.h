@@ -59,6 +59,8 @@ private:
         std::vector<std::string> formals;  // where it was first read
     };
     std::uint32_t variable(std::string_view name);
+    /// True if the production at hand has a parameter of this name, which `result` then is.
+    bool take_formal(std::string_view name, Expression& result) const;
     std::vector<std::string> known_names(const std::vector<std::string>* formals) const;
     std::string unknown(std::string_view name, const std::vector<std::string>* formals) const;
     void put_in_constants();

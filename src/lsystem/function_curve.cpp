@@ -1,6 +1,8 @@
 #include "espalier/base/error.h"
 #include "espalier/lsystem/resources.h"
 
+#include "clamped_spline.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,23 +36,13 @@ double FunctionCurve::operator()(double x) const {
     return samples_[j] + (place - double(j)) * (samples_[j + 1] - samples_[j]);
 }
 
-// The clamped cubic B-spline at d in [0, 1], by de Boor's recurrence (de Boor 1972): knots 0, 0, 0, 0, 1, 2, ..., so
-// that its ends are the first and the last point.
 glm::dvec2 FunctionCurve::at_parameter(double d) const {
     const int segments = int(points_.size()) - 3;
     const double u = d * segments;
     const int segment = std::min(int(u), segments - 1);
-    const auto knot = [&](int k) { return double(std::clamp(k - 3, 0, segments)); };
-    std::array<glm::dvec2, 4> q;
-    std::copy_n(points_.begin() + segment, 4, q.begin());
-    for (int degree = 1; degree <= 3; ++degree) {
-        for (int k = 3; k >= degree; --k) {
-            const double from = knot(segment + k), to = knot(segment + k + 4 - degree);
-            const double share = (u - from) / (to - from);
-            q[std::size_t(k)] = (1 - share) * q[std::size_t(k) - 1] + share * q[std::size_t(k)];
-        }
-    }
-    return q[3];
+    std::array<glm::dvec2, 4> points;
+    std::copy_n(points_.begin() + segment, 4, points.begin());
+    return clamped_spline(points, segment, segments, u);
 }
 
 double FunctionCurve::exact(double x) const {

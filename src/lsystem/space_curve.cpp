@@ -1,6 +1,8 @@
 #include "espalier/base/error.h"
 #include "espalier/lsystem/resources.h"
 
+#include "clamped_spline.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
@@ -32,19 +34,6 @@ glm::dvec3 uniform(const Four& q, double u) {
 glm::dvec3 bezier(const Four& q, double u) {
     const double v = 1 - u;
     return v * v * v * q[0] + 3 * u * v * v * q[1] + 3 * u * u * v * q[2] + u * u * u * q[3];
-}
-
-// De Boor's recurrence (de Boor 1972) with knots 0, 0, 0, 0, 1, 2, ..., n, n, n, n of n segments.
-glm::dvec3 clamped(Four q, int segment, int segments, double u) {
-    const auto knot = [&](int k) { return double(std::clamp(k - 3, 0, segments)); };
-    for (int degree = 1; degree <= 3; ++degree) {
-        for (int k = 3; k >= degree; --k) {
-            const double from = knot(segment + k), to = knot(segment + k + 4 - degree);
-            const double share = (u - from) / (to - from);
-            q[std::size_t(k)] = (1 - share) * q[std::size_t(k) - 1] + share * q[std::size_t(k)];
-        }
-    }
-    return q[3];
 }
 
 void extend(std::vector<glm::dvec3>& points, SpaceCurve::Type type) {
@@ -99,7 +88,7 @@ glm::dvec3 SpaceCurve::at_parameter(double t) const {
     const double u = t * (segments - epsilon);
     const int segment = std::clamp(int(u), 0, segments - 1);
     const Four q = four(points_, std::size_t(segment));
-    return type_ == Type::end_point ? clamped(q, segment, segments, u) : uniform(q, u - segment);
+    return type_ == Type::end_point ? clamped_spline(q, segment, segments, u) : uniform(q, u - segment);
 }
 
 }  // namespace espalier

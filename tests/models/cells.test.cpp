@@ -1,6 +1,7 @@
 // models/cells: published strings, and programs of their own for what has none.
 #include "catch.h"
 #include "experiments/growth.h"
+#include "models/measure.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,18 +16,6 @@ namespace {
 
 std::string file(const std::string& name) {
     return "models/cells/" + name + ".l";
-}
-
-/// The modules of a name, each with its parameters.
-std::vector<std::vector<double>> parameters_of(const LonePlant& plant, const std::string& name) {
-    std::vector<std::vector<double>> result;
-    const auto offsets = parameter_offsets(plant.string, plant.model->alphabet);
-    for (std::size_t i = 0; i < plant.string.size(); ++i) {
-        if (plant.model->alphabet.name(plant.string.letters[i]) != name) continue;
-        const double* values = plant.string.parameters.data();
-        result.emplace_back(values + offsets[i], values + offsets[i + 1]);
-    }
-    return result;
 }
 
 struct AnabaenaCell {
@@ -88,7 +77,7 @@ TEST_CASE("Heterocysts: every cell of every step is that of a program of its own
         expected = next_filament(expected);
         filament.grow(1);
         if (step % 20 != 0) continue;
-        const auto cells = parameters_of(filament, "Cell");
+        const auto cells = parameters_of(filament.string, filament.model->alphabet, "Cell");
         REQUIRE(cells.size() == expected.size());
         for (std::size_t i = 0; i < cells.size(); ++i) {
             CHECK(cells[i][0] == Approx(expected[i].size));
@@ -156,7 +145,7 @@ TEST_CASE("Pascal: binomial coefficients, as many odd ones as powers of 2 say", 
     LonePlant triangle(file("pascal"));
     for (unsigned n = 1; n <= 31; ++n) {
         triangle.grow(1);
-        const auto cells = parameters_of(triangle, "Cell");
+        const auto cells = parameters_of(triangle.string, triangle.model->alphabet, "Cell");
         REQUIRE(cells.size() == n + 1);
         double choose = 1;
         int odd = 0;
@@ -180,7 +169,7 @@ TEST_CASE("Elementary automata: rules 30, 90 and 110 on a ring, with their whole
         row[20] = 1;
         std::string centre, past;
         for (int step = 0; step < 40; ++step) {
-            const auto cells = parameters_of(ring, "Cell");
+            const auto cells = parameters_of(ring.string, ring.model->alphabet, "Cell");
             REQUIRE(cells.size() == 41);
             for (std::size_t i = 0; i < 41; ++i) REQUIRE(cells[i][0] == row[i]);
             centre += row[20] == 1 ? '1' : '0';
@@ -193,7 +182,7 @@ TEST_CASE("Elementary automata: rules 30, 90 and 110 on a ring, with their whole
         }
         if (rule == 30) CHECK(centre.substr(0, 20) == "11011100110001011001");
         // The middle column, newest state first.
-        const auto states = parameters_of(ring, "State");
+        const auto states = parameters_of(ring.string, ring.model->alphabet, "State");
         REQUIRE(states.size() == 41 * 40);
         for (std::size_t i = 0; i < 40; ++i) past += states[20 * 40 + i][0] == 1 ? '1' : '0';
         CHECK(past == std::string(centre.rbegin(), centre.rend()));

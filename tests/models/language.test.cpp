@@ -2,6 +2,7 @@
 #include "app/program.h"
 #include "catch.h"
 #include "experiments/growth.h"
+#include "models/measure.h"
 #include "models/paths.h"
 
 #include <algorithm>
@@ -20,18 +21,6 @@ namespace {
 
 std::string file(const std::string& name) {
     return "models/language/" + name + ".l";
-}
-
-/// The parameters of all modules of a name, in string order.
-std::vector<std::vector<double>> parameters_of(const LonePlant& plant, const std::string& name) {
-    std::vector<std::vector<double>> result;
-    const auto offsets = parameter_offsets(plant.string, plant.model->alphabet);
-    for (std::size_t i = 0; i < plant.string.size(); ++i) {
-        if (plant.model->alphabet.name(plant.string.letters[i]) != name) continue;
-        const double* values = plant.string.parameters.data();
-        result.emplace_back(values + offsets[i], values + offsets[i + 1]);
-    }
-    return result;
 }
 
 }  // namespace
@@ -66,7 +55,7 @@ TEST_CASE("Parametric turtle: F(2.5) moves by 2.5, and +(90)+(-90) is nothing", 
 TEST_CASE("Statements: 25 primes below 100, and all numbers of prime factors", "[language]") {
     LonePlant sieve(file("statements"));
     sieve.grow(1);
-    const auto numbers = parameters_of(sieve, "Number");
+    const auto numbers = parameters_of(sieve.string, sieve.model->alphabet, "Number");
     REQUIRE(numbers.size() == 98);
     int primes = 0;
     for (const auto& number : numbers) {
@@ -87,7 +76,7 @@ TEST_CASE("Blocks: Start once, StartEach and EndEach every step, and growth that
     for (int step = 1; step <= 12; ++step) {
         plant.grow(1);
         const int segments = plant.counts()["F"];
-        const auto report = parameters_of(plant, "Report").at(0);
+        const auto report = parameters_of(plant.string, plant.model->alphabet, "Report").at(0);
         CHECK(report == std::vector<double>{1, double(step), double(step - 1), 0, double(step == 12), double(before)});
         CHECK((before >= 40) == (segments == before));
         before = segments;
@@ -155,12 +144,13 @@ TEST_CASE("Binary counter: once the carries have settled the digits are the numb
         counter.grow(1);
         if (counter.counts()["Carry"] > 0) continue;
         unsigned value = 0;
-        for (const auto& digit : parameters_of(counter, "Digit")) value = 2 * value + static_cast<unsigned>(digit[0]);
+        for (const auto& digit : parameters_of(counter.string, counter.model->alphabet, "Digit"))
+            value = 2 * value + static_cast<unsigned>(digit[0]);
         CHECK(value == static_cast<unsigned>(step) / 2);
     }
     unsigned carried = 0;  // carries under way count as much as the digit they have come to
     counter.grow(64);
-    const auto digits = parameters_of(counter, "Digit");
+    const auto digits = parameters_of(counter.string, counter.model->alphabet, "Digit");
     for (const auto& digit : digits) carried = 2 * carried + static_cast<unsigned>(digit[0]);
     CHECK(carried <= 72);
     CHECK(digits.size() == static_cast<std::size_t>(std::bit_width(72u)));
@@ -172,9 +162,9 @@ TEST_CASE("Stopping: the ball comes to rest, and the derivation with it", "[lang
     for (; steps < 10'000 && !ball.derivation.stopped(); ++steps) ball.grow(1);
     CHECK(ball.derivation.stopped());
     CHECK(steps < 300);
-    CHECK(parameters_of(ball, "Ball").at(0)[2] == 0);
+    CHECK(parameters_of(ball.string, ball.model->alphabet, "Ball").at(0)[2] == 0);
     double highest = 0, bounce_before = 1e9;
-    for (const auto& track : parameters_of(ball, "Track")) {
+    for (const auto& track : parameters_of(ball.string, ball.model->alphabet, "Track")) {
         highest = std::max(highest, track[1]);
         if (track[1] == 0) {
             CHECK(highest < bounce_before);
@@ -346,8 +336,9 @@ TEST_CASE("Shoot: lengths and angles are the values of the function set", "[lang
     REQUIRE(view.resources);
     const auto& functions = view.resources->functions;
     REQUIRE(functions.size() == 3);
-    const auto internodes = parameters_of(shoot, "I"), branches = parameters_of(shoot, "B");
-    const auto angles = parameters_of(shoot, "&");
+    const auto internodes = parameters_of(shoot.string, shoot.model->alphabet, "I"),
+               branches = parameters_of(shoot.string, shoot.model->alphabet, "B");
+    const auto angles = parameters_of(shoot.string, shoot.model->alphabet, "&");
     REQUIRE(internodes.size() == 30);
     REQUIRE(branches.size() == 30);
     for (std::size_t n = 0; n < 30; ++n) {

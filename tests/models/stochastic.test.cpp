@@ -1,6 +1,7 @@
 // models/stochastic: frequencies and moments against what the weights and distributions say.
 #include "catch.h"
 #include "experiments/growth.h"
+#include "models/measure.h"
 
 #include <algorithm>
 #include <array>
@@ -17,18 +18,6 @@ LonePlant stochastic(const std::string& file, int steps, Defines defines = {}, s
     LonePlant plant("models/stochastic/" + file + ".l", std::move(defines), seed);
     plant.grow(steps);
     return plant;
-}
-
-/// The parameters of all modules of a name, in string order.
-std::vector<std::vector<double>> parameters_of(const LonePlant& plant, const std::string& name) {
-    std::vector<std::vector<double>> result;
-    const auto offsets = parameter_offsets(plant.string, plant.model->alphabet);
-    for (std::size_t i = 0; i < plant.string.size(); ++i) {
-        if (plant.model->alphabet.name(plant.string.letters[i]) != name) continue;
-        const double* values = plant.string.parameters.data();
-        result.emplace_back(values + offsets[i], values + offsets[i + 1]);
-    }
-    return result;
 }
 
 double chi_square(const std::vector<double>& observed, const std::vector<double>& expected) {
@@ -106,11 +95,12 @@ TEST_CASE("Flower field: 3^n plants each, all different, and the parts of the se
 TEST_CASE("Random tree: lengths, angles and leaves have the moments asked for", "[stochastic]") {
     const LonePlant tree = stochastic("random-tree", 12);
     std::vector<double> lengths, angles, leaves;
-    for (const auto& p : parameters_of(tree, "F")) lengths.push_back(p[1] / std::pow(0.85, p[0]));
+    for (const auto& p : parameters_of(tree.string, tree.model->alphabet, "F"))
+        lengths.push_back(p[1] / std::pow(0.85, p[0]));
     for (const char* turn : {"+", "-"}) {
-        for (const auto& p : parameters_of(tree, turn)) angles.push_back(p[0]);
+        for (const auto& p : parameters_of(tree.string, tree.model->alphabet, turn)) angles.push_back(p[0]);
     }
-    for (const auto& p : parameters_of(tree, "L")) leaves.push_back(p[0]);
+    for (const auto& p : parameters_of(tree.string, tree.model->alphabet, "L")) leaves.push_back(p[0]);
     REQUIRE(lengths.size() == 4095);
     CHECK(moments(lengths).mean == Approx(1).margin(4 * 0.15 / 64));
     CHECK(std::sqrt(moments(lengths).variance) == Approx(0.15).epsilon(0.05));
@@ -129,7 +119,7 @@ TEST_CASE("Galton's board: the ends are binomial", "[stochastic]") {
     const LonePlant board = stochastic("galton", 14, {{"BALLS", "4000"}});
     std::vector<double> ends(13, 0), expected(13, 0);
     std::set<std::vector<double>> places;
-    for (const auto& ball : parameters_of(board, "Resting")) {
+    for (const auto& ball : parameters_of(board.string, board.model->alphabet, "Resting")) {
         places.insert(ball);
         ++ends[static_cast<std::size_t>(std::lround(ball[0] + 6))];
     }
@@ -151,7 +141,7 @@ TEST_CASE("Galton's board: the ends are binomial", "[stochastic]") {
 
 TEST_CASE("Distributions: uniform, normal, beta and binomial numbers have their means and variances", "[stochastic]") {
     const LonePlant row = stochastic("distributions", 1, {{"NUMBER", "20000"}});
-    const auto draws = parameters_of(row, "S");
+    const auto draws = parameters_of(row.string, row.model->alphabet, "S");
     REQUIRE(draws.size() == 20'000);
     const std::array<Moments, 4> expected{Moments{1, 4 / 12.0}, Moments{1, 0.25}, Moments{2 / 7.0, 10 / (49.0 * 8)},
                                           Moments{3, 2.1}};
@@ -168,12 +158,15 @@ TEST_CASE("Distributions: uniform, normal, beta and binomial numbers have their 
 TEST_CASE("Weights: a bud opens with the probability its parameter says", "[stochastic]") {
     const LonePlant rows = stochastic("weights", 2, {{"BUDS", "2000"}});
     std::array<double, 5> open{};
-    for (const auto& flower : parameters_of(rows, "O")) ++open[static_cast<std::size_t>(std::lround(4 * flower[0]))];
+    for (const auto& flower : parameters_of(rows.string, rows.model->alphabet, "O"))
+        ++open[static_cast<std::size_t>(std::lround(4 * flower[0]))];
     CHECK(open[0] == 0);
     CHECK(open[4] == 2000);
     for (std::size_t quarter : {1u, 2u, 3u}) {
         const double p = static_cast<double>(quarter) / 4;
         CHECK(open[quarter] / 2000 == Approx(p).margin(3 * std::sqrt(p * (1 - p) / 2000)));
     }
-    CHECK(parameters_of(rows, "O").size() + parameters_of(rows, "X").size() == 10'000);
+    CHECK(parameters_of(rows.string, rows.model->alphabet, "O").size() +
+              parameters_of(rows.string, rows.model->alphabet, "X").size() ==
+          10'000);
 }
