@@ -52,7 +52,7 @@ public:
     Sample sample(const glm::dvec3& point) const override {
         const auto [at, outward] = in_half_plane(point);
         const auto [foot, normal] = nearest_on_profile(at);
-        const auto to_space = [&](const glm::dvec2& v) { return v.x * outward + v.y * axis_; };
+        const auto to_space = [&, outward = outward](const glm::dvec2& v) { return v.x * outward + v.y * axis_; };
         return sample_of(point, base_ + to_space(foot), within(at), to_space(normal));
     }
 
