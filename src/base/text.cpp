@@ -63,6 +63,17 @@ std::string format_exact(double value) {
     return fmt::format("{}", value);
 }
 
+std::vector<std::string> words_of(std::string_view text, std::string_view separators) {
+    std::vector<std::string> words;
+    std::size_t begin = text.find_first_not_of(separators);
+    while (begin != std::string_view::npos) {
+        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
+        words.emplace_back(text.substr(begin, end - begin));
+        begin = text.find_first_not_of(separators, end);
+    }
+    return words;
+}
+
 std::vector<std::string> code_points(std::string_view text) {
     std::vector<std::string> points;
     for (std::size_t i = 0; i < text.size();) {

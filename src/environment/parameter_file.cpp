@@ -14,16 +14,8 @@ namespace {
 
 constexpr std::size_t most_lines = 100000;
 
-std::vector<std::string> words_of(const std::string& text, bool split_at_x) {
-    const std::string separators = split_at_x ? " ,;:\tx" : " ,;:\t";
-    std::vector<std::string> words;
-    std::size_t begin = text.find_first_not_of(separators);
-    while (begin != std::string::npos) {
-        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
-        begin = text.find_first_not_of(separators, end);
-    }
-    return words;
+std::vector<std::string> values_of(const std::string& text, bool split_at_x) {
+    return words_of(text, split_at_x ? " ,;:\tx" : " ,;:\t");
 }
 
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
@@ -104,13 +96,13 @@ double ParameterFile::number_of(const std::string& word, const Line& line, Range
 
 std::vector<double> ParameterFile::numbers_of(const Line& line, bool split_at_x, Range range) {
     std::vector<double> numbers;
-    for (const std::string& word : words_of(line.value, split_at_x)) numbers.push_back(number_of(word, line, range));
+    for (const std::string& word : values_of(line.value, split_at_x)) numbers.push_back(number_of(word, line, range));
     return numbers;
 }
 
 double ParameterFile::number(const std::string& key, double fallback, Range range) {
     if (const Line* line = last(key)) {
-        const std::vector<std::string> words = words_of(line->value, false);
+        const std::vector<std::string> words = values_of(line->value, false);
         if (!words.empty()) fallback = number_of(words[0], *line, range);
     }
     return table_.number_or(scene_key(key), fallback, range);
@@ -137,7 +129,7 @@ std::vector<double> ParameterFile::numbers(const std::string& key, std::vector<d
 bool ParameterFile::flag(const std::string& key, bool fallback, std::initializer_list<const char*> on,
                          std::initializer_list<const char*> off) {
     if (const Line* line = last(key)) {
-        const std::vector<std::string> words = words_of(line->value, true);
+        const std::vector<std::string> words = values_of(line->value, true);
         const std::string word = words.empty() ? "" : words[0];
         if (is_one_of(word, on)) {
             fallback = true;
@@ -153,7 +145,7 @@ bool ParameterFile::flag(const std::string& key, bool fallback, std::initializer
 
 std::optional<std::filesystem::path> ParameterFile::file(const std::string& key) {
     const Line* line = last(key);
-    const std::vector<std::string> words = line ? words_of(line->value, false) : std::vector<std::string>();
+    const std::vector<std::string> words = line ? values_of(line->value, false) : std::vector<std::string>();
     const std::string name = words.empty() ? "" : words[0];
     const std::string used = table_.text_or(scene_key(key), name);
     if (used.empty()) return std::nullopt;

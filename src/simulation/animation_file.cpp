@@ -1,6 +1,7 @@
 #include "animation_file.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/text.h"
 
 #include "plain_lines.h"
 

@@ -14,17 +14,6 @@ std::vector<PlainLine> plain_lines(std::string_view text, const std::string& nam
     return lines;
 }
 
-std::vector<std::string> words_of(std::string_view text, std::string_view separators) {
-    std::vector<std::string> words;
-    std::size_t begin = text.find_first_not_of(separators);
-    while (begin != std::string_view::npos) {
-        const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
-        words.emplace_back(text.substr(begin, end - begin));
-        begin = text.find_first_not_of(separators, end);
-    }
-    return words;
-}
-
 std::string trimmed(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t");
     if (begin == std::string_view::npos) return "";

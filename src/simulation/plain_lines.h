@@ -18,9 +18,6 @@ struct PlainLine {
 /// `name` is the file's, for the places.
 std::vector<PlainLine> plain_lines(std::string_view text, const std::string& name);
 
-/// The words between any of the separators; none of them is empty.
-std::vector<std::string> words_of(std::string_view text, std::string_view separators);
-
 /// The text without blanks and tabs around it.
 std::string trimmed(std::string_view text);
 

@@ -55,3 +55,11 @@ TEST_CASE("a message shows place, source line and caret", "[base]") {
     diagnostic.source = "A(lenght)";
     CHECK(to_string(diagnostic) == "m.l:12:3: 'lenght' is unknown\n    A(lenght)\n      ^");
 }
+
+TEST_CASE("words lie between any of the separators, none of them empty", "[base]") {
+    using Words = std::vector<std::string>;
+    CHECK(words_of("32x32, 7\t", " ,\tx") == Words{"32", "32", "7"});
+    CHECK(words_of("", " ").empty());
+    CHECK(words_of(" ,, ", " ,").empty());
+    CHECK(words_of("one", " ") == Words{"one"});
+}

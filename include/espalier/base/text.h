@@ -20,6 +20,9 @@ std::string format_general(double value);
 /// The shortest text that reads back as the same double.
 std::string format_exact(double value);
 
+/// The words between any of the separators; none of them is empty.
+std::vector<std::string> words_of(std::string_view text, std::string_view separators);
+
 /// Splits UTF-8 text into code points, each as its own string; invalid bytes stand for themselves.
 std::vector<std::string> code_points(std::string_view text);
 
