@@ -28,26 +28,38 @@ Plan plan_of(const CompiledProduction& production) {
     return plan;
 }
 
+Plan copy_of(LetterId letter, std::uint16_t arity) {
+    Plan copy;
+    copy.block[0] = letter;
+    copy.length = 1;
+    copy.arity = arity;
+    copy.parameters = arity;
+    copy.kind = arity == 0 ? Plan::Kind::bare : Plan::Kind::copy;
+    return copy;
+}
+
 Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
-    const Alphabet& alphabet = model.source->alphabet;
+    const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
     Plans plans;
-    for (const CompiledProduction& production : rules.productions) plans.productions.push_back(plan_of(production));
-    for (std::size_t l = 0; l < alphabet.size(); ++l) {
+    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
+    for (std::size_t l = 0; l < arities.size(); ++l) {
         const auto letter = static_cast<LetterId>(l);
-        Plan copy;
-        copy.block[0] = letter;
-        copy.letters = nullptr;
-        copy.length = 1;
-        copy.arity = static_cast<std::uint16_t>(alphabet.arity(letter));
-        copy.parameters = copy.arity;
-        copy.kind = copy.arity == 0 ? Plan::Kind::bare : Plan::Kind::copy;
-        plans.copies.push_back(copy);
-        plans.of_letter.push_back(rules.always[l] >= 0 ? plans.productions[rules.always[l]] : copy);
-        if (rules.has(letter) && rules.always[l] < 0) plans.of_letter.back().kind = Plan::Kind::choose;
-        plans.lengths.push_back(plans.of_letter.back().length);
-        plans.parameters.push_back(plans.of_letter.back().parameters);
-        plans.all_known &= plans.of_letter.back().kind != Plan::Kind::choose;
+        Plan plan = copy_of(letter, arities[l]);
+        if (rules.always[l] >= 0) {
+            plan = plan_of(rules.productions[rules.always[l]]);
+        } else if (rules.has(letter)) {
+            plans.all_known = false;
+            plans.choices.push_back(plan);
+            plan.kind = Plan::Kind::choose;
+            plan.choices = &plans.choices.back();
+            for (std::uint32_t k = rules.first[l]; k < rules.first[l + 1]; ++k) {
+                plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
+            }
+        }
+        plans.of_letter.push_back(plan);
+        plans.lengths.push_back(plan.length);
+        plans.parameters.push_back(plan.parameters);
     }
     return plans;
 }

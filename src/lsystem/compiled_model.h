@@ -89,6 +89,7 @@ struct Plan {
     std::uint32_t parameters = 0;
     const Lane* lanes = nullptr;
     const CompiledProduction* production = nullptr;  ///< null: the module is copied
+    const Plan* choices = nullptr;  ///< to choose from: the copy, then the productions of the letter in file order
     std::uint16_t arity = 0;
     Kind kind = Kind::bare;
 };
@@ -96,9 +97,8 @@ struct Plan {
 struct Plans {
     std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
-    std::vector<Plan> productions;
-    std::vector<Plan> copies;  ///< by letter
-    bool all_known = true;     ///< no letter needs choosing
+    std::vector<Plan> choices;                       ///< of letters of kind `choose`, one after the other
+    bool all_known = true;                           ///< no letter needs choosing
 };
 
 /// A variable or array that the surrounding L-system lends, by name.

@@ -44,7 +44,7 @@ struct Scratch {
     Column<std::size_t> offsets;
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
-    Column<LetterId> choices;          ///< which candidate of its letter replaces each module
+    Column<LetterId> choices;          ///< which of its letter's Plan::choices each module takes
     std::vector<ModuleString> pieces;  ///< of chunks whose length is not known before they are written
 };
 

@@ -1,14 +1,12 @@
 // Match and measure, prefix sum, write. Every chunk of the old string knows where its part of the new one begins.
-#include "rewriting.h"
+#include "measuring.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace espalier {
 namespace {
 
-constexpr LetterId copied = no_letter;  // the choice for a module that no production replaces
 constexpr std::size_t copied_at_once = 4;
 
 /// Rewrites chunks of one string into another whose columns have their final size.
@@ -17,14 +15,10 @@ public:
     TwoPasses(const StepInput& input, Scratch& scratch)
         : input_(input), model_(input.model), plans_(input.model.plans), scratch_(scratch) {}
 
-    void measure(Chunk& chunk, Machine& machine) const;
     void place(ModuleString& to);
     void write(Chunk& chunk, Machine& machine) const;
 
 private:
-    Site site(std::size_t module, const double* values) const;
-    /// The plan of a module for which measuring chose a production.
-    const Plan& chosen_plan(std::size_t module) const;
     template <bool Lineage>
     void write(Chunk& chunk, Machine& machine) const;
     void write_values(const Plan& plan, const Site& site, Matcher& matcher, Machine& machine, double* out) const;
@@ -37,54 +31,6 @@ private:
     Scratch& scratch_;
     ModuleString* to_ = nullptr;
 };
-
-Site TwoPasses::site(std::size_t module, const double* values) const {
-    const auto at = static_cast<std::size_t>(values - input_.from.parameters.data());
-    return {module, at, input_.from.letters[module], values, input_.lineage ? input_.from.identities[module] : 0, 1};
-}
-
-const Plan& TwoPasses::chosen_plan(std::size_t module) const {
-    const LetterId letter = input_.from.letters[module];
-    const LetterId choice = scratch_.choices[module];
-    if (choice == copied) return plans_.copies[letter];
-    return plans_.productions[model_.rules.candidates[model_.rules.first[letter] + choice]];
-}
-
-void TwoPasses::measure(Chunk& chunk, Machine& machine) const {
-    Matcher matcher(model_, input_.view, machine);
-    matcher.set_draws(input_.key, input_.step);
-    const double* values = input_.from.parameters.data() + chunk.parameters_at;
-    std::size_t modules = 0, parameters = 0, i = chunk.begin;
-    try {
-        for (; i < chunk.end; ++i) {
-            const LetterId letter = input_.from.letters[i];
-            const Plan* plan = &plans_.of_letter[letter];
-            const std::uint16_t arity = plan->arity;
-            if (plan->kind == Plan::Kind::choose) {
-                const CompiledProduction* chosen = matcher.choose(model_.rules, site(i, values));
-                if (chosen) {
-                    const auto index = static_cast<std::uint32_t>(chosen - model_.rules.productions.data());
-                    const auto first = model_.rules.candidates.begin() + model_.rules.first[letter];
-                    scratch_.choices[i] = static_cast<LetterId>(
-                        std::lower_bound(first, model_.rules.candidates.begin() + model_.rules.first[letter + 1],
-                                         index) -
-                        first);
-                    plan = &plans_.productions[index];
-                } else {
-                    scratch_.choices[i] = copied;
-                    plan = &plans_.copies[letter];
-                }
-            }
-            modules += plan->length;
-            parameters += plan->parameters;
-            values += arity;
-        }
-    } catch (const EvaluationError& error) {
-        throw RunError(describe(error, model_.source->alphabet, input_.from.letters[i], values, input_.step));
-    }
-    chunk.out_end = modules;
-    chunk.out_parameters_end = parameters;
-}
 
 void TwoPasses::place(ModuleString& to) {
     std::size_t modules = 0, parameters = 0;
@@ -107,7 +53,7 @@ std::vector<std::uint64_t> TwoPasses::count_uses() const {
     for (const Chunk& chunk : scratch_.chunks) {
         for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
             const Plan& known = plans_.of_letter[input_.from.letters[i]];
-            const Plan& used = known.kind == Plan::Kind::choose ? chosen_plan(i) : known;
+            const Plan& used = known.kind == Plan::Kind::choose ? known.choices[scratch_.choices[i]] : known;
             if (used.production) ++uses[static_cast<std::size_t>(used.production - model_.rules.productions.data())];
         }
     }
@@ -199,13 +145,13 @@ void TwoPasses::write(Chunk& chunk, Machine& machine) const {
     try {
         for (const std::size_t end = chunk.end; i < end; ++i) {
             const Plan* used = plans + letters[i];
-            if (used->kind == Plan::Kind::choose) used = &chosen_plan(i);
+            if (used->kind == Plan::Kind::choose) used = used->choices + scratch_.choices[i];
             write_letters(*used, out, out_end);
             if (used->kind != Plan::Kind::bare) {
                 if (used->kind == Plan::Kind::copy) {
                     copy_values(used->arity, values, values_end, out_values, out_values_end);
                 } else if (used->kind == Plan::Kind::program || !write_lanes(*used, values, out_values)) {
-                    write_values(*used, site(i, values), matcher, machine, out_values);
+                    write_values(*used, site_of(input_, i, values), matcher, machine, out_values);
                 }
             }
             if constexpr (Lineage) write_lineage(*used, i, static_cast<std::size_t>(out - to_->letters.data()));
@@ -233,7 +179,7 @@ void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Machines& m
     if (!input.model.plans.all_known) {
         scratch.choices.resize(input.from.size());
         for_each_chunk(scratch.chunks, machines,
-                       [&](Chunk& chunk, Machine& machine) { passes.measure(chunk, machine); });
+                       [&](Chunk& chunk, Machine& machine) { measure(input, scratch, chunk, machine); });
     }
     passes.place(to);
     for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) { passes.write(chunk, machine); });
