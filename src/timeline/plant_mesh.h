@@ -3,6 +3,7 @@
 
 #include "espalier/base/column.h"
 #include "espalier/timeline/frame.h"
+#include "espalier/timeline/kind.h"
 
 #include <cstdint>
 #include <functional>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace espalier {
-
-enum class Kind : std::uint8_t { query = 0, axis = 1, polygon = 2, organ = 3, cylinder = 4, patch = 5, label = 6 };
 
 /// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
 struct Owner {
