@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace espalier {
@@ -16,6 +17,17 @@ std::size_t default_memory() {
     std::size_t allowed = 0;
     if (limit >> allowed) bytes = std::min(bytes, allowed);
     return bytes / 2;
+}
+
+std::size_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+    constexpr std::size_t unit = 1;
+#else
+    constexpr std::size_t unit = 1024;
+#endif
+    return static_cast<std::size_t>(usage.ru_maxrss) * unit;
 }
 
 MemoryShares share_memory(std::size_t budget, std::size_t processes) {

@@ -67,6 +67,7 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
     json["time_unit"] = scene_.time_unit;
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     json["memory"] = memory_;
+    json["peak_memory"] = peak_memory();
     json["started"] = started_;
     json["plants"] = plants_json(scene_, world);
     json["processes"] = processes_json(scene_);

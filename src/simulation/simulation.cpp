@@ -30,7 +30,8 @@ public:
         }
         const bool cut_short = !at_end();
         write_record(cut_short ? "interrupted" : "done");
-        return {world_.steps_done(), world_.last_step(), cut_short, world_.stopped(), world_.modules(), seconds()};
+        return {world_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
+                world_.modules(),    seconds(),          peak_memory()};
     }
 
 private:

@@ -126,6 +126,19 @@ TEST_CASE_METHOD(Runs, "a run records what it takes to repeat it", "[simulation]
     CHECK(std::count(timings.begin(), timings.end(), '\n') == 8);
 }
 
+TEST_CASE_METHOD(Runs, "a run records the most memory it ever held, which never falls", "[simulation]") {
+    const std::size_t before = peak_memory();
+    std::vector<char> ballast(before + (std::size_t(64) << 20), 'x');
+    CHECK(ballast.back() == 'x');
+    const std::size_t held = peak_memory();
+    CHECK(held > before + (std::size_t(32) << 20));
+    const RunResult result = run(scene(), {.output = output("run"), .memory = std::size_t(1) << 30});
+    const nlohmann::json record = record_of(output("run"));
+    CHECK(record["memory"] == std::size_t(1) << 30);
+    CHECK(record["peak_memory"] >= held);
+    CHECK(result.peak_memory >= record["peak_memory"].get<std::size_t>());
+}
+
 TEST_CASE_METHOD(Runs, "a run that has recorded nothing yet has done no steps, and not minus one", "[simulation]") {
     nlohmann::json record;
     const auto look = [&](const Progress& progress) {

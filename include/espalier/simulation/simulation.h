@@ -33,10 +33,13 @@ struct RunResult {
     bool stopped = false;  ///< a model called stop()
     std::size_t modules = 0;
     double seconds = 0;
+    std::size_t peak_memory = 0;  ///< bytes
 };
 
 /// What --memory is when nobody says: half of the machine, or of what its container may use, in bytes.
 std::size_t default_memory();
+/// The most memory this process ever held in the machine at once, in bytes.
+std::size_t peak_memory();
 
 /// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
 /// run.json saying how it ended. Throws UserError, RunError.
