@@ -3,8 +3,8 @@
 #include "espalier/timeline/timeline.h"
 #include "espalier/turtle/symbol.h"
 
-#include "commands.h"
-#include "model_arguments.h"
+#include "command.h"
+#include "options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+struct CheckArguments {
+    ModelArguments model;  ///< or a side file alone
+    KeyValues overrides;   ///< of a scene
+    bool json = false;
+};
 
 std::vector<std::string> turtle_symbols() {
     std::vector<std::string> names;
@@ -132,9 +138,7 @@ Findings findings_of(const CheckArguments& arguments) {
     return findings;
 }
 
-}  // namespace
-
-int check_command(const CheckArguments& arguments) {
+int check(const CheckArguments& arguments) {
     const Findings findings = findings_of(arguments);
     const auto is_error = [](const Diagnostic& diagnostic) {
         return diagnostic.severity == Diagnostic::Severity::error;
@@ -158,4 +162,31 @@ int check_command(const CheckArguments& arguments) {
     return code;
 }
 
+class Check final : public Command {
+public:
+    explicit Check(CLI::App& program)
+        : Command(program, "check", "read a model or a scene and explain what is wrong"),
+          model_(app(), "what",
+                 "a scene (.toml), a model (.l), the folder of an object, or a side file (.v, .a, .e, ...)",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()) {
+        add_json_flag("print the findings as JSON");
+        app().footer(R"(Mistakes make the exit code 1; what only looks wrong is a warning.
+Examples:
+  espalier check models/course/02-branching.l
+  espalier check plant.l --view plant.v
+  espalier check plant.v
+  espalier check objects/lilac          every file of the object, and which of them it does not use)");
+    }
+
+    int run() override { return check({model_.arguments(), sets_.overrides(), wants_json()}); }
+
+private:
+    ModelOptions model_;
+    SetOptions sets_;
+};
+
+const RegisteredCommand<Check> entry{20};
+
+}  // namespace
 }  // namespace espalier

@@ -2,8 +2,8 @@
 #include "espalier/simulation/simulation.h"
 #include "espalier/turtle/interpretation.h"
 
-#include "commands.h"
-#include "model_arguments.h"
+#include "command.h"
+#include "options.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +13,17 @@
 
 namespace espalier {
 namespace {
+
+struct DeriveArguments {
+    ModelArguments model;
+    std::optional<int> steps;
+    std::optional<std::uint64_t> seed;
+    std::string format = "text";
+    bool before_exchange = false;
+    std::filesystem::path files;  ///< where files go that the model writes; empty: nowhere
+    bool quiet = false;
+    std::size_t memory = 0;
+};
 
 bool has_queries(const Alphabet& alphabet) {
     for (std::size_t symbol = 0; symbol < alphabet.symbol_count(); ++symbol) {
@@ -124,9 +135,7 @@ std::string json_text(const ModuleString& string, const Alphabet& alphabet) {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
-
-int derive_command(const DeriveArguments& arguments) {
+int derive(const DeriveArguments& arguments) {
     if (is_scene(arguments.model.file)) {
         throw UserError("derive takes a model or the folder of an object; `espalier run` grows a scene");
     }
@@ -151,4 +160,42 @@ int derive_command(const DeriveArguments& arguments) {
     return exit_code::done;
 }
 
+class Derive final : public Command {
+public:
+    explicit Derive(CLI::App& program)
+        : Command(program, "derive", "print the string of a model after its steps"),
+          model_(app(), "model", "a model (.l), or the folder of an object", ModelOptions::Files::reading_and_drawing),
+          growth_(app()) {
+        app()
+            .add_option("--format", format_, "text (cpfg's notation), counts (per symbol) or json")
+            ->check(CLI::IsMember({"text", "counts", "json"}));
+        app().add_flag("--before-exchange", before_exchange_, "leave the last step's queries unanswered, as cpfg does");
+        app().add_option("--files", files_, "folder for files the model writes; default: they are forgotten");
+        app().add_flag("--quiet", quiet_, "print no warnings");
+        app().footer(
+            R"(The derivation length decides how far, not an animation. ?P ?H ?L ?U ?Q are answered by the turtle as the view
+file starts it; ?E and named queries keep their parameters unless an environment file says who answers.
+Examples:
+  espalier derive models/course/02-branching.l --steps 3
+  espalier derive models/course/03-parameters.l --format counts
+  espalier derive plant.l --view plant.v --environment plant.e
+  espalier derive objects/lilac --before-exchange)");
+    }
+
+    int run() override {
+        return derive({model_.arguments(), growth_.steps(), growth_.seed(), format_, before_exchange_, files_, quiet_,
+                       growth_.memory()});
+    }
+
+private:
+    ModelOptions model_;
+    GrowthOptions growth_;
+    std::string format_ = "text";
+    bool before_exchange_ = false, quiet_ = false;
+    std::filesystem::path files_;
+};
+
+const RegisteredCommand<Derive> entry{30};
+
+}  // namespace
 }  // namespace espalier

@@ -1,7 +1,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
-#include "commands.h"
+#include "command.h"
 #include "progress.h"
 
 #include <fmt/format.h>
@@ -15,6 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+    std::filesystem::path folder;
+    bool json = false;
+};
 
 std::vector<std::string> cells(const std::string& line) {
     std::vector<std::string> result;
@@ -83,6 +88,8 @@ Json summary_of(const fs::path& folder) {
     }
     summary["scene"] = run.value("scene", Json::object()).value("name", "");
     summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
+    summary["memory"] = run.value("memory", Json());
+    summary["peak_memory"] = run.value("peak_memory", Json());
     summary["frames"] = count_files(folder / "plants", ".vtp");
     summary["fields"] = fields_of(folder / "fields");
     summary["plants"] = run.value("plants", Json::array());
@@ -111,15 +118,17 @@ void print_summary(const fs::path& folder, const Json& summary) {
     fmt::print("{}: scene {}, seed {}, espalier {}\n", folder.string(), text("scene"), text("seed"), text("version"));
     fmt::print("ended: {}; {} of {} steps in {} on {} threads, begun {}\n", text("exit"), text("steps_done"),
                text("steps"), duration_text(summary["seconds"].get<double>()), text("threads"), text("started"));
+    if (summary["peak_memory"].is_number() && summary["memory"].is_number()) {
+        fmt::print("memory: at most {} MiB of {} MiB\n", summary["peak_memory"].get<std::uint64_t>() >> 20,
+                   summary["memory"].get<std::uint64_t>() >> 20);
+    }
     fmt::print("frames: {} of plants", text("frames"));
     for (const auto& [name, count] : summary["fields"].items()) fmt::print(", {} of field {}", count.dump(), name);
     fmt::print("\nlast step, one column a plant:\n");
     print_statistics(summary["last_step"]);
 }
 
-}  // namespace
-
-int info_command(const InfoArguments& arguments) {
+int info(const InfoArguments& arguments) {
     try {
         const Json summary = summary_of(arguments.folder);
         if (arguments.json) {
@@ -134,4 +143,21 @@ int info_command(const InfoArguments& arguments) {
     return exit_code::done;
 }
 
+class Info final : public Command {
+public:
+    explicit Info(CLI::App& program) : Command(program, "info", "summarise what a run left in a folder") {
+        app().add_option("folder", folder_, "an output folder")->required();
+        add_json_flag("print it as JSON");
+        app().footer("Example:\n  espalier info output/two-trees-20260101-120000");
+    }
+
+    int run() override { return info({folder_, wants_json()}); }
+
+private:
+    std::filesystem::path folder_;
+};
+
+const RegisteredCommand<Info> entry{40};
+
+}  // namespace
 }  // namespace espalier

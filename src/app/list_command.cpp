@@ -4,7 +4,7 @@
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
 
-#include "commands.h"
+#include "command.h"
 #include "model_library.h"
 
 #include <fmt/format.h>
@@ -19,6 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Parts = std::vector<PartDescription>;
+
+struct ListArguments {
+    std::string kind;              ///< "" for everything
+    std::string name;              ///< "" for all of a kind
+    std::filesystem::path models;  ///< the library of models; empty: where it is usually found
+    bool json = false;
+};
 
 template <class Registry>
 Parts parts_of() {
@@ -122,15 +129,13 @@ int list_models(const ListArguments& arguments) {
     return exit_code::done;
 }
 
-}  // namespace
-
 std::vector<std::string> list_kinds() {
     std::vector<std::string> names;
     for (const Kind& kind : kinds()) names.push_back(kind.name);
     return names;
 }
 
-int list_command(const ListArguments& arguments) {
+int list(const ListArguments& arguments) {
     if (arguments.kind.empty()) {
         Parts overview;
         for (const Kind& kind : kinds()) overview.push_back({kind.name, kind.summary, ""});
@@ -155,4 +160,27 @@ int list_command(const ListArguments& arguments) {
     return exit_code::done;
 }
 
+class List final : public Command {
+public:
+    explicit List(CLI::App& program)
+        : Command(program, "list", "document processes, symbols, recorders, models, scenes") {
+        app().add_option("kind", kind_, fmt::format("{}", fmt::join(list_kinds(), ", ")));
+        app().add_option("name", name_, "one of them, in full");
+        app().add_option("--models", models_, "the library of models; default: ./models, or the one installed");
+        add_json_flag("print it as JSON");
+        app().footer(
+            "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene\n"
+            "  espalier list models\n  espalier list models koch");
+    }
+
+    int run() override { return list({kind_, name_, models_, wants_json()}); }
+
+private:
+    std::string kind_, name_;
+    std::filesystem::path models_;
+};
+
+const RegisteredCommand<List> entry{50};
+
+}  // namespace
 }  // namespace espalier

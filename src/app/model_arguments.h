@@ -3,9 +3,24 @@
 
 #include "espalier/simulation/object.h"
 
-#include "commands.h"
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace espalier {
+
+using KeyValues = std::vector<std::pair<std::string, std::string>>;
+
+/// A model on its own, or the folder of an object, and the side files given with it.
+struct ModelArguments {
+    std::filesystem::path file;  ///< may be a scene where a command takes one
+    std::filesystem::path view, animation, environment;
+    std::vector<std::string> colour_maps, materials;  ///< FILE, or N=FILE for set N
+    bool without_environment = false;
+    KeyValues defines;
+    bool quirks = false;
+};
 
 /// True for a scene file (.toml); anything else is a model or the folder of an object.
 bool is_scene(const std::filesystem::path& path);

@@ -1,7 +1,9 @@
+#include "run_command.h"
+
 #include "espalier/simulation/simulation.h"
 
-#include "commands.h"
-#include "model_arguments.h"
+#include "command.h"
+#include "options.h"
 #include "progress.h"
 
 #include <fmt/chrono.h>
@@ -60,6 +62,7 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
                                              {"stopped", result.stopped},
                                              {"plants", scene.plants.size()},
                                              {"modules", result.modules},
+                                             {"peak_memory", result.peak_memory},
                                              {"seconds", result.seconds}};
         fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         return;
@@ -114,4 +117,50 @@ int run_command(const RunArguments& arguments) {
     return result.interrupted ? exit_code::interrupted : exit_code::done;
 }
 
+namespace {
+
+class RunCommand final : public Command {
+public:
+    explicit RunCommand(CLI::App& program)
+        : Command(program, "run", "grow a scene, a model or an object, and record it"),
+          model_(app(), "what", "a scene (.toml), a model (.l), or the folder of an object",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()),
+          growth_(app()) {
+        app()
+            .add_option("--threads", arguments_.threads, "default: all; the result is the same with any number")
+            ->check(CLI::Range(1, 4096));
+        app().add_option("--output", arguments_.output, "folder; default: output/<scene>-<time>");
+        app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in that folder");
+        app().add_flag("--quiet", arguments_.quiet, "print nothing but errors");
+        add_json_flag("print the result as JSON");
+        app().footer(R"(Examples:
+  espalier run environments/two-trees.toml
+  espalier run environments/two-trees.toml --set environment.light.voxel=0.5 --output output/coarse
+  espalier run models/course/02-branching.l --steps 5
+  espalier run plant.l --view plant.v --animate plant.a --colour-map plant.map
+  espalier run objects/lilac            the model that the folder's file 'specifications' starts
+Ctrl-C ends the run after the step at hand and keeps what was recorded; once more stops at once.)");
+    }
+
+    int run() override {
+        arguments_.model = model_.arguments();
+        arguments_.overrides = sets_.overrides();
+        arguments_.steps = growth_.steps();
+        arguments_.seed = growth_.seed();
+        arguments_.memory = growth_.memory();
+        arguments_.json = wants_json();
+        return run_command(arguments_);
+    }
+
+private:
+    ModelOptions model_;
+    SetOptions sets_;
+    GrowthOptions growth_;
+    RunArguments arguments_;
+};
+
+const RegisteredCommand<RunCommand> entry{10};
+
+}  // namespace
 }  // namespace espalier

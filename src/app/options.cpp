@@ -1,0 +1,91 @@
+#include "options.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
+std::size_t memory_size(const std::string& text) {
+    std::size_t used = 0;
+    double number = 0;
+    try {
+        number = std::stod(text, &used);
+    } catch (const std::exception&) {
+    }
+    const std::string unit = text.substr(used);
+    const std::size_t power = unit.empty() || unit == "B" ? 0 : std::string("KMGT").find(unit[0]) + 1;
+    const std::string rest = power == 0 ? "" : unit.substr(1);
+    const bool known = power <= 4 && (rest.empty() || rest == "B" || rest == "iB");
+    const double bytes = number * std::pow(1024.0, static_cast<double>(known ? power : 0));
+    if (!known || used == 0 || !(bytes >= 1) || bytes > 1e18) {
+        throw UserError(fmt::format("--memory {}: a size such as 512M or 4G is expected", text));
+    }
+    return static_cast<std::size_t>(bytes);
+}
+
+KeyValues split(const std::vector<std::string>& texts, const std::string& option) {
+    KeyValues result;
+    for (const std::string& text : texts) result.push_back(key_and_value(text, option));
+    return result;
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+        throw UserError(fmt::format("{} {}: KEY=VALUE is expected", option, text));
+    }
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+ModelOptions::ModelOptions(CLI::App& command, const std::string& name, const std::string& help, Files files) {
+    command.add_option(name, model_.file, help)->required();
+    command.add_option("--view", model_.view, "a view file (.v): turtle, surfaces, contours, functions");
+    command.add_option("--environment", model_.environment, "an environment file (.e): who answers ?E");
+    command.add_flag("--without-environment", model_.without_environment,
+                     "nobody answers: queries keep their parameters");
+    command.add_option("--define", defines_, "NAME=VALUE overrides a #define of the model; may be repeated")
+        ->allow_extra_args(false);
+    command.add_flag("--cpfg-quirks", model_.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
+    if (files == Files::reading) return;
+    command.add_option("--animate", model_.animation, "an animation file (.a): which steps are frames");
+    command.add_option("--colour-map", model_.colour_maps, "a colour map (.map), or N=FILE for set N; may be repeated")
+        ->allow_extra_args(false);
+    command.add_option("--materials", model_.materials, "materials (.mat), or N=FILE for set N; may be repeated")
+        ->allow_extra_args(false);
+}
+
+ModelArguments ModelOptions::arguments() const {
+    ModelArguments arguments = model_;
+    arguments.defines = split(defines_, "--define");
+    return arguments;
+}
+
+SetOptions::SetOptions(CLI::App& command) {
+    command.add_option("--set", sets_, "KEY=VALUE overrides one value of the scene; may be repeated")
+        ->allow_extra_args(false);
+}
+
+KeyValues SetOptions::overrides() const {
+    return split(sets_, "--set");
+}
+
+GrowthOptions::GrowthOptions(CLI::App& command) {
+    command.add_option("--steps", steps_, "derivations; default: what the scene or the model says")
+        ->check(CLI::Range(0, 1000000000));
+    command.add_option("--seed", seed_, "of all random numbers; the same seed gives the same bytes")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--memory", memory_, "what it may take, such as 4G; default: half of the machine");
+}
+
+std::size_t GrowthOptions::memory() const {
+    return memory_.empty() ? 0 : memory_size(memory_);
+}
+
+}  // namespace espalier

@@ -1,0 +1,61 @@
+// Options that several commands share, and what they mean.
+#pragma once
+
+#include "model_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// `--option KEY=VALUE`; throws UserError if there is no '='.
+std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option);
+
+/// A scene, a model or an object, with the side files given beside it.
+class ModelOptions {
+public:
+    enum class Files { reading, reading_and_drawing };
+
+    /// `name` and `help` are the positional argument's.
+    ModelOptions(CLI::App& command, const std::string& name, const std::string& help, Files files);
+
+    ModelArguments arguments() const;
+
+private:
+    ModelArguments model_;
+    std::vector<std::string> defines_;
+};
+
+/// --set KEY=VALUE.
+class SetOptions {
+public:
+    explicit SetOptions(CLI::App& command);
+
+    KeyValues overrides() const;
+
+private:
+    std::vector<std::string> sets_;
+};
+
+/// --steps, --seed and --memory.
+class GrowthOptions {
+public:
+    explicit GrowthOptions(CLI::App& command);
+
+    std::optional<int> steps() const { return steps_ < 0 ? std::nullopt : std::optional(steps_); }
+    std::optional<std::uint64_t> seed() const {
+        return seed_ < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed_));
+    }
+    std::size_t memory() const;  ///< bytes; 0: nobody says
+
+private:
+    int steps_ = -1;
+    std::int64_t seed_ = -1;
+    std::string memory_;
+};
+
+}  // namespace espalier

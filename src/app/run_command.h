@@ -1,0 +1,27 @@
+// What the command line asks of a run: commands that start runs share it.
+#pragma once
+
+#include "model_arguments.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace espalier {
+
+struct RunArguments {
+    ModelArguments model;
+    KeyValues overrides;
+    std::optional<int> steps;
+    std::optional<std::uint64_t> seed;
+    int threads = 0;  ///< 0: as many as the machine has
+    std::filesystem::path output;
+    bool overwrite = false;
+    std::size_t memory = 0;
+    bool quiet = false;
+    bool json = false;
+};
+/// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
+int run_command(const RunArguments& arguments);
+
+}  // namespace espalier
