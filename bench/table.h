@@ -9,9 +9,11 @@ namespace espalier::bench {
 /// Defining one adds a line to the table. `work` and `yardstick` are names of benchmarks as they are printed.
 struct Row {
     enum class Measure {
-        rate,   ///< items per second of the work, divided by the yardstick's
-        time,   ///< seconds of the work, divided by the yardstick's
-        value,  ///< the counter "value" of the work; no yardstick
+        rate,           ///< items per second of the work, divided by the yardstick's
+        time,           ///< seconds of the work, divided by the yardstick's
+        time_per_item,  ///< seconds per item of the work, divided by the yardstick's
+        value,          ///< the counter "value" of the work; no yardstick
+        counters,       ///< the counter "work" of the work, divided by its counter "yardstick", each at its least
     };
     enum class Goal { at_least, at_most };
 
