@@ -1,6 +1,7 @@
 #include "espalier/base/file.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/read_log.h"
 
 #include <fmt/format.h>
 
@@ -60,7 +61,9 @@ std::string read_text(const fs::path& path) {
     std::ostringstream text;
     text << in.rdbuf();
     if (in.bad()) throw UserError(fmt::format("cannot read {}: {}", path.string(), reason(errno)));
-    return std::move(text).str();
+    std::string bytes = std::move(text).str();
+    ReadLog::note(path, bytes);
+    return bytes;
 }
 
 void write_text(const fs::path& path, std::string_view text) {

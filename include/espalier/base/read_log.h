@@ -1,0 +1,47 @@
+// Which files a piece of work has read: what must be kept to repeat it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace espalier {
+
+/// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): tells files apart that changed, not files that somebody forged.
+std::uint64_t digest(std::string_view bytes);
+
+/// While it lives, it notes every file that read_text() reads, from any thread. One at a time.
+class ReadLog {
+public:
+    struct File {
+        std::uint64_t digest = 0;
+        std::size_t size = 0;
+        std::string bytes;  ///< empty if it is not kept
+        bool kept = false;
+    };
+
+    /// Files are kept in full until they are `most_kept` bytes together; of others only size and digest are.
+    explicit ReadLog(std::size_t most_kept = std::size_t(16) << 20);
+    ~ReadLog();
+    ReadLog(const ReadLog&) = delete;
+    ReadLog& operator=(const ReadLog&) = delete;
+
+    /// By their paths, absolute and without `.` and `..`. A file read twice is what it was first.
+    std::map<std::filesystem::path, File> files() const;
+
+    /// Called by read_text().
+    static void note(const std::filesystem::path& path, std::string_view bytes);
+
+private:
+    void add(const std::filesystem::path& path, std::string_view bytes);
+
+    const std::size_t most_kept_;
+    std::size_t kept_ = 0;
+    mutable std::mutex mutex_;
+    std::map<std::filesystem::path, File> files_;
+};
+
+}  // namespace espalier

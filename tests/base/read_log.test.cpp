@@ -1,0 +1,44 @@
+#include "espalier/base/read_log.h"
+#include "espalier/base/file.h"
+
+#include "catch.h"
+#include "temporary_folder.h"
+
+using espalier::ReadLog;
+
+TEST_CASE("the digest is FNV-1a's", "[base]") {
+    // The authors' own test values.
+    CHECK(espalier::digest("") == 0xcbf29ce484222325);
+    CHECK(espalier::digest("a") == 0xaf63dc4c8601ec8c);
+    CHECK(espalier::digest("foobar") == 0x85944171f73967e8);
+}
+
+TEST_CASE("a log notes what is read while it lives, once, under one name", "[base]") {
+    const TemporaryFolder folder;
+    const auto path = folder.write("a.txt", "first");
+    espalier::read_text(path);
+    const ReadLog log;
+    CHECK(log.files().empty());
+    espalier::read_text(path);
+    folder.write("a.txt", "second");
+    espalier::read_text(folder.path() / "." / "a.txt");
+
+    const auto files = log.files();
+    REQUIRE(files.size() == 1);
+    CHECK(files.begin()->first == path);
+    CHECK(files.begin()->second.bytes == "first");
+    CHECK(files.begin()->second.digest == espalier::digest("first"));
+}
+
+TEST_CASE("a log keeps no more bytes than it may, but knows every file", "[base]") {
+    const TemporaryFolder folder;
+    const ReadLog log(10);
+    espalier::read_text(folder.write("large", std::string(11, 'x')));
+    espalier::read_text(folder.write("small", "0123456789"));
+    espalier::read_text(folder.write("more", "y"));
+    const auto files = log.files();
+    CHECK_FALSE(files.at(folder.path() / "large").kept);
+    CHECK(files.at(folder.path() / "large").size == 11);
+    CHECK(files.at(folder.path() / "small").kept);
+    CHECK_FALSE(files.at(folder.path() / "more").kept);
+}
