@@ -71,3 +71,15 @@ TEST_CASE("beta deviates of tiny shapes lie at both ends, never beside them", "[
     }
     CHECK(std::abs(high - 5000) < 200);  // 4 standard deviations
 }
+
+TEST_CASE("draws of many drawers at once are those of each alone", "[base]") {
+    const RandomKey key(3, 4, Stream::derivation, 5);
+    for (const std::size_t count : {0, 1, 7, 8, 9, 100}) {
+        std::vector<std::uint64_t> drawers, draws(count);
+        for (std::size_t k = 0; k < count; ++k) drawers.push_back(mix(k, count));
+        first_draws(key, 0xFFFFFFFE, drawers, draws.data());
+        for (std::size_t k = 0; k < count; ++k) {
+            REQUIRE(static_cast<double>(draws[k]) == 0x1p53 * RandomDraws(key, drawers[k], 0xFFFFFFFE).uniform());
+        }
+    }
+}

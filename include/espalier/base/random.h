@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace espalier {
 
@@ -10,9 +11,16 @@ namespace espalier {
 enum class Stream : std::uint32_t { derivation = 1, homomorphism = 2, blocks = 3, process = 4, placement = 5 };
 
 /// Mixes 64 bits so that neighbouring inputs give unrelated outputs (SplitMix64's finalizer).
-std::uint64_t mix(std::uint64_t value);
+constexpr std::uint64_t mix(std::uint64_t value) {
+    value += 0x9E3779B97F4A7C15u;
+    value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9u;
+    value = (value ^ (value >> 27)) * 0x94D049BB133111EBu;
+    return value ^ (value >> 31);
+}
 /// A hash of two values, not symmetric.
-std::uint64_t mix(std::uint64_t a, std::uint64_t b);
+constexpr std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
+    return mix(mix(a) ^ (b + 0x632BE59BD9B4E019u));
+}
 
 /// The key of a stream: scene seed, plant, purpose. `salt` tells apart users of one stream (a process's name, say).
 class RandomKey {
@@ -50,5 +58,9 @@ private:
     std::uint32_t step_;
     std::uint32_t draw_;
 };
+
+/// The first draws of many drawers in one step, several at a time: draws[i] is 2^53 times what
+/// RandomDraws(key, drawers[i], step).uniform() gives.
+void first_draws(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> drawers, std::uint64_t* draws);
 
 }  // namespace espalier
