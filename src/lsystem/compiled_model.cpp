@@ -12,58 +12,6 @@ namespace {
 
 constexpr double deepest = 1e6;
 
-Plan plan_of(const CompiledProduction& production) {
-    Plan plan;
-    std::copy_n(production.letters.begin(), std::min(production.letters.size(), letter_block), plan.block.begin());
-    plan.letters = production.letters.data();
-    plan.length = static_cast<std::uint32_t>(production.length);
-    plan.parameters = static_cast<std::uint32_t>(production.parameters);
-    plan.arity = production.strict[0].arity;
-    plan.lanes = production.lanes.data();
-    plan.production = &production;
-    const bool simple = production.affine && production.after.empty();
-    plan.kind = production.parameters == 0 && production.after.empty() ? Plan::Kind::bare
-                : simple                                               ? Plan::Kind::lanes
-                                                                       : Plan::Kind::program;
-    return plan;
-}
-
-Plan copy_of(LetterId letter, std::uint16_t arity) {
-    Plan copy;
-    copy.block[0] = letter;
-    copy.length = 1;
-    copy.arity = arity;
-    copy.parameters = arity;
-    copy.kind = arity == 0 ? Plan::Kind::bare : Plan::Kind::copy;
-    return copy;
-}
-
-Plans make_plans(const CompiledSystem& model) {
-    const CompiledRules& rules = model.rules;
-    const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
-    Plans plans;
-    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
-    for (std::size_t l = 0; l < arities.size(); ++l) {
-        const auto letter = static_cast<LetterId>(l);
-        Plan plan = copy_of(letter, arities[l]);
-        if (rules.always[l] >= 0) {
-            plan = plan_of(rules.productions[rules.always[l]]);
-        } else if (rules.has(letter)) {
-            plans.all_known = false;
-            plans.choices.push_back(plan);
-            plan.kind = Plan::Kind::choose;
-            plan.choices = &plans.choices.back();
-            for (std::uint32_t k = rules.first[l]; k < rules.first[l + 1]; ++k) {
-                plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
-            }
-        }
-        plans.of_letter.push_back(plan);
-        plans.lengths.push_back(plan.length);
-        plans.parameters.push_back(plan.parameters);
-    }
-    return plans;
-}
-
 /// True if a `%` may come to stand in the string.
 bool writes_cut(const Model& model) {
     const auto cuts = [](const std::vector<ModuleTemplate>& modules) {
@@ -137,6 +85,7 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     find_ignored();
     name_variables();
     place_registers();
+    compiled_->choosing = make_choosing(*compiled_);
     return std::move(compiled_);
 }
 
@@ -255,7 +204,7 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
     if (production.weight) compiled.weight = programs_.value(*production.weight);
     compiled.successor = programs_.arguments(production.successor);
     compiled.length = production.successor.size();
-    compiled.letters.assign((compiled.length + letter_block - 1) / letter_block * letter_block, Alphabet::open_bracket);
+    compiled.letters.assign(whole_blocks(compiled.length, letter_block), Alphabet::open_bracket);
     for (std::size_t k = 0; k < compiled.length; ++k) {
         compiled.letters[k] = production.successor[k].letter;
         compiled.arities.push_back(static_cast<std::uint16_t>(production.successor[k].arguments.size()));
@@ -271,6 +220,7 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
 // Each strict module in turn hands its identity to the first successor module of its symbol that nobody has claimed.
 void SystemCompiler::descend(CompiledProduction& production) const {
     production.descents.resize(production.length);
+    production.heirs.resize(production.strict.size(), Descent::none);
     for (std::uint32_t s = 0; s < production.strict.size(); ++s) {
         const SymbolId symbol = model_->alphabet.symbol_of(production.strict[s].letter);
         for (std::size_t k = 0; k < production.length; ++k) {
@@ -278,6 +228,7 @@ void SystemCompiler::descend(CompiledProduction& production) const {
             if (descent.heir_of != Descent::born || model_->alphabet.symbol_of(production.letters[k]) != symbol)
                 continue;
             descent.heir_of = s;
+            production.heirs[s] = static_cast<std::uint32_t>(k);
             break;
         }
     }
@@ -325,7 +276,10 @@ void SystemCompiler::find_lanes(CompiledProduction& production) const {
                 production.lanes.push_back(*found);
         }
     }
-    if (!production.affine) production.lanes.clear();
+    if (production.affine)
+        production.lanes.pad();
+    else
+        production.lanes.clear();
 }
 
 // Only forms that a multiplication followed by an addition computes with the very same rounding.

@@ -3,7 +3,9 @@
 
 #include "espalier/lsystem/derivation.h"
 
+#include "choosing.h"
 #include "machine.h"
+#include "plans.h"
 #include "program.h"
 
 #include <algorithm>
@@ -24,21 +26,12 @@ struct CompiledPattern {
     bool skip_branch = false;
 };
 
-/// A parameter of a simple successor: predecessor's parameter * scale + offset.
-struct Lane {
-    std::uint32_t source = 0;
-    double scale = 0, offset = 0;
-};
-
 /// Where a module of a successor comes from: the strict predecessor's module it carries on, or born with a place.
 struct Descent {
-    static constexpr std::uint32_t born = 0xFFFFFFFF;
+    static constexpr std::uint32_t none = 0xFFFFFFFF, born = none;
     std::uint32_t heir_of = born;
     std::uint32_t place = 0;
 };
-
-/// Letters are copied in blocks of this many, whether or not all belong to the successor.
-inline constexpr std::size_t letter_block = 16;
 
 struct CompiledProduction {
     const Production* source = nullptr;
@@ -48,9 +41,10 @@ struct CompiledProduction {
     std::vector<LetterId> letters;  ///< of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
     std::vector<Descent> descents;
+    std::vector<std::uint32_t> heirs;  ///< of each strict module the place in the successor, or Descent::none
     std::size_t length = 0;
     std::size_t parameters = 0;
-    std::vector<Lane> lanes;
+    Lanes lanes;
     bool affine = false;         ///< `lanes` say all; else the successor's program is run
     bool reads_context = false;  ///< the successor needs parameters of modules in the context
     bool tests_draw = false;     ///< before-block, condition or weight take random numbers
@@ -80,27 +74,6 @@ struct CompiledRules {
     bool has(LetterId letter) const { return first[letter] != first[letter + 1]; }
 };
 
-/// How one module is written: everything the hot loop reads, side by side.
-struct Plan {
-    enum class Kind : std::uint8_t { bare, copy, lanes, program, choose };
-    std::array<LetterId, letter_block> block{};  ///< the first letters of the successor
-    const LetterId* letters = nullptr;           ///< all of them
-    std::uint32_t length = 0;
-    std::uint32_t parameters = 0;
-    const Lane* lanes = nullptr;
-    const CompiledProduction* production = nullptr;  ///< null: the module is copied
-    const Plan* choices = nullptr;  ///< to choose from: the copy, then the productions of the letter in file order
-    std::uint16_t arity = 0;
-    Kind kind = Kind::bare;
-};
-
-struct Plans {
-    std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
-    std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
-    std::vector<Plan> choices;                       ///< of letters of kind `choose`, one after the other
-    bool all_known = true;                           ///< no letter needs choosing
-};
-
 /// A variable or array that the surrounding L-system lends, by name.
 struct External {
     std::uint32_t index = 0;
@@ -115,6 +88,7 @@ public:
     std::size_t index = 0;  ///< among the model's L-systems; 0 is the main one
     CompiledRules rules, decomposition, homomorphism;
     Plans plans;  ///< of `rules`
+    Choosing choosing;
     Program start, start_each, end_each, end;
     Program axiom, length, seed;
     std::vector<LetterId> axiom_letters;

@@ -1,14 +1,11 @@
 #include "rewriting.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
-#include <atomic>
+#include <algorithm>
 
 namespace espalier {
 namespace {
-
-constexpr std::size_t chunk_size = 8192;
 
 template <class T>
 void resize_column(Column<T>& column, std::size_t size) {
@@ -20,16 +17,40 @@ void resize_column(Column<T>& column, std::size_t size) {
     column.resize(size);
 }
 
+/// Whether so many modules more make one chunk with the one before them: without that, a string that shrinks would fall
+/// to pieces.
+bool joins(std::size_t modules, const Chunk& before) {
+    const std::size_t size = before.end - before.begin;
+    return std::min(modules, size) < grain / 2 && modules + size <= 2 * grain;
+}
+
+void count(const StepInput& input, Chunk& chunk) {
+    const std::uint16_t* const arities = input.model.source->alphabet.arities().data();
+    const std::uint32_t* const lengths = input.model.plans.lengths.data();
+    const std::uint32_t* const counts = input.model.plans.parameters.data();
+    const LetterId* const letters = input.from.letters.data();
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        chunk.parameters_at += arities[letters[i]];
+        chunk.out_end += lengths[letters[i]];
+        chunk.out_parameters_end += counts[letters[i]];
+    }
+}
+
+void count(const StepInput& input, std::vector<Chunk>& chunks) {
+    if (chunks.size() == 1) return count(input, chunks[0]);
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
+}
+
 }  // namespace
 
 void make_chunks(const StepInput& input, Scratch& scratch) {
     // Only the starts of chunks need the place of their parameters, so everything is counted, also what is cut off.
     scratch.chunks.clear();
     const auto split = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t at = begin; at < end; at += chunk_size) {
+        for (std::size_t at = begin; at < end; at += grain) {
             Chunk chunk;
             chunk.begin = at;
-            chunk.end = std::min(end, at + chunk_size);
+            chunk.end = std::min(end, at + grain);
             scratch.chunks.push_back(chunk);
         }
     };
@@ -47,20 +68,12 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
     }
     split_cut(cut_from, input.from.size());
 
-    const std::uint16_t* const arities = input.model.source->alphabet.arities().data();
-    const std::uint32_t* const lengths = input.model.plans.lengths.data();
-    const std::uint32_t* const counts = input.model.plans.parameters.data();
-    const LetterId* const letters = input.from.letters.data();
-    tbb::parallel_for(std::size_t{0}, scratch.chunks.size(), [&](std::size_t k) {
-        Chunk& chunk = scratch.chunks[k];
-        for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-            chunk.parameters_at += arities[letters[i]];
-            chunk.out_end += lengths[letters[i]];
-            chunk.out_parameters_end += counts[letters[i]];
-        }
-    });
+    count(input, scratch.chunks);
     std::size_t at = 0;
-    for (Chunk& chunk : scratch.chunks) at += std::exchange(chunk.parameters_at, at);
+    for (Chunk& chunk : scratch.chunks) {
+        at += std::exchange(chunk.parameters_at, at);
+        chunk.parameters_end = at;
+    }
     if (at != input.from.parameters.size()) {
         throw RunError(
             fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(), at));
@@ -68,24 +81,45 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
     for (const std::size_t k : cut) {
         Chunk& chunk = scratch.chunks[k];
         chunk.end = chunk.begin;
+        chunk.parameters_end = chunk.parameters_at;
         chunk.out_end = chunk.out_parameters_end = 0;
     }
 }
 
-void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, const std::function<void(Chunk&, Machine&)>& work) {
-    std::atomic<std::size_t> failed = chunks.size();
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) {
-        if (k > failed.load()) return;  // an earlier chunk's error will be reported
-        try {
-            work(chunks[k], machines.local());
-        } catch (const RunError& error) {
-            chunks[k].error = error.what();
-            std::size_t first = failed.load();
-            while (k < first && !failed.compare_exchange_weak(first, k)) {
-            }
+bool recall_chunks(const StepInput& input, Scratch& scratch) {
+    const Forecast& forecast = scratch.forecast;
+    const bool whole = input.kept.size() == 1 && input.kept[0] == std::pair(std::size_t{0}, forecast.modules);
+    if (!input.model.plans.looks_ahead || !whole || input.from.letters.data() != forecast.letters ||
+        input.from.parameters.size() != forecast.parameters) {
+        return false;
+    }
+    scratch.chunks.clear();
+    std::size_t modules = 0, parameters = 0;
+    for (const Stretch& stretch : forecast.stretches) {
+        if (scratch.chunks.empty() || !joins(stretch.modules, scratch.chunks.back())) {
+            scratch.chunks.emplace_back();
+            scratch.chunks.back().begin = modules;
+            scratch.chunks.back().parameters_at = parameters;
         }
-    });
-    if (failed < chunks.size()) throw RunError(chunks[failed].error);
+        Chunk& chunk = scratch.chunks.back();
+        chunk.end = modules += stretch.modules;
+        chunk.parameters_end = parameters += stretch.parameters;
+        chunk.out_end += static_cast<std::uint32_t>(stretch.next);
+        chunk.out_parameters_end += stretch.next >> 32;
+    }
+    return true;
+}
+
+void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch) {
+    Forecast& forecast = scratch.forecast;
+    forecast.letters = input.model.plans.looks_ahead ? to.letters.data() : nullptr;
+    forecast.modules = to.size();
+    forecast.parameters = to.parameters.size();
+    forecast.stretches.clear();
+    for (std::size_t k = 0; k < scratch.chunks.size(); ++k) {
+        const std::vector<Stretch>& written = scratch.stretches[k];
+        forecast.stretches.insert(forecast.stretches.end(), written.begin(), written.end());
+    }
 }
 
 void resize(ModuleString& string, std::size_t modules, std::size_t parameters, bool lineage) {

@@ -5,10 +5,10 @@
 #include "matching.h"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -29,21 +29,37 @@ struct StepInput {
 
 using Machines = tbb::enumerable_thread_specific<Machine>;
 
+/// What was written in one go, and what the next step will make of it (Plan::next).
+struct Stretch {
+    std::size_t modules = 0, parameters = 0;
+    std::uint64_t next = 0;
+};
+
 /// A range of the string that one thread rewrites.
 struct Chunk {
     std::size_t begin = 0, end = 0;
-    std::size_t parameters_at = 0;     ///< of `begin` in the string
+    std::size_t parameters_at = 0, parameters_end = 0;
     std::size_t out = 0, out_end = 0;  ///< in the new string
     std::size_t out_parameters = 0, out_parameters_end = 0;
     std::string error;
 };
 
+/// What the writing of a string has found out about it: the chunks of the next step.
+struct Forecast {
+    // Which string it was.
+    const LetterId* letters = nullptr;
+    std::size_t modules = 0, parameters = 0;
+    std::vector<Stretch> stretches;
+};
+
 /// Memory that steps reuse.
 struct Scratch {
     BranchLinks links;
-    Column<std::size_t> offsets;
+    Neighbours neighbours;
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
+    std::vector<std::vector<Stretch>> stretches;  ///< what each chunk wrote
+    Forecast forecast;
     Column<LetterId> choices;          ///< which of its letter's Plan::choices each module takes
     std::vector<ModuleString> pieces;  ///< of chunks whose length is not known before they are written
 };
@@ -66,8 +82,31 @@ private:
 /// Throws RunError if the string has not as many parameters as its letters say.
 void make_chunks(const StepInput& input, Scratch& scratch);
 
-/// Calls work(chunk, machine) for all chunks in parallel. If several fail, the first in string order is reported.
-void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, const std::function<void(Chunk&, Machine&)>& work);
+/// The same from the forecast, without reading the string; false if there is none for it. Somebody may have changed
+/// the string's letters since: who relies on these chunks must see whether they fit.
+bool recall_chunks(const StepInput& input, Scratch& scratch);
+/// Keeps what the chunks' stretches say of the string that they were written to.
+void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch);
+
+/// Calls work(chunk, machine) for all chunks, in parallel if there are several. If several fail, the first in string
+/// order is reported.
+template <class Work>
+void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, Work&& work) {
+    if (chunks.size() == 1) return work(chunks[0], machines.local());
+    std::atomic<std::size_t> failed = chunks.size();
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) {
+        if (k > failed.load()) return;  // an earlier chunk's error will be reported
+        try {
+            work(chunks[k], machines.local());
+        } catch (const RunError& error) {
+            chunks[k].error = error.what();
+            std::size_t first = failed.load();
+            while (k < first && !failed.compare_exchange_weak(first, k)) {
+            }
+        }
+    });
+    if (failed < chunks.size()) throw RunError(chunks[failed].error);
+}
 
 /// Makes room for a string, giving memory back first if it is too small.
 void resize(ModuleString& string, std::size_t modules, std::size_t parameters, bool lineage);

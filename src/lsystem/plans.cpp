@@ -1,0 +1,109 @@
+#include "plans.h"
+
+#include "compiled_model.h"
+
+#include <algorithm>
+
+namespace espalier {
+
+void Lanes::push_back(const Lane& lane) {
+    sources.push_back(lane.source);
+    scales.push_back(lane.scale);
+    offsets.push_back(lane.offset);
+}
+
+void Lanes::pad() {
+    while (sources.size() % value_block != 0) push_back({});
+}
+
+void Lanes::clear() {
+    *this = {};
+}
+
+namespace {
+
+Plan plan_of(const CompiledProduction& production) {
+    Plan plan;
+    std::copy_n(production.letters.begin(), std::min(production.letters.size(), letter_block), plan.block.begin());
+    plan.letters = production.letters.data();
+    plan.length = static_cast<std::uint32_t>(production.length);
+    plan.parameters = static_cast<std::uint32_t>(production.parameters);
+    plan.arity = production.strict[0].arity;
+    plan.lanes = &production.lanes;
+    plan.production = &production;
+    if (!production.after.empty())
+        plan.kind = Plan::Kind::program;
+    else if (production.parameters > 0)
+        plan.kind = production.affine ? Plan::Kind::lanes : Plan::Kind::program;
+    return plan;
+}
+
+Plan copy_of(LetterId letter, std::uint16_t arity) {
+    Plan copy;
+    copy.block[0] = letter;
+    copy.length = 1;
+    copy.arity = arity;
+    copy.parameters = arity;
+    copy.kind = arity <= value_block ? Plan::Kind::simple : Plan::Kind::copy;
+    return copy;
+}
+
+void measure(Plans& plans) {
+    const auto include = [&](const Plan& plan) {
+        plans.longest = std::max<std::size_t>(plans.longest, plan.length);
+        plans.most_parameters = std::max<std::size_t>(plans.most_parameters, plan.parameters);
+        plans.most_read = std::max<std::size_t>(plans.most_read, plan.arity);
+    };
+    for (const Plan& plan : plans.of_letter) {
+        include(plan);
+        plans.lengths.push_back(plan.length);
+        plans.parameters.push_back(plan.parameters);
+    }
+    for (const Plan& plan : plans.choices) include(plan);
+}
+
+/// What the next step will make of what each plan writes.
+void look_ahead(Plans& plans) {
+    const std::uint64_t most = std::max(plans.longest, plans.most_parameters);
+    plans.looks_ahead = plans.all_known && most < (std::uint64_t{1} << 32) / (longest_stretch + plans.longest);
+    if (!plans.looks_ahead) return;
+    const auto measure_of = [&](LetterId letter) {
+        return std::uint64_t{plans.parameters[letter]} << 32 | plans.lengths[letter];
+    };
+    for (Plan& plan : plans.of_letter) {
+        if (!plan.production)
+            plan.next = measure_of(plan.block[0]);
+        else
+            for (std::size_t k = 0; k < plan.length; ++k) plan.next += measure_of(plan.letters[k]);
+    }
+}
+
+}  // namespace
+
+Plans make_plans(const CompiledSystem& model) {
+    const CompiledRules& rules = model.rules;
+    const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
+    Plans plans;
+    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
+    for (std::size_t l = 0; l < arities.size(); ++l) {
+        const auto letter = static_cast<LetterId>(l);
+        Plan plan = copy_of(letter, arities[l]);
+        if (rules.always[l] >= 0) {
+            plan = plan_of(rules.productions[static_cast<std::size_t>(rules.always[l])]);
+        } else if (rules.has(letter)) {
+            plans.all_known = false;
+            plans.choices.push_back(plan);
+            plan.kind = Plan::Kind::choose;
+            plan.choices = &plans.choices.back();
+            for (std::uint32_t k = rules.first[l]; k < rules.first[l + 1]; ++k) {
+                plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
+            }
+        }
+        plans.of_letter.push_back(plan);
+    }
+    measure(plans);
+    look_ahead(plans);
+    return plans;
+}
+
+}  // namespace espalier

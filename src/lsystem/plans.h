@@ -1,0 +1,80 @@
+// How modules are written: everything the writing pass reads, side by side.
+#pragma once
+
+#include "espalier/lsystem/module_string.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace espalier {
+
+struct CompiledProduction;
+class CompiledSystem;
+
+// What is written is copied in whole blocks, whether or not all of a block belongs to it: the next module overwrites
+// what is too much.
+inline constexpr std::size_t letter_block = 16;
+inline constexpr std::size_t value_block = 4;
+
+/// Modules that one thread writes before another may have its turn: at least so many of the old string or the new.
+inline constexpr std::size_t grain = 8192;
+/// The longest stretch of a new string whose future is added up in one number, but for one successor.
+inline constexpr std::size_t longest_stretch = 2 * grain;
+
+constexpr std::size_t whole_blocks(std::size_t count, std::size_t block) {
+    return (count + block - 1) / block * block;
+}
+
+/// A parameter of a simple successor: predecessor's parameter * scale + offset.
+struct Lane {
+    std::uint32_t source = 0;
+    double scale = 0, offset = 0;
+};
+
+/// The lanes of a successor, in columns padded to whole blocks with lanes whose value is 0.
+struct Lanes {
+    std::vector<std::uint32_t> sources;
+    std::vector<double> scales, offsets;
+
+    void push_back(const Lane& lane);
+    void pad();
+    void clear();
+};
+
+struct alignas(64) Plan {
+    enum class Kind : std::uint8_t {
+        simple,   ///< letters, and at most `value_block` parameters that are copied
+        copy,     ///< the module itself, with more parameters
+        lanes,    ///< `lanes` say all parameters
+        program,  ///< the production's programs are run
+        choose,   ///< depends on more than the letter
+    };
+    std::array<LetterId, letter_block> block{};  ///< the first letters of the successor
+    std::uint32_t length = 0;
+    std::uint32_t parameters = 0;
+    std::uint16_t arity = 0;
+    Kind kind = Kind::simple;
+    /// Modules and (from bit 32 on) parameters that will replace what this plan writes, where no letter needs choosing.
+    std::uint64_t next = 0;
+    const Lanes* lanes = nullptr;
+
+    const LetterId* letters = nullptr;               ///< all of them, padded to whole blocks
+    const CompiledProduction* production = nullptr;  ///< null: the module is copied
+    const Plan* choices = nullptr;  ///< to choose from: the copy, then the productions of the letter in file order
+};
+
+struct Plans {
+    std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
+    std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
+    std::vector<Plan> choices;                       ///< of letters of kind `choose`, one after the other
+    bool all_known = true;                           ///< no letter needs choosing
+    bool looks_ahead = false;                        ///< Plan::next is known
+    // The most that any plan reads and writes.
+    std::size_t longest = 1, most_parameters = 0, most_read = 0;
+};
+
+/// The plans of `model.rules`, which must stay where they are.
+Plans make_plans(const CompiledSystem& model);
+
+}  // namespace espalier

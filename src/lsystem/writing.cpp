@@ -1,0 +1,259 @@
+#include "writing.h"
+
+#include "measuring.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace espalier {
+namespace {
+
+inline void copy_letters(const LetterId* from, LetterId* to) {
+    std::memcpy(to, from, letter_block * sizeof(LetterId));
+}
+
+inline void copy_values(const double* from, double* to) {
+    std::memcpy(to, from, value_block * sizeof(double));
+}
+
+/// Sums of differences of values to themselves: 0 as long as all are finite.
+struct Faults {
+    double sums[2] = {0, 0};
+
+    bool any() const { return !(sums[0] + sums[1] == 0); }
+};
+
+/// Writes lanes in whole blocks.
+inline void write_lanes(const Plan& plan, const double* values, double* out, Faults& faults) {
+    const std::uint32_t* const sources = plan.lanes->sources.data();
+    const double* const scales = plan.lanes->scales.data();
+    const double* const offsets = plan.lanes->offsets.data();
+    for (std::uint32_t k = 0; k < plan.parameters; k += value_block) {
+        double block[value_block];
+        for (std::size_t j = 0; j < value_block; ++j) block[j] = values[sources[k + j]];
+        for (std::size_t j = 0; j < value_block; ++j) block[j] = block[j] * scales[k + j] + offsets[k + j];
+        for (std::size_t j = 0; j < 2; ++j) faults.sums[j] += block[j] - block[j];
+        for (std::size_t j = 0; j < 2; ++j) faults.sums[j] += block[2 + j] - block[2 + j];
+        std::memcpy(out + k, block, sizeof block);
+    }
+}
+
+/// The same for one module's values alone; false if one of them is not finite.
+bool write_lanes_exactly(const Plan& plan, const double* values, double* out) {
+    static constexpr double none = 0;
+    const double* const source = plan.arity > 0 ? values : &none;
+    bool finite = true;
+    for (std::uint32_t k = 0; k < plan.parameters; ++k) {
+        const double value = source[plan.lanes->sources[k]] * plan.lanes->scales[k] + plan.lanes->offsets[k];
+        out[k] = value;
+        finite &= value - value == 0;
+    }
+    return finite;
+}
+
+/// Where reading and writing are.
+struct Cursor {
+    const LetterId* in;
+    const double* values;
+    LetterId* out;
+    double* out_values;
+    std::uint64_t next = 0;  ///< Plan::next of what was written since the stretch began
+
+    void pass(const Plan& plan) {
+        ++in;
+        values += plan.arity;
+        out += plan.length;
+        out_values += plan.parameters;
+        next += plan.next;
+    }
+};
+
+class Writer {
+public:
+    Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine, ModuleString& to);
+
+    bool write();
+
+private:
+    std::size_t safe_count() const;
+    void write_round(std::size_t count);
+    template <bool Valued, bool Choosing>
+    void write_round(std::size_t count);
+    bool write_module();
+    void write_values(const Plan& plan, const Cursor& at);
+    const Plan& plan_at(const LetterId* in) const;
+    void end_stretch();
+
+    const StepInput& input_;
+    const Plans& plans_;
+    const Scratch& scratch_;
+    const Chunk& chunk_;
+    std::vector<Stretch>& stretches_;
+    Machine& machine_;
+    Matcher matcher_;
+    const bool valued_;
+    Cursor at_, stretch_;
+    const LetterId* const in_end_;
+    const double* const values_end_;  ///< of the whole string: blocks may be read beyond the chunk
+    LetterId* const out_end_;
+    double* const out_values_end_;
+};
+
+Writer::Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine, ModuleString& to)
+    : input_(input),
+      plans_(input.model.plans),
+      scratch_(scratch),
+      chunk_(chunk),
+      stretches_(scratch.stretches[static_cast<std::size_t>(&chunk - scratch.chunks.data())]),
+      machine_(machine),
+      matcher_(input.model, input.view, machine),
+      valued_(plans_.most_read + plans_.most_parameters > 0),
+      at_{input.from.letters.data() + chunk.begin, input.from.parameters.data() + chunk.parameters_at,
+          to.letters.data() + chunk.out, to.parameters.data() + chunk.out_parameters},
+      stretch_(at_),
+      in_end_(input.from.letters.data() + chunk.end),
+      values_end_(input.from.parameters.data() + input.from.parameters.size()),
+      out_end_(to.letters.data() + chunk.out_end),
+      out_values_end_(to.parameters.data() + chunk.out_parameters_end) {
+    matcher_.set_draws(input.key, input.step);
+}
+
+/// How many modules can be written in whole blocks even if each of them becomes as long as any.
+std::size_t Writer::safe_count() const {
+    std::size_t count =
+        std::min(static_cast<std::size_t>(in_end_ - at_.in), std::max(grain / plans_.longest, std::size_t{1}));
+    const auto limit = [&](std::ptrdiff_t room, std::size_t most, std::size_t block) {
+        const auto last = static_cast<std::ptrdiff_t>(whole_blocks(std::max<std::size_t>(most, 1), block));
+        if (room < last)
+            count = 0;
+        else if (most > 0)
+            count = std::min(count, static_cast<std::size_t>(room - last) / most + 1);
+    };
+    limit(out_end_ - at_.out, plans_.longest, letter_block);
+    if (valued_) {
+        limit(out_values_end_ - at_.out_values, plans_.most_parameters, value_block);
+        limit(values_end_ - at_.values, plans_.most_read, value_block);
+    }
+    return count;
+}
+
+template <bool Valued, bool Choosing>
+void Writer::write_round(std::size_t count) {
+    const Plan* const plans = plans_.of_letter.data();
+    const LetterId* const letters = input_.from.letters.data();
+    const LetterId* const choices = scratch_.choices.data();
+    Cursor at = at_;
+    Faults faults;
+    for (const LetterId* const end = at.in + count; at.in != end;) {
+        const Plan* plan = plans + *at.in;
+        if constexpr (Choosing) {
+            if (plan->kind == Plan::Kind::choose) plan = plan->choices + choices[at.in - letters];
+        }
+        copy_letters(plan->block.data(), at.out);
+        if (plan->length > letter_block) {
+            for (std::size_t k = letter_block; k < plan->length; k += letter_block) {
+                copy_letters(plan->letters + k, at.out + k);
+            }
+        }
+        if constexpr (Valued) {
+            if (plan->kind == Plan::Kind::lanes) {
+                write_lanes(*plan, at.values, at.out_values, faults);
+            } else {
+                copy_values(at.values, at.out_values);
+                if (plan->kind == Plan::Kind::copy) {
+                    for (std::size_t k = value_block; k < plan->arity; k += value_block) {
+                        copy_values(at.values + k, at.out_values + k);
+                    }
+                } else if (plan->kind == Plan::Kind::program) {
+                    if (faults.any()) break;
+                    write_values(*plan, at);
+                }
+            }
+        }
+        at.pass(*plan);
+    }
+    if (!faults.any()) {
+        at_ = at;
+    } else {
+        // Somewhere in this round a value is not finite; the first one is to be reported.
+        for (std::size_t k = 0; k < count; ++k) write_module();
+    }
+}
+
+void Writer::write_round(std::size_t count) {
+    if (plans_.all_known)
+        valued_ ? write_round<true, false>(count) : write_round<false, false>(count);
+    else
+        valued_ ? write_round<true, true>(count) : write_round<false, true>(count);
+}
+
+const Plan& Writer::plan_at(const LetterId* in) const {
+    const Plan& plan = plans_.of_letter[*in];
+    if (plan.kind != Plan::Kind::choose) return plan;
+    return plan.choices[scratch_.choices[static_cast<std::size_t>(in - input_.from.letters.data())]];
+}
+
+/// Writes a module and nothing beyond it; false if it does not fit the chunk's measure.
+bool Writer::write_module() {
+    const Plan& plan = plan_at(at_.in);
+    if (out_end_ - at_.out < std::ptrdiff_t{plan.length} || values_end_ - at_.values < std::ptrdiff_t{plan.arity} ||
+        out_values_end_ - at_.out_values < std::ptrdiff_t{plan.parameters}) {
+        return false;
+    }
+    std::copy_n(plan.production ? plan.letters : plan.block.data(), plan.length, at_.out);
+    if (plan.kind == Plan::Kind::program ||
+        (plan.kind == Plan::Kind::lanes && !write_lanes_exactly(plan, at_.values, at_.out_values))) {
+        write_values(plan, at_);
+    } else if (plan.kind != Plan::Kind::lanes) {
+        std::copy_n(at_.values, plan.parameters, at_.out_values);
+    }
+    at_.pass(plan);
+    return true;
+}
+
+void Writer::write_values(const Plan& plan, const Cursor& at) {
+    const CompiledProduction& production = *plan.production;
+    const auto module = static_cast<std::size_t>(at.in - input_.from.letters.data());
+    try {
+        const Site site = site_of(input_, module, at.values);
+        matcher_.bind(production, site);
+        matcher_.begin_successor(production, site);
+        if (!production.after.empty()) machine_.run(production.after);
+        machine_.run(production.successor);
+        for (std::size_t k = 0; k < production.parameters; ++k) {
+            at.out_values[k] = machine_.value(production.successor.results[k]);
+        }
+        require_finite(production, at.out_values);
+    } catch (const EvaluationError& error) {
+        throw RunError(describe(error, input_.model.source->alphabet, *at.in, at.values, input_.step));
+    }
+}
+
+void Writer::end_stretch() {
+    stretches_.push_back({static_cast<std::size_t>(at_.out - stretch_.out),
+                          static_cast<std::size_t>(at_.out_values - stretch_.out_values), at_.next});
+    at_.next = 0;
+    stretch_ = at_;
+}
+
+bool Writer::write() {
+    stretches_.clear();
+    while (at_.in != in_end_) {
+        if (const std::size_t count = safe_count(); count > 0)
+            write_round(count);
+        else if (!write_module())
+            return false;
+        if (at_.out - stretch_.out >= static_cast<std::ptrdiff_t>(grain)) end_stretch();
+    }
+    end_stretch();
+    return at_.out == out_end_ && at_.out_values == out_values_end_ &&
+           at_.values == input_.from.parameters.data() + chunk_.parameters_end;
+}
+
+}  // namespace
+
+bool write(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine, ModuleString& to) {
+    return Writer(input, scratch, chunk, machine, to).write();
+}
+
+}  // namespace espalier
