@@ -1,0 +1,11 @@
+// fields/NAME/NNNN.vti and .vdb, read back.
+#pragma once
+
+#include "espalier/timeline/recorded_run.h"
+
+namespace espalier {
+
+/// Of a .vdb the box of its active voxels; what the .vti holds otherwise. Throws UserError naming the file.
+RecordedField read_field(const std::filesystem::path& path, const std::string& name);
+
+}  // namespace espalier

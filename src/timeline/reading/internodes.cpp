@@ -1,0 +1,103 @@
+#include "espalier/timeline/recorded_run.h"
+
+#include <bit>
+#include <unordered_map>
+
+namespace espalier {
+namespace {
+
+/// A place of a plant, bit for bit: an axis begins exactly where the turtle was.
+struct Spot {
+    std::uint32_t plant;
+    glm::vec3 position;
+
+    bool operator==(const Spot&) const = default;
+};
+
+struct SpotHash {
+    std::size_t operator()(const Spot& spot) const {
+        std::uint64_t hash = spot.plant;
+        for (int k = 0; k < 3; ++k) {
+            const float coordinate = spot.position[k] == 0 ? 0.0f : spot.position[k];  // -0 is equal to 0
+            hash = (hash ^ std::bit_cast<std::uint32_t>(coordinate)) * 0x9e3779b97f4a7c15u;
+            hash ^= hash >> 32;
+        }
+        return static_cast<std::size_t>(hash);
+    }
+};
+
+/// Finds what an axis stands on, among the axes that came before it.
+class Bearers {
+public:
+    explicit Bearers(const std::vector<RecordedInternode>& internodes) : internodes_(internodes) {}
+
+    std::int32_t of(const RecordedInternode& first) const {
+        const Spot spot{first.plant, first.base};
+        const std::int32_t ended = best(tips_, spot, first.order);
+        return ended != RecordedInternode::none ? ended : best(bases_, spot, first.order);
+    }
+
+    void add(std::int32_t number) {
+        const RecordedInternode& internode = internodes_[static_cast<std::size_t>(number)];
+        tips_.emplace(Spot{internode.plant, internode.tip}, number);
+        bases_.emplace(Spot{internode.plant, internode.base}, number);
+    }
+
+private:
+    using Spots = std::unordered_multimap<Spot, std::int32_t, SpotHash>;
+
+    // The last of lower order; if none is of lower order, the last.
+    std::int32_t best(const Spots& spots, const Spot& spot, std::uint16_t order) const {
+        std::int32_t lower = RecordedInternode::none, any = RecordedInternode::none;
+        const auto [begin, end] = spots.equal_range(spot);
+        for (auto at = begin; at != end; ++at) {
+            any = std::max(any, at->second);
+            if (internodes_[static_cast<std::size_t>(at->second)].order < order) lower = std::max(lower, at->second);
+        }
+        return lower != RecordedInternode::none ? lower : any;
+    }
+
+    const std::vector<RecordedInternode>& internodes_;
+    Spots tips_, bases_;
+};
+
+RecordedInternode internode(const RecordedGeometry& geometry, std::size_t line, std::int32_t base, std::int32_t tip) {
+    const auto from = static_cast<std::size_t>(base), to = static_cast<std::size_t>(tip);
+    const RecordedAttributes& of = geometry.of_points;
+    return {geometry.points[from],
+            geometry.points[to],
+            geometry.radii[from],
+            geometry.radii[to],
+            of.identities[to],
+            of.parents[to],
+            of.plants[to],
+            of.symbols[to],
+            of.orders[to],
+            of.colours[to],
+            of.births[to],
+            static_cast<std::uint32_t>(line),
+            RecordedInternode::none,
+            base,
+            tip};
+}
+
+}  // namespace
+
+std::vector<RecordedInternode> internodes_of(const RecordedGeometry& geometry) {
+    std::vector<RecordedInternode> internodes;
+    Bearers bearers(internodes);
+    for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
+        if (geometry.of_cells.kinds[geometry.lines.first + line] != Kind::axis) continue;
+        const auto points = geometry.lines[line];
+        const std::size_t first = internodes.size();
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            RecordedInternode next = internode(geometry, line, points[i - 1], points[i]);
+            next.bearer = i == 1 ? bearers.of(next) : static_cast<std::int32_t>(internodes.size()) - 1;
+            internodes.push_back(next);
+        }
+        for (std::size_t i = first; i < internodes.size(); ++i) bearers.add(static_cast<std::int32_t>(i));
+    }
+    return internodes;
+}
+
+}  // namespace espalier
