@@ -203,21 +203,22 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
     }
     if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
     if (!model->nested) find_kept(from);
-    StringView view{&from, nullptr, nullptr};
-    if (model->any(&CompiledSystem::uses_context)) {
+    StringView view{&from};
+    const bool uses_context = model->any(&CompiledSystem::uses_context);
+    if (uses_context && (model->nested || main.choosing.needs_partners)) {
         link_branches(from, scratch.links);
         view.partner = scratch.links.partner.data();
     }
-    if (model->any(&CompiledSystem::binds_context)) {
-        scratch.offsets.resize(from.size());
-        const auto arities = model->source->alphabet.arities();
-        std::size_t at = 0;
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            scratch.offsets[i] = at;
-            at += arities[from.letters[i]];
+    // Where several L-systems share the string, each has neighbours of its own: they are looked for one by one.
+    if (uses_context && !model->nested) {
+        scratch.neighbours.find(main.choosing.gazes, from);
+        view.neighbours = &scratch.neighbours;
+    }
+    if (model->any(&CompiledSystem::binds_context) && (model->nested || main.choosing.gazes.positions)) {
+        if (scratch.places.find(from, model->source->alphabet.arities().data()) != from.parameters.size()) {
+            throw RunError("the string's parameters do not fit its modules");
         }
-        if (at != from.parameters.size()) throw RunError("the string's parameters do not fit its modules");
-        view.offsets = scratch.offsets.data();
+        view.places = &scratch.places;
     }
     return {main, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch.kept};
 }

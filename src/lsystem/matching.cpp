@@ -10,14 +10,18 @@
 namespace espalier {
 
 const CompiledProduction* Matcher::choose(const CompiledRules& rules, const Site& site) {
-    const std::uint32_t begin = rules.first[site.letter];
-    const std::uint32_t end = rules.first[site.letter + 1];
-    if (begin == end) return nullptr;
+    const std::uint32_t first = rules.first[site.letter];
+    return choose(rules, {rules.candidates.data() + first, rules.first[site.letter + 1] - first}, site);
+}
+
+const CompiledProduction* Matcher::choose(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
+                                          const Site& site) {
+    if (candidates.empty()) return nullptr;
     machine_.forget_reseeding();
     if (rules.effects.draws || rules.stochastic) machine_.draw_with(RandomDraws(key_, site.drawer, step_));
-    if (rules.stochastic) return choose_by_weight(rules, site);
-    for (std::uint32_t k = begin; k < end; ++k) {
-        const CompiledProduction& production = rules.productions[rules.candidates[k]];
+    if (rules.stochastic) return choose_by_weight(rules, candidates, site);
+    for (const std::uint32_t candidate : candidates) {
+        const CompiledProduction& production = rules.productions[candidate];
         if (applies(production, site)) return &production;
     }
     return nullptr;
@@ -41,11 +45,12 @@ double Matcher::weight(const CompiledProduction& production) {
                           fmt::format("a weight must be a number of at least 0, but is {:g}", weight));
 }
 
-const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules, const Site& site) {
+const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules,
+                                                    std::span<const std::uint32_t> candidates, const Site& site) {
     pool_.clear();
     double sum = 0;
-    for (std::uint32_t k = rules.first[site.letter]; k < rules.first[site.letter + 1]; ++k) {
-        const CompiledProduction& production = rules.productions[rules.candidates[k]];
+    for (const std::uint32_t index : candidates) {
+        const CompiledProduction& production = rules.productions[index];
         bound_ = &production;
         if (!applies(production, site)) continue;
         pool_.push_back({&production, weight(production)});
@@ -99,77 +104,105 @@ void Matcher::bind_strict(const CompiledProduction& production, const Site& site
 
 void Matcher::bind_context(const CompiledPattern& pattern, std::size_t module, const Site& site) {
     if (pattern.arity == 0) return;
-    std::size_t offset = site.parameters_at;
-    if (view_.offsets) {
-        offset = view_.offsets[module];
-    } else {
-        const auto arities = model_.source->alphabet.arities();
-        for (std::size_t i = site.first; i < module; ++i) offset += arities[letters_[i]];
-        for (std::size_t i = module; i < site.first; ++i) offset -= arities[letters_[i]];
-    }
-    const double* value = view_.string->parameters.data() + offset;
+    const double* value = view_.string->parameters.data() + parameters_at(module, site);
     double* formals = machine_.formals() + pattern.first_formal;
     for (std::uint32_t k = 0; k < pattern.arity; ++k) formals[k] = value[k];
 }
 
-// Leftwards: finished branches are skipped, an opening bracket is stepped over to the parent axis (ABOP 1.8).
+std::size_t Matcher::parameters_at(std::size_t module, const Site& site) const {
+    if (view_.places) return (*view_.places)[module];
+    if (view_.offsets) return view_.offsets[module];
+    const auto arities = model_.source->alphabet.arities();
+    std::size_t offset = site.parameters_at;
+    for (std::size_t i = site.first; i < module; ++i) offset += arities[letters_[i]];
+    for (std::size_t i = module; i < site.first; ++i) offset -= arities[letters_[i]];
+    return offset;
+}
+
 bool Matcher::match_left(const CompiledProduction& production, const Site& site) {
-    std::size_t at = site.first;  // the module to the right of the next one to look at
+    std::size_t at = site.first;
     bool wrapped = !model_.ring;
-    for (std::size_t k = 0; k < production.left.size();) {
-        if (at == 0) {
-            if (wrapped) return false;
-            wrapped = true;
-            at = size_;
-        }
-        const LetterId letter = letters_[at - 1];
-        const CompiledPattern& pattern = production.left[k];
-        if (letter == pattern.letter && (letter <= Alphabet::close_bracket || !model_.ignored[letter])) {
-            bind_context(pattern, at - 1, site);
-            ++k;
-            --at;
-        } else if (letter == Alphabet::close_bracket) {
-            at = view_.partner[at - 1];
-            if (at == BranchLinks::none) return false;
-        } else if (letter == Alphabet::open_bracket || model_.ignored[letter]) {
-            --at;
-        } else {
-            return false;
-        }
+    for (const CompiledPattern& pattern : production.left) {
+        const std::size_t found = left_of(at, pattern.letter);
+        if (found == Neighbours::none || letters_[found] != pattern.letter || (found >= at && wrapped)) return false;
+        wrapped |= found >= at;
+        bind_context(pattern, found, site);
+        at = found;
     }
     return true;
 }
 
-// Rightwards: the filter is looked at before the brackets, so a `consider` list without them flattens branches.
 bool Matcher::match_right(const CompiledProduction& production, const Site& site) {
     std::size_t at = site.first + (site.width > 0 ? site.width : production.strict.size());
     bool wrapped = !model_.ring;
-    for (std::size_t k = 0; k < production.right.size();) {
-        const CompiledPattern& pattern = production.right[k];
+    for (const CompiledPattern& pattern : production.right) {
         if (pattern.skip_branch) {
             at = end_of_branch(at);
-            ++k;
             continue;
         }
-        if (at == size_) {
-            if (wrapped) return false;
-            wrapped = true;
-            at = 0;
-        }
-        const LetterId letter = letters_[at];
-        if (model_.ignored[letter]) {
-            ++at;
-        } else if (letter == pattern.letter) {
-            bind_context(pattern, at, site);
-            ++k;
-            ++at;
-        } else if (letter == Alphabet::open_bracket && view_.partner[at] != BranchLinks::none) {
-            at = std::size_t{view_.partner[at]} + 1;
-        } else {
-            return false;
-        }
+        const std::size_t found = right_from(at, pattern.letter);
+        if (found == Neighbours::none || letters_[found] != pattern.letter || (found < at && wrapped)) return false;
+        wrapped |= found < at;
+        bind_context(pattern, found, site);
+        at = found + 1;
     }
     return true;
+}
+
+/// The module that a pattern is compared with, to the left of a module.
+std::size_t Matcher::left_of(std::size_t module, LetterId sought) const {
+    if (!view_.neighbours || sought <= Alphabet::close_bracket) return find_left(module, sought);
+    return view_.neighbours->left[module];
+}
+
+/// The module that a pattern is compared with, from a module on, which is not the first.
+std::size_t Matcher::right_from(std::size_t module, LetterId sought) const {
+    if (!view_.neighbours) return find_right(module, sought);
+    return sought == Alphabet::open_bracket ? view_.neighbours->next[module - 1] : view_.neighbours->right[module - 1];
+}
+
+// Leftwards: finished branches are skipped, an opening bracket is stepped over to the parent axis (ABOP 1.8).
+std::size_t Matcher::find_left(std::size_t module, LetterId sought) const {
+    bool wrapped = !model_.ring;
+    while (true) {
+        if (module == 0) {
+            if (wrapped) return Neighbours::none;
+            wrapped = true;
+            module = size_;
+        }
+        const LetterId letter = letters_[module - 1];
+        if (letter == sought && letter <= Alphabet::close_bracket) return module - 1;
+        if (letter == Alphabet::close_bracket) {
+            module = view_.partner[module - 1];
+            if (module == BranchLinks::none) return Neighbours::none;
+        } else if (letter == Alphabet::open_bracket || model_.ignored[letter]) {
+            --module;
+        } else {
+            return module - 1;
+        }
+    }
+}
+
+// Rightwards: the filter is looked at before the brackets, so a `consider` list without them flattens branches.
+std::size_t Matcher::find_right(std::size_t module, LetterId sought) const {
+    bool wrapped = !model_.ring;
+    while (true) {
+        if (module == size_) {
+            if (wrapped) return Neighbours::none;
+            wrapped = true;
+            module = 0;
+        }
+        const LetterId letter = letters_[module];
+        if (model_.ignored[letter]) {
+            ++module;
+        } else if (letter == sought || letter != Alphabet::open_bracket) {
+            return module;
+        } else if (view_.partner[module] == BranchLinks::none) {
+            return Neighbours::none;
+        } else {
+            module = std::size_t{view_.partner[module]} + 1;
+        }
+    }
 }
 
 /// The closing bracket of the branch that position `at` stands in, or the end of the string.

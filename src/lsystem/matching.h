@@ -2,17 +2,22 @@
 #pragma once
 
 #include "compiled_model.h"
+#include "neighbours.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace espalier {
 
-/// A string as matching sees it. `partner` and `offsets` are null where no production needs them.
+/// A string as matching sees it. Without `neighbours` contexts are looked for step by step, with `partner`; what no
+/// production needs may be null.
 struct StringView {
     const ModuleString* string = nullptr;
     const std::uint32_t* partner = nullptr;  ///< BranchLinks::partner
-    const std::size_t* offsets = nullptr;    ///< parameter offsets
+    const std::size_t* offsets = nullptr;    ///< parameter offsets, or else `places`
+    const Neighbours* neighbours = nullptr;  ///< by Choosing::gazes
+    const ParameterPlaces* places = nullptr;
 };
 
 /// The modules a production is tried on: first to last in the string, and the values of the strict predecessor.
@@ -55,6 +60,9 @@ public:
 
     /// The production that applies, with its formals bound; null if none does.
     const CompiledProduction* choose(const CompiledRules& rules, const Site& site);
+    /// The same of some of the letter's candidates, if no other can apply.
+    const CompiledProduction* choose(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
+                                     const Site& site);
     /// Binds the formals again, as `choose` left them; contexts only if the successor reads them.
     void bind(const CompiledProduction& production, const Site& site);
     /// Begins the draws of the successor.
@@ -62,13 +70,19 @@ public:
 
 private:
     bool applies(const CompiledProduction& production, const Site& site);
-    const CompiledProduction* choose_by_weight(const CompiledRules& rules, const Site& site);
+    const CompiledProduction* choose_by_weight(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
+                                               const Site& site);
     double weight(const CompiledProduction& production);
     bool match_strict(const CompiledProduction& production, const Site& site) const;
     bool match_left(const CompiledProduction& production, const Site& site);
     bool match_right(const CompiledProduction& production, const Site& site);
+    std::size_t left_of(std::size_t module, LetterId sought) const;
+    std::size_t right_from(std::size_t module, LetterId sought) const;
+    std::size_t find_left(std::size_t module, LetterId sought) const;
+    std::size_t find_right(std::size_t module, LetterId sought) const;
     void bind_strict(const CompiledProduction& production, const Site& site);
     void bind_context(const CompiledPattern& pattern, std::size_t module, const Site& site);
+    std::size_t parameters_at(std::size_t module, const Site& site) const;
     std::size_t end_of_branch(std::size_t module) const;
 
     const CompiledSystem& model_;

@@ -1,45 +1,175 @@
 #include "measuring.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace espalier {
 namespace {
 
-/// The place of a production among the plans its letter chooses from.
-LetterId choice_of(const CompiledRules& rules, LetterId letter, const CompiledProduction& production) {
-    const auto index = static_cast<std::uint32_t>(&production - rules.productions.data());
-    const auto first = rules.candidates.begin() + rules.first[letter];
-    const auto last = rules.candidates.begin() + rules.first[letter + 1];
-    return static_cast<LetterId>(std::lower_bound(first, last, index) - first + 1);
+// What a module's neighbours are to the table of outcomes, from the columns that were found.
+
+struct NoClasses {
+    std::uint32_t operator()(std::size_t) const { return 0; }
+};
+
+template <bool Left, bool Right>
+struct FoundClasses {
+    const std::uint8_t *left, *right;
+    std::uint32_t rights;
+
+    std::uint32_t operator()(std::size_t module) const {
+        std::uint32_t place = 0;
+        if constexpr (Left) place = left[module] * rights;
+        if constexpr (Right) place += right[module];
+        return place;
+    }
+};
+
+struct ClassesAtPositions {
+    const LetterId* letters;
+    const Choosing& choosing;
+    const Neighbours& neighbours;
+
+    std::uint32_t operator()(std::size_t module) const {
+        return look(choosing.gazes.left, neighbours.left, module) * choosing.right_classes +
+               look(choosing.gazes.right, neighbours.right, module);
+    }
+    std::uint32_t look(const Gaze& gaze, const Column<std::uint32_t>& positions, std::size_t module) const {
+        if (!gaze.wanted || positions[module] == Neighbours::none) return 0;
+        return gaze.codes[letters[positions[module]]] & 0xFF;
+    }
+};
+
+/// Chooses and measures the modules of one chunk.
+class Measuring {
+public:
+    Measuring(const StepInput& input, Scratch& scratch, Machine& machine)
+        : input_(input),
+          choosing_(input.model.choosing),
+          letters_(input.from.letters.data()),
+          choices_(scratch.choices.data()),
+          matcher_(input.model, input.view, machine) {
+        matcher_.set_draws(input.key, input.step);
+    }
+
+    void run(Chunk& chunk);
+
+private:
+    template <class ClassOf>
+    void run(Chunk& chunk, const ClassOf& class_of);
+    template <bool Known, class ClassOf>
+    void choose(Chunk& chunk, const ClassOf& class_of);
+    void match(const Trial& trial, std::size_t module, const double* values);
+    void draw(std::uint32_t lottery, std::size_t module);
+    void hold_lotteries();
+    void take(std::size_t module, LetterId choice);
+
+    const StepInput& input_;
+    const Choosing& choosing_;
+    const LetterId* const letters_;
+    LetterId* const choices_;
+    Matcher matcher_;
+    std::size_t modules_ = 0, parameters_ = 0;
+
+    // Modules that wait for their draws.
+    static constexpr std::size_t drawn_at_once = 256;
+    struct Draw {
+        std::uint32_t module, lottery;
+    };
+    std::array<Draw, drawn_at_once> waiting_;
+    std::array<Identity, drawn_at_once> drawers_;
+    std::size_t waiting_count_ = 0;
+};
+
+void Measuring::run(Chunk& chunk) {
+    const Gazes& gazes = choosing_.gazes;
+    const Neighbours* const found = input_.view.neighbours;
+    if (!found || choosing_.left_classes * choosing_.right_classes == 1) return run(chunk, NoClasses{});
+    if (gazes.positions) return run(chunk, ClassesAtPositions{letters_, choosing_, *found});
+    const std::uint8_t* const left = found->left_classes.data();
+    const std::uint8_t* const right = found->right_classes.data();
+    const std::uint32_t rights = choosing_.right_classes;
+    if (!gazes.left.wanted) return run(chunk, FoundClasses<false, true>{left, right, rights});
+    if (!gazes.right.wanted) return run(chunk, FoundClasses<true, false>{left, right, rights});
+    run(chunk, FoundClasses<true, true>{left, right, rights});
+}
+
+template <class ClassOf>
+void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
+    if (choosing_.matches || choosing_.draws)
+        choose<false>(chunk, class_of);
+    else
+        choose<true>(chunk, class_of);
+    hold_lotteries();
+    chunk.out_end = modules_;
+    chunk.out_parameters_end = parameters_;
+}
+
+template <bool Known, class ClassOf>
+void Measuring::choose(Chunk& chunk, const ClassOf& class_of) {
+    const Choosing::Row* const rows = choosing_.rows.data();
+    const Outcome* const outcomes = choosing_.outcomes.data();
+    const std::uint16_t* const arities = input_.model.source->alphabet.arities().data();
+    const double* values = input_.from.parameters.data() + chunk.parameters_at;
+    std::size_t modules = 0, parameters = 0;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        const LetterId letter = letters_[i];
+        const Choosing::Row row = rows[letter];
+        const Outcome& outcome = outcomes[row.first + (class_of(i) & row.mask)];
+        choices_[i] = outcome.choice;
+        modules += outcome.length;
+        parameters += outcome.parameters;
+        if constexpr (!Known) {
+            if (outcome.way == Outcome::Way::matched) match(choosing_.trials[outcome.more], i, values);
+            if (outcome.way == Outcome::Way::drawn) draw(outcome.more, i);
+            values += arities[letter];
+        }
+    }
+    modules_ += modules;
+    parameters_ += parameters;
+}
+
+void Measuring::match(const Trial& trial, std::size_t module, const double* values) {
+    const std::span<const std::uint32_t> tried(choosing_.tried.data() + trial.begin, trial.end - trial.begin);
+    try {
+        const CompiledRules& rules = input_.model.rules;
+        const CompiledProduction* const chosen = matcher_.choose(rules, tried, site_of(input_, module, values));
+        take(module, chosen ? choosing_.choices[static_cast<std::size_t>(chosen - rules.productions.data())] : 0);
+    } catch (const EvaluationError& error) {
+        throw RunError(describe(error, input_.model.source->alphabet, letters_[module], values, input_.step));
+    }
+}
+
+void Measuring::take(std::size_t module, LetterId choice) {
+    const Plan& plan = input_.model.plans.of_letter[letters_[module]].choices[choice];
+    choices_[module] = choice;
+    modules_ += plan.length;
+    parameters_ += plan.parameters;
+}
+
+void Measuring::draw(std::uint32_t lottery, std::size_t module) {
+    waiting_[waiting_count_] = {static_cast<std::uint32_t>(module), lottery};
+    drawers_[waiting_count_] = input_.from.identities[module];
+    if (++waiting_count_ == drawn_at_once) hold_lotteries();
+}
+
+void Measuring::hold_lotteries() {
+    std::array<std::uint64_t, drawn_at_once> draws;
+    first_draws(input_.key, input_.step, {drawers_.data(), waiting_count_}, draws.data());
+    for (std::size_t k = 0; k < waiting_count_; ++k) {
+        const Lottery& lottery = choosing_.lotteries[waiting_[k].lottery];
+        std::size_t fallen = 0;
+        for (const std::uint64_t limit : lottery.limits) fallen += draws[k] >= limit;
+        take(waiting_[k].module, lottery.choices[fallen]);
+    }
+    waiting_count_ = 0;
 }
 
 }  // namespace
 
 void measure(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine) {
-    const CompiledSystem& model = input.model;
-    Matcher matcher(model, input.view, machine);
-    matcher.set_draws(input.key, input.step);
-    const double* values = input.from.parameters.data() + chunk.parameters_at;
-    std::size_t modules = 0, parameters = 0, i = chunk.begin;
-    try {
-        for (; i < chunk.end; ++i) {
-            const LetterId letter = input.from.letters[i];
-            const Plan* plan = &model.plans.of_letter[letter];
-            if (plan->kind == Plan::Kind::choose) {
-                const CompiledProduction* chosen = matcher.choose(model.rules, site_of(input, i, values));
-                const LetterId choice = chosen ? choice_of(model.rules, letter, *chosen) : 0;
-                scratch.choices[i] = choice;
-                plan = plan->choices + choice;
-            }
-            modules += plan->length;
-            parameters += plan->parameters;
-            values += plan->arity;
-        }
-    } catch (const EvaluationError& error) {
-        throw RunError(describe(error, model.source->alphabet, input.from.letters[i], values, input.step));
-    }
-    chunk.out_end = modules;
-    chunk.out_parameters_end = parameters;
+    Measuring(input, scratch, machine).run(chunk);
 }
 
 }  // namespace espalier

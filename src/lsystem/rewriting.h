@@ -56,6 +56,7 @@ struct Forecast {
 struct Scratch {
     BranchLinks links;
     Neighbours neighbours;
+    ParameterPlaces places;
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
     std::vector<std::vector<Stretch>> stretches;  ///< what each chunk wrote

@@ -1,0 +1,276 @@
+#include "choosing.h"
+
+#include "compiled_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t most_classes = 254;
+constexpr std::size_t most_outcomes = std::size_t{1} << 18;
+constexpr std::uint64_t most_draws = std::uint64_t{1} << 53;
+
+/// The value of a program that is a constant.
+std::optional<double> constant(const CompiledSystem& system, const Program& program) {
+    if (program.code.size() != 1 || program.results.size() != 1) return std::nullopt;
+    const std::uint32_t result = program.results[0];
+    return result < system.constants.size() ? std::optional(system.constants[result]) : std::nullopt;
+}
+
+struct Weighted {
+    LetterId choice;
+    double weight;
+};
+
+/// What the draw, a number of 2^53ths, falls on: the same sums and differences as Matcher::choose_by_weight.
+std::size_t fall(const std::vector<Weighted>& pool, double sum, std::uint64_t draw) {
+    double left = static_cast<double>(draw) * 0x1p-53 * sum;
+    for (std::size_t k = 0; k + 1 < pool.size(); ++k) {
+        left -= pool[k].weight;
+        if (left < 0) return k;
+    }
+    return pool.size() - 1;
+}
+
+class ChoosingCompiler {
+public:
+    explicit ChoosingCompiler(const CompiledSystem& system) : system_(system), rules_(system.rules) {}
+
+    Choosing compile();
+
+private:
+    using Candidates = std::vector<std::uint32_t>;
+
+    void find_gazes();
+    void look_for(const CompiledProduction& production);
+    void classify();
+    void fill_table();
+    Outcome outcome(LetterId letter, std::uint32_t left, std::uint32_t right);
+    Outcome known(LetterId letter, LetterId choice) const;
+    Outcome tried(const Candidates& candidates);
+    std::optional<Outcome> drawn(LetterId letter, const Candidates& candidates);
+    bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
+    bool certain(const CompiledProduction& production) const;
+    bool wants_positions() const;
+
+    std::uint32_t left_class(LetterId letter) const { return choosing_.gazes.left.codes[letter] & 0xFF; }
+    std::uint32_t right_class(LetterId letter) const { return choosing_.gazes.right.codes[letter] & 0xFF; }
+
+    const CompiledSystem& system_;
+    const CompiledRules& rules_;
+    Choosing choosing_;
+    std::map<Candidates, std::uint32_t> trials_, lotteries_;
+};
+
+/// The pattern names a module, not a bracket that begins or ends a branch to be followed.
+bool is_ordinary_left(const CompiledPattern& pattern) {
+    return pattern.letter > Alphabet::close_bracket;
+}
+
+bool is_ordinary_right(const CompiledPattern& pattern) {
+    return !pattern.skip_branch && pattern.letter != Alphabet::open_bracket;
+}
+
+Choosing ChoosingCompiler::compile() {
+    find_gazes();
+    classify();
+    fill_table();
+    choosing_.gazes.positions = wants_positions();
+    return std::move(choosing_);
+}
+
+void ChoosingCompiler::find_gazes() {
+    Gazes& gazes = choosing_.gazes;
+    for (const CompiledRules* rules : {&system_.rules, &system_.decomposition}) {
+        for (const CompiledProduction& production : rules->productions) look_for(production);
+    }
+    gazes.ring = system_.ring;
+    std::vector<std::uint16_t> codes(system_.ignored.size());
+    for (std::size_t l = 0; l < codes.size(); ++l) codes[l] = system_.ignored[l] ? Gaze::keeps : 0;
+    // The filter is looked at before the brackets to the right, but not to the left.
+    gazes.next.branches = false;
+    gazes.right.branches = !system_.ignored[Alphabet::open_bracket];
+    gazes.left.codes = gazes.right.codes = gazes.next.codes = std::move(codes);
+    gazes.left.codes[Alphabet::open_bracket] = Gaze::keeps;
+}
+
+void ChoosingCompiler::look_for(const CompiledProduction& production) {
+    Gazes& gazes = choosing_.gazes;
+    for (const CompiledPattern& pattern : production.left) {
+        gazes.left.wanted |= is_ordinary_left(pattern);
+        choosing_.needs_partners |= !is_ordinary_left(pattern);
+    }
+    for (const CompiledPattern& pattern : production.right) {
+        gazes.right.wanted |= is_ordinary_right(pattern);
+        gazes.next.wanted |= !pattern.skip_branch && !is_ordinary_right(pattern);
+        choosing_.needs_partners |= pattern.skip_branch;
+    }
+}
+
+/// Numbers the letters that productions name as nearest neighbours, unless they are too many for a table.
+void ChoosingCompiler::classify() {
+    std::vector<std::uint32_t> left(system_.ignored.size()), right(left);
+    std::uint32_t lefts = 1, rights = 1;
+    const auto name = [&](std::vector<std::uint32_t>& classes, std::uint32_t& count, LetterId letter) {
+        if (!system_.ignored[letter] && classes[letter] == 0) classes[letter] = count++;
+    };
+    for (const CompiledProduction& production : rules_.productions) {
+        if (!production.left.empty() && is_ordinary_left(production.left[0]))
+            name(left, lefts, production.left[0].letter);
+        if (!production.right.empty() && is_ordinary_right(production.right[0]))
+            name(right, rights, production.right[0].letter);
+    }
+    std::size_t rewritten = 0;
+    for (std::size_t l = 0; l < left.size(); ++l) {
+        rewritten += rules_.has(static_cast<LetterId>(l)) && rules_.always[l] < 0;
+    }
+    if (lefts > most_classes || rights > most_classes || rewritten * lefts * rights > most_outcomes) return;
+    choosing_.left_classes = lefts;
+    choosing_.right_classes = rights;
+    for (std::size_t l = 0; l < left.size(); ++l) {
+        choosing_.gazes.left.codes[l] |= left[l];
+        choosing_.gazes.right.codes[l] |= right[l];
+    }
+}
+
+void ChoosingCompiler::fill_table() {
+    const std::uint32_t places = choosing_.left_classes * choosing_.right_classes;
+    choosing_.choices.resize(rules_.productions.size());
+    for (std::size_t l = 0; l < system_.ignored.size(); ++l) {
+        const auto letter = static_cast<LetterId>(l);
+        for (std::uint32_t k = rules_.first[l]; k < rules_.first[l + 1]; ++k) {
+            choosing_.choices[rules_.candidates[k]] = static_cast<LetterId>(k - rules_.first[l] + 1);
+        }
+        const auto first = static_cast<std::uint32_t>(choosing_.outcomes.size());
+        if (system_.plans.of_letter[l].kind != Plan::Kind::choose) {
+            choosing_.rows.push_back({first, 0});
+            const Plan& plan = system_.plans.of_letter[l];
+            choosing_.outcomes.push_back({plan.length, plan.parameters, 0, 0, Outcome::Way::known});
+            continue;
+        }
+        choosing_.rows.push_back({first, ~std::uint32_t{0}});
+        for (std::uint32_t place = 0; place < places; ++place) {
+            const std::uint32_t right = place % choosing_.right_classes;
+            choosing_.outcomes.push_back(outcome(letter, place / choosing_.right_classes, right));
+            choosing_.matches |= choosing_.outcomes.back().way == Outcome::Way::matched;
+            choosing_.draws |= choosing_.outcomes.back().way == Outcome::Way::drawn;
+        }
+    }
+}
+
+/// False if the production cannot apply between neighbours of these classes.
+bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const {
+    const bool never = production.before.empty() && production.has_condition &&
+                       constant(system_, production.condition) == std::optional(0.0);
+    if (never) return false;
+    const bool told = choosing_.left_classes * choosing_.right_classes > 1;
+    if (told && !production.left.empty() && is_ordinary_left(production.left[0])) {
+        const std::uint32_t named = left_class(production.left[0].letter);
+        if (named == 0 || named != left) return false;
+    }
+    if (told && !production.right.empty() && is_ordinary_right(production.right[0])) {
+        const std::uint32_t named = right_class(production.right[0].letter);
+        if (named == 0 || named != right) return false;
+    }
+    return true;
+}
+
+/// True if a production applies wherever it is possible.
+bool ChoosingCompiler::certain(const CompiledProduction& production) const {
+    const bool told = choosing_.left_classes * choosing_.right_classes > 1;
+    const bool left =
+        production.left.empty() || (told && production.left.size() == 1 && is_ordinary_left(production.left[0]));
+    const bool right =
+        production.right.empty() || (told && production.right.size() == 1 && is_ordinary_right(production.right[0]));
+    return left && right && production.strict.size() == 1 && production.before.empty() && !production.has_condition;
+}
+
+Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint32_t right) {
+    Candidates candidates;
+    bool all_certain = true;
+    for (std::uint32_t k = rules_.first[letter]; k < rules_.first[letter + 1]; ++k) {
+        const CompiledProduction& production = rules_.productions[rules_.candidates[k]];
+        if (!possible(production, left, right)) continue;
+        candidates.push_back(rules_.candidates[k]);
+        all_certain &= certain(production);
+        if (!rules_.stochastic && certain(production)) break;
+    }
+    if (candidates.empty()) return known(letter, 0);
+    if (rules_.stochastic) {
+        const std::optional<Outcome> lottery = all_certain ? drawn(letter, candidates) : std::nullopt;
+        return lottery ? *lottery : tried(candidates);
+    }
+    return certain(rules_.productions[candidates[0]]) ? known(letter, choosing_.choices[candidates[0]])
+                                                      : tried(candidates);
+}
+
+Outcome ChoosingCompiler::known(LetterId letter, LetterId choice) const {
+    const Plan& plan = system_.plans.of_letter[letter].choices[choice];
+    return {plan.length, plan.parameters, 0, choice, Outcome::Way::known};
+}
+
+Outcome ChoosingCompiler::tried(const Candidates& candidates) {
+    const auto [at, made] = trials_.try_emplace(candidates, static_cast<std::uint32_t>(choosing_.trials.size()));
+    if (made) {
+        const auto begin = static_cast<std::uint32_t>(choosing_.tried.size());
+        choosing_.tried.insert(choosing_.tried.end(), candidates.begin(), candidates.end());
+        choosing_.trials.push_back({begin, static_cast<std::uint32_t>(choosing_.tried.size())});
+    }
+    return {0, 0, at->second, 0, Outcome::Way::matched};
+}
+
+/// Nothing if a weight is not a constant, or not one that can be drawn with.
+std::optional<Outcome> ChoosingCompiler::drawn(LetterId letter, const Candidates& candidates) {
+    std::vector<Weighted> pool;
+    double sum = 0;
+    for (const std::uint32_t candidate : candidates) {
+        const CompiledProduction& production = rules_.productions[candidate];
+        const std::optional<double> weight =
+            production.has_weight ? constant(system_, production.weight) : std::optional(1.0);
+        if (!weight || !(*weight >= 0 && std::isfinite(*weight))) return std::nullopt;
+        sum += *weight;
+        if (*weight > 0) pool.push_back({choosing_.choices[candidate], *weight});
+    }
+    if (pool.size() < 2) return known(letter, pool.empty() ? LetterId{0} : pool[0].choice);
+    const auto [at, made] = lotteries_.try_emplace(candidates, static_cast<std::uint32_t>(choosing_.lotteries.size()));
+    if (made) {
+        Lottery lottery;
+        lottery.choices.push_back(pool[0].choice);
+        for (std::size_t k = 1; k < pool.size(); ++k) {
+            // The smallest draw that falls on this production or one behind it.
+            std::uint64_t low = 0, high = most_draws;
+            while (low < high) {
+                const std::uint64_t middle = low + (high - low) / 2;
+                (fall(pool, sum, middle) >= k ? high : low) = fall(pool, sum, middle) >= k ? middle : middle + 1;
+            }
+            lottery.limits.push_back(low);
+            lottery.choices.push_back(pool[k].choice);
+        }
+        choosing_.lotteries.push_back(std::move(lottery));
+    }
+    return Outcome{0, 0, at->second, 0, Outcome::Way::drawn};
+}
+
+/// Where classes do not say all: contexts are matched, or their parameters read.
+bool ChoosingCompiler::wants_positions() const {
+    if (system_.decomposition.uses_context || system_.ordered() || rules_.several_strict ||
+        (rules_.uses_context && !system_.decomposition.empty())) {
+        return true;
+    }
+    const auto in_context = [&](std::uint32_t p) { return !rules_.productions[p].context_free(); };
+    return std::any_of(choosing_.tried.begin(), choosing_.tried.end(), in_context) ||
+           std::any_of(rules_.productions.begin(), rules_.productions.end(),
+                       [](const CompiledProduction& production) { return production.reads_context; });
+}
+
+}  // namespace
+
+Choosing make_choosing(const CompiledSystem& system) {
+    return ChoosingCompiler(system).compile();
+}
+
+}  // namespace espalier

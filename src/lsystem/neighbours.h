@@ -1,0 +1,72 @@
+// The modules that contexts look at, found once for a whole string: whatever branches and ignored modules lie between,
+// matching then takes a time proportional to the pattern.
+#pragma once
+
+#include "espalier/lsystem/module_string.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace espalier {
+
+/// One way of looking along the string: each module that is passed keeps the neighbour or becomes it.
+struct Gaze {
+    bool wanted = false;
+    bool branches = true;              ///< brackets begin and end branches; else they are modules like others
+    std::vector<std::uint16_t> codes;  ///< by letter: its class, or `keeps` if it is passed over
+
+    static constexpr std::uint16_t keeps = 0xFF00;
+};
+
+/// What productions ask of a string's neighbours.
+struct Gazes {
+    Gaze left;
+    Gaze right;
+    Gaze next;               ///< to the right, but into branches: for patterns that name `[`
+    bool positions = false;  ///< where neighbours stand; else the classes of their letters are enough
+    bool ring = false;
+};
+
+/// A part of the string, seen from inside: what its modules see beyond it is filled in when all parts are known.
+template <class Value>
+struct Section {
+    std::size_t begin = 0, end = 0;
+    std::vector<std::uint32_t> exits;  ///< brackets that end branches begun before this part
+    Column<Value> entries;             ///< what is seen before branches that begin here and end after this part
+    Value last{};                      ///< what is seen from behind this part
+    std::vector<Value> beyond;         ///< what is seen before this part, and before the branch that each exit ends
+};
+
+/// Neighbours of the modules of one string, in the columns that are asked for; memory is reused.
+class Neighbours {
+public:
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+    /// Modules that one thread looks at before another may have its turn.
+    static constexpr std::size_t grain = 8192;
+
+    void find(const Gazes& gazes, const ModuleString& string);
+
+    // Positions, or `none`.
+    Column<std::uint32_t> left, right, next;
+    // Classes; 0 stands for no neighbour and for letters that no context names.
+    Column<std::uint8_t> left_classes, right_classes;
+
+private:
+    std::vector<Section<std::uint32_t>> positions_;
+    std::vector<Section<std::uint8_t>> classes_;
+};
+
+/// Where the parameters of each module begin, in half the memory that plain offsets take.
+class ParameterPlaces {
+public:
+    /// Returns how many parameters all modules have.
+    std::size_t find(const ModuleString& string, const std::uint16_t* arities);
+
+    std::size_t operator[](std::size_t module) const { return bases_[module / Neighbours::grain] + within_[module]; }
+
+private:
+    std::vector<std::size_t> bases_;
+    Column<std::uint32_t> within_;
+};
+
+}  // namespace espalier
