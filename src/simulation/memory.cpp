@@ -31,10 +31,24 @@ std::size_t peak_memory() {
 }
 
 MemoryShares share_memory(std::size_t budget, std::size_t processes) {
-    // Measured: a plant of nothing but F makes a run peak at seven times the bytes of its strings, because an internode
-    // takes 96 bytes and the recorder copies it. So an eighth of what the plants have is for strings.
     const std::size_t fields = processes == 0 ? 0 : budget / 2;
-    return {(budget - fields) / 8, processes == 0 ? 0 : fields / processes};
+    const std::size_t plants = budget - fields;
+    // A step's new strings are made before anyone knows how much will be drawn of them: room for them stays free.
+    return {plants / 4 * 3, plants / 4, processes == 0 ? 0 : fields / processes};
+}
+
+// Measured: the timeline takes a copy of the frame (half of `strings` is the new ones), its mesh twice, and its text.
+std::size_t PlantMemory::recorded() const {
+    return strings + strings / 2 + drawn * 4;
+}
+
+std::size_t bytes_of(const Interpretation& interpretation) {
+    const auto held = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
+    const PlantGeometry& geometry = interpretation.geometry;
+    const DrawnMesh& mesh = geometry.mesh;
+    return held(interpretation.queries) + held(geometry.internodes) + held(geometry.polygons) +
+           held(geometry.vertices) + held(geometry.organs) + held(mesh.vertices) + held(mesh.triangles) +
+           held(mesh.pieces) + held(geometry.labels) + held(geometry.textures);
 }
 
 }  // namespace espalier

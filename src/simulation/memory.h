@@ -1,15 +1,28 @@
 // How much memory a run may take, and how it is shared out.
 #pragma once
 
+#include "espalier/turtle/interpretation.h"
+
 #include <cstddef>
 
 namespace espalier {
 
-/// A budget divided between the plants' strings, their geometry and the fields of the processes.
+/// A budget divided between the plants and the fields of the processes.
 struct MemoryShares {
-    std::size_t strings;  ///< all strings together, old and new
+    std::size_t plants;   ///< strings, old and new, what is drawn of them, and its way to the timeline
+    std::size_t string;   ///< the strings of any one plant, which it asks for before anyone else can look
     std::size_t process;  ///< the fields of each process
 };
 MemoryShares share_memory(std::size_t budget, std::size_t processes);
+
+/// What plants hold: their strings, and what was drawn of them.
+struct PlantMemory {
+    std::size_t strings = 0, drawn = 0;
+
+    /// With the copy and the meshes that the timeline makes.
+    std::size_t recorded() const;
+};
+
+std::size_t bytes_of(const Interpretation& interpretation);
 
 }  // namespace espalier

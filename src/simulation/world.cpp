@@ -9,17 +9,24 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <mutex>
 
 namespace espalier {
 namespace {
 
 struct Plant {
+    std::uint32_t number = 0;
     const PlantDescription* description = nullptr;
     const Model* model = nullptr;
-    std::shared_ptr<const SymbolTable> symbols;
+    const SymbolTable* symbols = nullptr;
     Derivation derivation;
     ModuleString string, next;
     Interpretation interpretation;
+    // As the last derivation and interpretation left them: looking them up in the derivation of every plant costs more
+    // than a small plant's step.
+    PlantMemory memory = {};
+    int length = 0;
+    bool stopped = false;
 };
 
 class Stopwatch {
@@ -48,19 +55,31 @@ std::string folder_of(const std::string& name) {
 struct World::State {
     Scene scene;
     MemoryShares shares;
-    std::vector<Plant> plants;
+    std::vector<Plant> plants;  ///< stay where they are: views and strings point to them
+    std::vector<PlantView> views;
+    std::vector<ModuleString*> strings;
+    std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
     std::unique_ptr<Environment> environment;
     int step = 0;
     StageTimes times;
-    std::vector<PlantFrame> frames;
     std::vector<Diagnostic> warnings;
+    // Of all plants, as the last derivation and interpretation left them.
+    PlantMemory memory;
+    std::size_t modules = 0;
+    int longest = 0;
+    bool stopped = false;
+    // Of the step that was asked for last.
+    std::vector<PlantFrame> frames;
+    int frames_of = -1;
 
     double time() const { return step * scene.dt; }
     template <class Action>
     void for_every_plant(const Action& action);
-    void derive(const std::function<void(Plant&)>& rewrite);
+    template <class Rewrite>
+    void derive(const Rewrite& rewrite);
     void interpret_and_exchange();
-    void require_strings_fit() const;
+    void sum_up();
+    void require_memory(const PlantMemory& needed) const;
     void make_frames();
     DerivationSettings settings_of(const PlantDescription& plant, const std::filesystem::path& files) const;
 };
@@ -68,63 +87,102 @@ struct World::State {
 // All plants in parallel. Of several failures the first plant's is reported, whoever failed first.
 template <class Action>
 void World::State::for_every_plant(const Action& action) {
-    std::vector<std::exception_ptr> failures(plants.size());
+    std::mutex failing;
+    std::exception_ptr failure;
+    std::size_t failed = plants.size();
     tbb::parallel_for(std::size_t(0), plants.size(), [&](std::size_t i) {
         try {
-            action(plants[i], static_cast<std::uint32_t>(i));
-        } catch (const RunError& error) {
-            const std::string who = plants.size() == 1 ? "" : fmt::format("plant '{}': ", scene.plants[i].name);
-            failures[i] = std::make_exception_ptr(RunError(who + error.what()));
+            action(plants[i]);
         } catch (...) {
-            failures[i] = std::current_exception();
+            const std::lock_guard lock(failing);
+            if (i > failed) return;
+            failed = i;
+            failure = std::current_exception();
         }
     });
-    for (const std::exception_ptr& failure : failures) {
-        if (failure) std::rethrow_exception(failure);
+    if (!failure) return;
+    try {
+        std::rethrow_exception(failure);
+    } catch (const RunError& error) {
+        if (plants.size() == 1) throw;
+        throw RunError(fmt::format("plant '{}': {}", scene.plants[failed].name, error.what()));
     }
 }
 
-void World::State::derive(const std::function<void(Plant&)>& rewrite) {
+template <class Rewrite>
+void World::State::derive(const Rewrite& rewrite) {
     const Stopwatch stopwatch(times.derive);
-    for_every_plant([&](Plant& plant, std::uint32_t) { rewrite(plant); });
-    require_strings_fit();
+    for_every_plant([&](Plant& plant) {
+        rewrite(plant);
+        plant.memory.strings = plant.string.bytes() + plant.next.bytes();
+        plant.length = plant.derivation.length();
+        plant.stopped = plant.derivation.stopped();
+    });
+    sum_up();
+}
+
+void World::State::sum_up() {
+    const std::size_t before = modules;
+    memory.strings = 0;
+    modules = 0;
+    longest = 0;
+    stopped = false;
+    for (const Plant& plant : plants) {
+        memory.strings += plant.memory.strings;
+        modules += plant.string.size();
+        longest = std::max(longest, plant.length);
+        stopped = stopped || plant.stopped;
+    }
+    // Nobody knows what will be drawn of strings before it is: as much of a module as in the step before.
+    const double growth = before == 0 ? 1 : static_cast<double>(modules) / static_cast<double>(before);
+    require_memory(
+        {memory.strings, static_cast<std::size_t>(static_cast<double>(memory.drawn) * std::max(growth, 1.0))});
+}
+
+void World::State::require_memory(const PlantMemory& needed) const {
+    if (needed.recorded() <= shares.plants) return;
+    const auto largest = std::max_element(
+        plants.begin(), plants.end(), [](const Plant& a, const Plant& b) { return a.string.size() < b.string.size(); });
+    throw RunError(
+        fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
+                    "leaves {} MiB for plants; the largest is '{}' with {} modules",
+                    step, modules, needed.recorded() >> 20, shares.plants >> 20, largest->description->name,
+                    largest->string.size()));
 }
 
 void World::State::interpret_and_exchange() {
     {
         const Stopwatch stopwatch(times.interpret);
-        for_every_plant([&](Plant& plant, std::uint32_t number) {
+        for_every_plant([&](Plant& plant) {
             interpret(*plant.model, *plant.symbols, plant.string, plant.description->turtle, &plant.derivation,
-                      {number}, plant.interpretation);
+                      {plant.number}, plant.interpretation);
+            plant.memory.drawn = bytes_of(plant.interpretation);
         });
+        memory.drawn = 0;
+        for (const Plant& plant : plants) memory.drawn += plant.memory.drawn;
+        require_memory(memory);
     }
     const Stopwatch stopwatch(times.exchange);
-    std::vector<PlantView> views;
-    std::vector<ModuleString*> strings;
-    for (Plant& plant : plants) {
-        views.push_back({static_cast<std::uint32_t>(views.size()), plant.model, &plant.string, &plant.interpretation});
-        strings.push_back(&plant.string);
-    }
     environment->exchange({step, time(), scene.dt, views}, strings);
-    make_frames();
+    frames_of = -1;
 }
 
-// Every plant may take the whole share, so the sum is looked at after each step.
-void World::State::require_strings_fit() const {
-    std::size_t bytes = 0;
-    for (const Plant& plant : plants) bytes += plant.string.bytes() + plant.next.bytes();
-    if (bytes <= shares.strings) return;
-    throw RunError(fmt::format("step {}: the strings of all plants take {} MiB, but --memory leaves them {} MiB", step,
-                               bytes >> 20, shares.strings >> 20));
-}
-
+// Nothing of a frame but what the processes say of a plant changes from step to step.
 void World::State::make_frames() {
-    frames.clear();
-    for (const Plant& plant : plants) {
-        const auto number = static_cast<std::uint32_t>(frames.size());
-        frames.push_back({number, plant.description->name, plant.model, &plant.string, &plant.interpretation,
-                          environment->statistics(number), plant.description->palette.get()});
+    if (frames_of == step) return;
+    if (frames.empty()) {
+        for (const Plant& plant : plants) {
+            frames.push_back({plant.number,
+                              plant.description->name,
+                              plant.model,
+                              &plant.string,
+                              &plant.interpretation,
+                              {},
+                              plant.description->palette.get()});
+        }
     }
+    for (PlantFrame& frame : frames) frame.quantities = environment->statistics(frame.plant);
+    frames_of = step;
 }
 
 DerivationSettings World::State::settings_of(const PlantDescription& plant, const std::filesystem::path& files) const {
@@ -132,7 +190,7 @@ DerivationSettings World::State::settings_of(const PlantDescription& plant, cons
     settings.seed = scene.seed;
     settings.plant = plant.stream;
     settings.lineage = true;
-    settings.memory = shares.strings;
+    settings.memory = shares.string;
     settings.input_folder = folder_with(source_of(*plant.model));
     if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
     return settings;
@@ -160,16 +218,20 @@ World::World(const Scene& scene, std::size_t memory, const std::filesystem::path
     if (scene.routed) state.environment->route_by_first_parameter();
     if (scene.keeps_unanswered) state.environment->keep_unanswered();
 
-    std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
     state.plants.reserve(scene.plants.size());
     for (const PlantDescription& description : state.scene.plants) {
         const Model& model = source_of(*description.model);
         state.environment->require_answers(model, description.name);
-        auto& table = symbols[description.model.get()];
+        auto& table = state.symbols[description.model.get()];
         if (!table) table = symbol_table(model);
         Derivation derivation(description.model, state.settings_of(description, files));
         if (scene.sets_length) derivation.set_length(scene.steps);
-        state.plants.push_back({&description, &model, table, std::move(derivation), {}, {}, {}});
+        const auto number = static_cast<std::uint32_t>(state.plants.size());
+        state.longest = std::max(state.longest, derivation.length());
+        Plant& plant = state.plants.emplace_back(
+            Plant{number, &description, &model, table.get(), std::move(derivation), {}, {}, {}});
+        state.views.push_back({number, &model, &plant.string, &plant.interpretation});
+        state.strings.push_back(&plant.string);
     }
 }
 
@@ -202,10 +264,7 @@ void World::derive() {
 }
 
 int World::last_step() const {
-    if (state_->scene.last_frame) return *state_->scene.last_frame;
-    int longest = 0;
-    for (const Plant& plant : state_->plants) longest = std::max(longest, plant.derivation.length());
-    return longest;
+    return state_->scene.last_frame.value_or(state_->longest);
 }
 
 int World::steps_done() const {
@@ -213,16 +272,11 @@ int World::steps_done() const {
 }
 
 bool World::stopped() const {
-    for (const Plant& plant : state_->plants) {
-        if (plant.derivation.stopped()) return true;
-    }
-    return false;
+    return state_->stopped;
 }
 
 std::size_t World::modules() const {
-    std::size_t modules = 0;
-    for (const Plant& plant : state_->plants) modules += plant.string.size();
-    return modules;
+    return state_->modules;
 }
 
 const StageTimes& World::times() const {
@@ -230,6 +284,7 @@ const StageTimes& World::times() const {
 }
 
 Frame World::frame() const {
+    state_->make_frames();
     return {state_->step, state_->time(), state_->frames, &state_->environment->fields()};
 }
 

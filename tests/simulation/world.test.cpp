@@ -123,6 +123,31 @@ TEST_CASE_METHOD(Worlds, "strings that would outgrow the memory end the run and 
     CHECK(world.steps_done() < 25);
 }
 
+TEST_CASE_METHOD(Worlds, "what is drawn of a string counts against the memory, too", "[simulation]") {
+    const auto steps_within_64_mib = [&](const std::string& rule) {
+        World world(scene("lsystem: 1\nderivation length: 60\naxiom: " + rule + "\nendlsystem\n"), 64 << 20);
+        CHECK_THROWS_WITH(walk(world, 60), Contains("step ") && Contains("memory"));
+        return world.steps_done();
+    };
+    CHECK(steps_within_64_mib("F\nF --> FF") < steps_within_64_mib("X\nX --> XX"));  // X draws nothing
+}
+
+TEST_CASE_METHOD(Worlds, "plants that fit one by one but not together end the run, and the largest is named",
+                 "[simulation]") {
+    const std::string model =
+        "#define SIZE 1\nlsystem: 1\nderivation length: 60\naxiom: A(SIZE)\n"
+        "A(n) : n == 2 --> F(1)F(1)\nA(n) --> F(1)\nF(l) --> F(l)F(l)\nendlsystem\n";
+    World alone(scene(model, "[simulation]\nsteps = 14\n"), 64 << 20);
+    CHECK_NOTHROW(walk(alone, 14));
+    World stand(scene(model,
+                      "[simulation]\nsteps = 14\n"
+                      "[[plant]]\nmodel = 'plant.l'\nname = 'oak'\ndefine = { SIZE = 2 }\n"
+                      "[[plant]]\nmodel = 'plant.l'\nname = 'ash'\ngrid = { columns = 60, spacing = 1 }\n"),
+                64 << 20);
+    CHECK_THROWS_WITH(walk(stand, 14), Contains("step ") && Contains("'oak'") && Contains("--memory"));
+    CHECK(stand.steps_done() < 14);
+}
+
 TEST_CASE_METHOD(Worlds, "a process nobody defined, and one nobody answers for, are errors before step 0",
                  "[simulation]") {
     CHECK_THROWS_WITH(World(scene(doubling, "[environment.light]\nprocess = 'voxel-shde'\n")),
