@@ -2,6 +2,8 @@
 
 #include "espalier/simulation/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -52,7 +54,11 @@ void run_benchmark(const std::string& name, Collector& collector) {
         if (std::string_view(R"(.[]{}()*+?^$|\)").find(c) != std::string_view::npos) exactly += '\\';
         exactly += c;
     }
-    benchmark::RunSpecifiedBenchmarks(&collector, exactly + "$");
+    try {
+        benchmark::RunSpecifiedBenchmarks(&collector, exactly + "$");
+    } catch (const std::exception& error) {  // its row is not measured; the others are
+        fmt::print(stderr, "{}: {}\n", name, error.what());
+    }
 }
 
 double counter(const std::map<std::string, double>& counters, const char* name) {

@@ -1,0 +1,152 @@
+// Scale: stands of trees that compete for light, with and without their timeline, and many small plants beside one
+// large one. Items are modules of every step.
+#include "espalier/simulation/simulation.h"
+#include "espalier/simulation/world.h"
+#include "espalier/timeline/timeline.h"
+
+#include "table.h"
+#include "temporary_folder.h"
+
+#include <fmt/format.h>
+
+#include <benchmark/benchmark.h>
+#include <chrono>
+#include <cmath>
+
+namespace espalier::bench {
+namespace {
+
+double seconds_of(const auto& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Grows a world by so many steps: seconds and modules of all of them.
+struct Growth {
+    double seconds = 0;
+    std::int64_t modules = 0;
+
+    void step(World& world) {
+        seconds += seconds_of([&] { world.step(); });
+        modules += static_cast<std::int64_t>(world.modules());
+    }
+};
+
+/// Seven cycles of growth: some 900 modules a tree.
+constexpr int cycles = 7, steps = cycles * (cycles + 7) / 2;
+
+/// environments/forest.toml with so many trees.
+Scene forest(std::int64_t trees) {
+    const auto columns = std::llround(std::sqrt(double(trees)));
+    const auto rows = (trees + columns - 1) / columns;
+    return read_scene(
+        ESPALIER_SOURCE_DIR "/environments/forest.toml",
+        {.overrides = {{"plant.0.grid.columns", std::to_string(columns)}, {"plant.0.grid.rows", std::to_string(rows)}},
+         .steps = steps});
+}
+
+void forest(benchmark::State& state) {
+    const Scene scene = forest(state.range(0));
+    Growth growth;
+    for (auto _ : state) {
+        World world(scene);
+        world.start();
+        const double before = growth.seconds;
+        while (world.steps_done() < steps) growth.step(world);
+        state.SetIterationTime(growth.seconds - before);
+        state.counters["modules"] = double(world.modules());
+    }
+    state.SetItemsProcessed(growth.modules);
+}
+BENCHMARK(forest)->Arg(100)->Arg(1000)->Arg(10000)->UseManualTime()->Unit(benchmark::kSecond)->Iterations(1);
+
+/// The last steps of a stand and their frames.
+void forest_recorded(benchmark::State& state) {
+    constexpr int recorded = 4;
+    const Scene scene = forest(state.range(0));
+    for (auto _ : state) {
+        const TemporaryFolder folder;
+        World world(scene);
+        world.start();
+        while (world.steps_done() < steps - recorded) world.step();
+        Timeline timeline(folder.path() / "run", scene.timeline, steps);
+        double recording = 0;
+        Growth growth;
+        while (world.steps_done() < steps) {
+            growth.step(world);
+            recording += seconds_of([&] { timeline.record(world.frame()); });
+        }
+        recording += seconds_of([&] { timeline.finish(); });
+        state.SetIterationTime(recording);
+        state.counters["work"] = recording;
+        state.counters["yardstick"] = growth.seconds;
+    }
+}
+BENCHMARK(forest_recorded)->Arg(1000)->UseManualTime()->Unit(benchmark::kSecond)->Iterations(1);
+
+/// L(n) becomes n herbs of 26 modules each, which then only stretch.
+const char* const herbs = R"(
+#define COUNT 1
+lsystem: 1
+derivation length: 100
+axiom: L(COUNT)
+L(n) : n > 1 --> L(floor(n / 2)) L(n - floor(n / 2))
+L(n) --> f(1) [ F(1) [ +(30) F(0.5) [ &(40) F(0.2) ] F(0.3) ] F(0.8) [ -(30) F(0.5) [ ^(40) F(0.2) ] F(0.3) ] F(0.6) ]
+F(l) --> F(l * 1.001)
+endlsystem
+)";
+
+/// A world of so many plants that hold as many herbs in all as `herbs` says.
+void herbs_in_plants(benchmark::State& state) {
+    constexpr int unfolding = 15, measured = 20;
+    const std::int64_t all = 10'000, plants = state.range(0);
+    const TemporaryFolder folder;
+    folder.write("herbs.l", herbs);
+    const Scene scene = read_scene_text(
+        fmt::format("[simulation]\nsteps = 100\n[[plant]]\nmodel = 'herbs.l'\ndefine = {{ COUNT = {} }}\n"
+                    "grid = {{ columns = {}, spacing = 1.0 }}\n",
+                    all / plants, plants),
+        "herbs.toml", folder.path());
+    World world(scene);
+    world.start();
+    while (world.steps_done() < unfolding) world.step();
+    Growth growth;
+    for (auto _ : state) {
+        const double before = growth.seconds;
+        for (int k = 0; k < measured; ++k) growth.step(world);
+        state.SetIterationTime(growth.seconds - before);
+    }
+    state.SetItemsProcessed(growth.modules);
+}
+BENCHMARK(herbs_in_plants)->Arg(1)->Arg(10000)->UseManualTime();
+
+using Measure = Row::Measure;
+using Goal = Row::Goal;
+const Row small_plants{"10,000 small plants, a module's time against one large plant",
+                       "herbs_in_plants/10000/manual_time",
+                       "herbs_in_plants/1/manual_time",
+                       Measure::time_per_item,
+                       Goal::at_most,
+                       1.2};
+const Row thousand{"forest of 1,000 trees, a module's time against 100",
+                   "forest/1000/iterations:1/manual_time",
+                   "forest/100/iterations:1/manual_time",
+                   Measure::time_per_item,
+                   Goal::at_most,
+                   1.2};
+const Row ten_thousand{"forest of 10,000 trees, a module's time against 1,000",
+                       "forest/10000/iterations:1/manual_time",
+                       "forest/1000/iterations:1/manual_time",
+                       Measure::time_per_item,
+                       Goal::at_most,
+                       1.2};
+const Row recorded{"recording a forest of 1,000 trees, against growing it",
+                   "forest_recorded/1000/iterations:1/manual_time",
+                   "",
+                   Measure::counters,
+                   Goal::at_most,
+                   1};
+
+}  // namespace
+}  // namespace espalier::bench
