@@ -50,7 +50,6 @@ void bare_plant_plain(benchmark::State& state) {
 }
 BENCHMARK(bare_plant_plain)->UseRealTime();
 
-constexpr double r1 = 0.9, r2 = 0.6, wr = 0.707;
 
 void honda_tree(benchmark::State& state) {
     ModelBuilder model;

@@ -41,6 +41,8 @@ public:
           symbols_(symbol_table(model_)),
           asks_(has_queries(model_.alphabet)) {}
 
+    bool asks() const { return asks_; }
+
     void exchange(ModuleString& string, const Derivation& derivation) {
         if (!asks_) return;
         interpret(model_, *symbols_, string, turtle_, &derivation, {}, interpretation_);
@@ -88,8 +90,9 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     grow({[&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); },
           [&] { derivation.start(string); },
           [&] {
-              derivation.step(string, next);
-              std::swap(string, next);
+              // Where nothing is answered between steps, nobody looks at the strings between.
+              const int left = derivation.length() - derivation.steps_done();
+              derivation.advance(string, next, answers.asks() ? 1 : left);
           },
           [&] { answers.exchange(string, derivation); }},
          before_exchange);

@@ -204,7 +204,8 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
     if (production.weight) compiled.weight = programs_.value(*production.weight);
     compiled.successor = programs_.arguments(production.successor);
     compiled.length = production.successor.size();
-    compiled.letters.assign(whole_blocks(compiled.length, letter_block), Alphabet::open_bracket);
+    compiled.letters.assign(whole_blocks(std::max<std::size_t>(compiled.length, 1), letter_block),
+                            Alphabet::open_bracket);
     for (std::size_t k = 0; k < compiled.length; ++k) {
         compiled.letters[k] = production.successor[k].letter;
         compiled.arities.push_back(static_cast<std::uint16_t>(production.successor[k].arguments.size()));

@@ -1,6 +1,7 @@
 #include "espalier/base/excerpt.h"
 
 #include "painter.h"
+#include "powers.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@ namespace espalier {
 namespace {
 
 constexpr double most_steps = 1e9;
+constexpr int longest_leap = 64;  // what words become is remembered for every step of a leap
 
 }  // namespace
 
@@ -242,8 +244,18 @@ void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
         follow_length();
         warn_of_depth();
     } else {
-        rewrite_in_two_passes(input, scratch, machines, to);
+        rewrite_in_two_passes(input, scratch, forecast, machines, to);
     }
+}
+
+int Derivation::State::leap(const ModuleString& from, ModuleString& to, int steps) {
+    if (steps < 2 || lineage || !has_powers(*model)) return 0;
+    const int leapt = std::min(steps, longest_leap);
+    if (!raise_to_power(main, from, leapt, settings.memory, to)) return 0;
+    step += static_cast<std::uint32_t>(leapt);
+    variables.globals[0] = step;
+    ++generation;
+    return leapt;
 }
 
 Derivation::Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings)
@@ -277,6 +289,16 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     state.run_block(state.main.end_each, "the EndEach block");
     if (steps_done() == length()) state.run_block(state.main.end, "the End block");
     state.files.flush_all();
+}
+
+void Derivation::advance(ModuleString& string, ModuleString& spare, int steps) {
+    const int planned = length();
+    while (steps > 0 && !stopped() && length() == planned) {
+        const int leapt = state_->leap(string, spare, steps);
+        if (leapt == 0) step(string, spare);
+        std::swap(string, spare);
+        steps -= std::max(leapt, 1);
+    }
 }
 
 int Derivation::steps_done() const {

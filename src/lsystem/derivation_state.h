@@ -35,6 +35,8 @@ struct Derivation::State {
     std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;
     StepInput prepare(const ModuleString& from);
     void rewrite(const ModuleString& from, ModuleString& to);
+    /// Several steps at once; returns how many, 0 if the model does not allow it.
+    int leap(const ModuleString& from, ModuleString& to, int steps);
     /// The same where the string holds sub-L-systems.
     void rewrite_nested(const ModuleString& from, ModuleString& to);
     void warn_of_depth();
@@ -54,6 +56,7 @@ struct Derivation::State {
     int length = 0;
     bool length_is_set = false;  ///< by set_length(), not by the model
     Scratch scratch;
+    Forecast forecast;  ///< of the string that was written last
     Machines machines;
     /// Grows with every change of variables, so that painters know what they have seen.
     std::uint64_t generation = 0;

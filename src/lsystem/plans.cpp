@@ -48,6 +48,14 @@ Plan copy_of(LetterId letter, std::uint16_t arity) {
     return copy;
 }
 
+/// What the production of a module before it has consumed.
+Plan consumed_of(std::uint16_t arity) {
+    Plan consumed;
+    consumed.letters = consumed.block.data();
+    consumed.arity = arity;
+    return consumed;
+}
+
 void measure(Plans& plans) {
     const auto include = [&](const Plan& plan) {
         plans.longest = std::max<std::size_t>(plans.longest, plan.length);
@@ -84,21 +92,23 @@ Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
     const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
     Plans plans;
-    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
+    plans.choices.reserve(rules.productions.size() + 2 * arities.size());  // never moved, since plans point to it
     for (std::size_t l = 0; l < arities.size(); ++l) {
         const auto letter = static_cast<LetterId>(l);
-        Plan plan = copy_of(letter, arities[l]);
-        if (rules.always[l] >= 0) {
-            plan = plan_of(rules.productions[static_cast<std::size_t>(rules.always[l])]);
-        } else if (rules.has(letter)) {
+        const bool known = rules.always[l] >= 0;
+        Plan plan =
+            known ? plan_of(rules.productions[static_cast<std::size_t>(rules.always[l])]) : copy_of(letter, arities[l]);
+        plans.choices.push_back(plan);
+        plan.choices = &plans.choices.back();
+        if (rules.has(letter) && !known) {
             plans.all_known = false;
-            plans.choices.push_back(plan);
             plan.kind = Plan::Kind::choose;
-            plan.choices = &plans.choices.back();
             for (std::uint32_t k = rules.first[l]; k < rules.first[l + 1]; ++k) {
                 plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
             }
         }
+        plans.choices.push_back(consumed_of(arities[l]));
+        plans.consumed.push_back(static_cast<LetterId>(&plans.choices.back() - plan.choices));
         plans.of_letter.push_back(plan);
     }
     measure(plans);

@@ -61,13 +61,16 @@ struct alignas(64) Plan {
 
     const LetterId* letters = nullptr;               ///< all of them, padded to whole blocks
     const CompiledProduction* production = nullptr;  ///< null: the module is copied
-    const Plan* choices = nullptr;  ///< to choose from: the copy, then the productions of the letter in file order
+    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order; last,
+    /// that the production of a module before it has consumed it.
+    const Plan* choices = nullptr;
 };
 
 struct Plans {
     std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
-    std::vector<Plan> choices;                       ///< of letters of kind `choose`, one after the other
+    std::vector<Plan> choices;                       ///< of all letters, one after the other
+    std::vector<LetterId> consumed;                  ///< by letter, the last of its choices
     bool all_known = true;                           ///< no letter needs choosing
     bool looks_ahead = false;                        ///< Plan::next is known
     // The most that any plan reads and writes.

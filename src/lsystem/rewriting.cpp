@@ -29,6 +29,12 @@ void count(const StepInput& input, Chunk& chunk) {
     const std::uint32_t* const lengths = input.model.plans.lengths.data();
     const std::uint32_t* const counts = input.model.plans.parameters.data();
     const LetterId* const letters = input.from.letters.data();
+    if (!input.model.plans.all_known) {
+        // Measuring will say how long they become.
+        if (input.from.parameters.empty()) return;
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) chunk.parameters_at += arities[letters[i]];
+        return;
+    }
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
         chunk.parameters_at += arities[letters[i]];
         chunk.out_end += lengths[letters[i]];
@@ -86,8 +92,7 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
     }
 }
 
-bool recall_chunks(const StepInput& input, Scratch& scratch) {
-    const Forecast& forecast = scratch.forecast;
+bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& scratch) {
     const bool whole = input.kept.size() == 1 && input.kept[0] == std::pair(std::size_t{0}, forecast.modules);
     if (!input.model.plans.looks_ahead || !whole || input.from.letters.data() != forecast.letters ||
         input.from.parameters.size() != forecast.parameters) {
@@ -110,8 +115,7 @@ bool recall_chunks(const StepInput& input, Scratch& scratch) {
     return true;
 }
 
-void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch) {
-    Forecast& forecast = scratch.forecast;
+void remember_chunks(const StepInput& input, const ModuleString& to, const Scratch& scratch, Forecast& forecast) {
     forecast.letters = input.model.plans.looks_ahead ? to.letters.data() : nullptr;
     forecast.modules = to.size();
     forecast.parameters = to.parameters.size();

@@ -60,9 +60,8 @@ struct Scratch {
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
     std::vector<std::vector<Stretch>> stretches;  ///< what each chunk wrote
-    Forecast forecast;
-    Column<LetterId> choices;          ///< which of its letter's Plan::choices each module takes
-    std::vector<ModuleString> pieces;  ///< of chunks whose length is not known before they are written
+    Column<LetterId> choices;                     ///< which of its letter's Plan::choices each module takes
+    std::vector<ModuleString> pieces;             ///< of chunks whose length is not known before they are written
 };
 
 /// The modules born of one parent in one step.
@@ -85,9 +84,9 @@ void make_chunks(const StepInput& input, Scratch& scratch);
 
 /// The same from the forecast, without reading the string; false if there is none for it. Somebody may have changed
 /// the string's letters since: who relies on these chunks must see whether they fit.
-bool recall_chunks(const StepInput& input, Scratch& scratch);
+bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& scratch);
 /// Keeps what the chunks' stretches say of the string that they were written to.
-void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch);
+void remember_chunks(const StepInput& input, const ModuleString& to, const Scratch& scratch, Forecast& forecast);
 
 /// Calls work(chunk, machine) for all chunks, in parallel if there are several. If several fail, the first in string
 /// order is reported.
@@ -118,7 +117,8 @@ std::size_t bytes_needed(std::size_t modules, std::size_t parameters, bool linea
                                 const std::vector<std::uint64_t>& uses);
 
 /// Match and measure, prefix sum, write: for productions that can be applied in any order, without decomposition.
-void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to);
+void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& forecast, Machines& machines,
+                           ModuleString& to);
 
 /// One pass, with decomposition; in string order if the model asks for it, else by chunks that are then joined.
 /// `limit` is set if decomposition stopped at its maximum depth though it could have gone on.

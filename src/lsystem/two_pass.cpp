@@ -13,8 +13,8 @@ std::vector<std::uint64_t> count_uses(const StepInput& input, const Scratch& scr
     std::vector<std::uint64_t> uses(productions.size());
     for (const Chunk& chunk : scratch.chunks) {
         for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-            const Plan& known = input.model.plans.of_letter[input.from.letters[i]];
-            const Plan& used = known.kind == Plan::Kind::choose ? known.choices[scratch.choices[i]] : known;
+            const Plan& plan = input.model.plans.of_letter[input.from.letters[i]];
+            const Plan& used = input.model.plans.all_known ? plan : plan.choices[scratch.choices[i]];
             if (used.production) ++uses[static_cast<std::size_t>(used.production - productions.data())];
         }
     }
@@ -54,10 +54,11 @@ bool write_all(const StepInput& input, Scratch& scratch, Machines& machines, Mod
 
 }  // namespace
 
-void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
-    if (recall_chunks(input, scratch)) {
+void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& forecast, Machines& machines,
+                           ModuleString& to) {
+    if (recall_chunks(input, forecast, scratch)) {
         place(input, scratch, to);
-        if (write_all(input, scratch, machines, to)) return remember_chunks(input, to, scratch);
+        if (write_all(input, scratch, machines, to)) return remember_chunks(input, to, scratch, forecast);
     }
     make_chunks(input, scratch);
     if (!input.model.plans.all_known) {
@@ -67,7 +68,7 @@ void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Machines& m
     }
     place(input, scratch, to);
     write_all(input, scratch, machines, to);
-    remember_chunks(input, to, scratch);
+    remember_chunks(input, to, scratch, forecast);
 }
 
 }  // namespace espalier

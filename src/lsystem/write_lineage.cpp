@@ -44,10 +44,11 @@ void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& 
     const LetterId* const letters = input.from.letters.data();
     const Plan* const plans = input.model.plans.of_letter.data();
     const LineageColumns columns(to, chunk.out);
+    const bool known = input.model.plans.all_known;
     std::size_t at = 0;
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
         const Plan* plan = plans + letters[i];
-        if (plan->kind == Plan::Kind::choose) plan = plan->choices + scratch.choices[i];
+        if (!known) plan = plan->choices + scratch.choices[i];
         if (plan->production)
             write_brood(input, *plan->production, i, columns, at);
         else if (plan->length == 1)

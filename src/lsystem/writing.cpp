@@ -147,7 +147,7 @@ void Writer::write_round(std::size_t count) {
     for (const LetterId* const end = at.in + count; at.in != end;) {
         const Plan* plan = plans + *at.in;
         if constexpr (Choosing) {
-            if (plan->kind == Plan::Kind::choose) plan = plan->choices + choices[at.in - letters];
+            plan = plan->choices + choices[at.in - letters];
         }
         copy_letters(plan->block.data(), at.out);
         if (plan->length > letter_block) {
@@ -189,7 +189,7 @@ void Writer::write_round(std::size_t count) {
 
 const Plan& Writer::plan_at(const LetterId* in) const {
     const Plan& plan = plans_.of_letter[*in];
-    if (plan.kind != Plan::Kind::choose) return plan;
+    if (plans_.all_known) return plan;
     return plan.choices[scratch_.choices[static_cast<std::size_t>(in - input_.from.letters.data())]];
 }
 

@@ -61,6 +61,11 @@ public:
     /// (naming file, line, column, module and values), and when the memory budget would be exceeded.
     void step(const ModuleString& from, ModuleString& to);
 
+    /// Up to so many steps at once, of which only the last string is wanted; fewer if the model stops or changes its
+    /// length. Faster than one by one where nothing but its letter decides what becomes of a module. `spare`'s memory
+    /// is used and its content lost.
+    void advance(ModuleString& string, ModuleString& spare, int steps);
+
     int steps_done() const;
     /// The model's derivation length, or what a scene set with set_length().
     int length() const;

@@ -1,0 +1,255 @@
+// Whatever a step is taken for, it writes what the plain derivation writes.
+#include "catch.h"
+#include "lsystem/reference_derivation.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <string>
+
+using namespace espalier;
+using namespace espalier::test;
+
+namespace {
+
+/// What a random model may have.
+struct Kind {
+    bool parameters = false, conditions = false, several = false;
+    std::size_t longest = 20;  ///< successor
+};
+
+class RandomModel {
+public:
+    RandomModel(unsigned seed, const Kind& kind) : random_(seed), kind_(kind) {
+        for (int k = 0; k < 6; ++k) arities_.push_back(kind.parameters ? below(7) : 0);
+        builder.system().axiom = word(20, 0);
+        const int rules = 3 + below(3);
+        for (int r = 0; r < rules; ++r) add_rule();
+    }
+
+    ModelBuilder builder;
+
+private:
+    int below(int limit) { return std::uniform_int_distribution(0, limit - 1)(random_); }
+    std::string symbol(int index) const { return std::string(1, static_cast<char>('A' + index)); }
+
+    void add_rule() {
+        std::vector<Pattern> strict;
+        int formals = 0;
+        const int width = kind_.several && below(2) == 0 ? 2 + below(2) : 1;
+        for (int k = 0; k < width; ++k) {
+            const int letter = below(6);
+            strict.push_back({symbol(letter), arities_[static_cast<std::size_t>(letter)]});
+            formals += strict.back().arity;
+        }
+        // Mostly short, so that strings grow slowly; sometimes longer than any block.
+        const int length = below(8) == 0 ? below(static_cast<int>(kind_.longest)) : below(4);
+        Production& production = builder.rule(strict, word(length, formals));
+        if (kind_.conditions && formals > 0 && below(2) == 0) production.condition = value(formals) < value(formals);
+    }
+
+    std::vector<ModuleTemplate> word(int length, int formals) {
+        std::vector<ModuleTemplate> modules;
+        for (int k = 0; k < length; ++k) {
+            const int letter = below(6);
+            std::vector<Expression> arguments;
+            for (int a = 0; a < arities_[static_cast<std::size_t>(letter)]; ++a) arguments.push_back(value(formals));
+            modules.push_back(builder.module(symbol(letter), std::move(arguments)));
+        }
+        return modules;
+    }
+
+    /// Copies, constants, products and sums that lanes can hold, and some that only a program can.
+    Expression value(int formals) {
+        const double constant = (below(200) - 100) / 64.0;
+        if (formals == 0) return number(constant);
+        const Expression parameter = formal(static_cast<std::uint32_t>(below(formals)));
+        const Expression other = formal(static_cast<std::uint32_t>(below(formals)));
+        switch (below(8)) {
+            case 0:
+                return number(constant);
+            case 1:
+            case 2:
+                return parameter;
+            case 3:
+                return parameter * number(constant / 2);
+            case 4:
+                return number(constant) - parameter * number(0.25);
+            case 5:
+                return parameter * number(0.5) + number(constant);
+            case 6:
+                return (parameter + other) * number(0.375);
+            default:
+                return choose(parameter < other, parameter * number(0.5), other * number(0.25));
+        }
+    }
+
+    std::mt19937 random_;
+    Kind kind_;
+    std::vector<int> arities_;
+};
+
+constexpr std::size_t longest_string = 150'000;
+
+/// Grows a random model and the plain one side by side; returns the longest string.
+std::size_t compare(unsigned seed, const Kind& kind, bool lineage, std::size_t threads) {
+    RandomModel model(seed, kind);
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    DerivationSettings settings;
+    settings.lineage = lineage;
+    Derivation derivation(model.builder.compiled(), settings);
+    const Alphabet& alphabet = model.builder.model().alphabet;
+    ModuleString string, next;
+    derivation.start(string);
+    PlainString plain = plain_copy(string, alphabet);
+    std::size_t longest = 0;
+    for (std::uint32_t step = 1; step <= 40; ++step) {
+        plain = plain_step(model.builder.model(), plain, step);
+        if (plain.size() > longest_string) break;
+        derivation.step(string, next);
+        std::swap(string, next);
+        INFO("seed " << seed << ", step " << step);
+        REQUIRE(differences(plain, plain_copy(string, alphabet), lineage) == 0);
+        longest = std::max(longest, plain.size());
+    }
+    return longest;
+}
+
+void compare_many(const Kind& kind) {
+    std::size_t longest = 0;
+    for (unsigned seed = 0; seed < 24; ++seed) {
+        const std::size_t threads[] = {1, 2, 8};
+        longest = std::max(longest, compare(seed, kind, seed % 2 == 0, threads[seed % 3]));
+    }
+    CHECK(longest > 30'000);  // more than a chunk
+}
+
+}  // namespace
+
+TEST_CASE("random bare models grow as the plain derivation does", "[lsystem]") {
+    compare_many({});
+}
+
+TEST_CASE("random models with very long successors grow as the plain derivation does", "[lsystem]") {
+    compare_many({.longest = 3000});
+}
+
+TEST_CASE("random parametric models grow as the plain derivation does", "[lsystem]") {
+    compare_many({.parameters = true});
+}
+
+TEST_CASE("random models with conditions grow as the plain derivation does", "[lsystem]") {
+    compare_many({.parameters = true, .conditions = true});
+}
+
+TEST_CASE("random models with predecessors of several modules grow as the plain derivation does", "[lsystem]") {
+    compare_many({.parameters = true, .conditions = true, .several = true});
+}
+
+TEST_CASE("several steps at once end at the string that single steps reach", "[lsystem]") {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        RandomModel model(seed, {.parameters = seed % 4 == 3, .conditions = seed % 8 == 7});
+        const auto compiled = model.builder.compiled();
+        Derivation single(compiled), leaping(compiled);
+        ModuleString string, next, leapt, spare;
+        single.start(string);
+        leaping.start(leapt);
+        for (const int steps : {1, 3, 4, 2}) {
+            for (int k = 0; k < steps; ++k) {
+                single.step(string, next);
+                std::swap(string, next);
+            }
+            leaping.advance(leapt, spare, steps);
+            CHECK(leapt.letters == string.letters);
+            CHECK(leapt.parameters == string.parameters);
+            CHECK(leaping.steps_done() == single.steps_done());
+        }
+    }
+}
+
+TEST_CASE("a thousand steps at once are as many as one by one, where nothing grows", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("ABBC");
+    model.rule("A", "BC");
+    model.rule("B", "A");
+    model.rule("C", "");
+    Derivation derivation(model.compiled());
+    ModuleString string, spare;
+    derivation.start(string);
+    derivation.advance(string, spare, 1001);
+    CHECK(derivation.steps_done() == 1001);
+    CHECK(to_text(string, model.model().alphabet) == "BCAA");
+}
+
+TEST_CASE("several steps at once stop where one of them would outgrow its memory", "[lsystem]") {
+    const auto message = [](bool leaps) {
+        ModelBuilder model;
+        model.system().axiom = model.word("AB");
+        model.rule("A", "AAAA");
+        model.rule("B", "BB");
+        DerivationSettings settings;
+        settings.memory = 1 << 20;
+        Derivation derivation(model.compiled(), settings);
+        ModuleString string, spare;
+        derivation.start(string);
+        try {
+            if (leaps) derivation.advance(string, spare, 30);
+            for (int k = 0; k < 30; ++k) {
+                derivation.step(string, spare);
+                std::swap(string, spare);
+            }
+        } catch (const RunError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(message(true).find("step 10:") != std::string::npos);
+    CHECK(message(true) == message(false));
+}
+
+TEST_CASE("several steps end where the model stops or changes its length", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("A");
+    model.rule("A", "AB");
+    model.system().derivation_length = number(9);
+    model.system().end_each = {run(call(Function::set_derivation_length, {number(3)}))};
+    Derivation derivation(model.compiled());
+    ModuleString string, spare;
+    derivation.start(string);
+    derivation.advance(string, spare, 9);
+    CHECK(derivation.steps_done() == 1);
+    CHECK(derivation.length() == 3);
+}
+
+TEST_CASE("letters that somebody changed between steps are derived as they stand", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("A", {number(1), number(2)})};
+    model.rule({{"A", 2}}, {model.module("A", {formal(0), formal(1) * number(0.5)}), model.module("B", {formal(0)}),
+                            model.module("A", {formal(1), formal(0)})});
+    model.rule({{"B", 1}}, {model.module("C", {}), model.module("B", {formal(0)})});
+    const Alphabet& alphabet = model.model().alphabet;
+    Derivation derivation(model.compiled());
+    ModuleString string = grow(derivation, 14), next;
+    REQUIRE(string.size() > 40'000);
+    // As many of each letter as before, but in other places, so that every chunk's measure is wrong.
+    std::reverse(string.letters.begin(), string.letters.end());
+    const PlainString expected = plain_step(model.model(), plain_copy(string, alphabet), 15);
+    derivation.step(string, next);
+    CHECK(differences(expected, plain_copy(next, alphabet), false) == 0);
+}
+
+TEST_CASE("the first value of many that is not finite is named", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("A", {number(1), number(1)})};
+    model.rule({{"A", 2}}, {model.module("A", {formal(0) * number(2), formal(1) * number(1e20)}),
+                            model.module("A", {formal(0) * number(2) + number(1), formal(1) * number(1e20)})});
+    for (const std::size_t threads : {1, 2, 8}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        try {
+            text_after(model, 16);
+            FAIL("no error");
+        } catch (const RunError& error) {
+            CHECK(std::string(error.what()).find("in module A(32768,1e+300) at step 16") != std::string::npos);
+        }
+    }
+}

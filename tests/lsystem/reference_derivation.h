@@ -1,0 +1,141 @@
+// The plainest derivation there is, one module at a time: what every fast path must agree with.
+#pragma once
+
+#include "espalier/base/random.h"
+
+#include "lsystem/model_builder.h"
+
+#include <cstddef>
+#include <random>
+#include <vector>
+
+namespace espalier::test {
+
+struct PlainModule {
+    LetterId letter = no_letter;
+    std::vector<double> values;
+    Identity identity = 0, parent = 0;
+    std::uint32_t birth = 0;
+};
+
+using PlainString = std::vector<PlainModule>;
+
+/// Numbers, formals, + - * <, and conditionals.
+inline double plain_value(const Expression& expression, const std::vector<double>& formals) {
+    const auto operand = [&](std::size_t k) { return plain_value(expression.operands[k], formals); };
+    switch (expression.kind) {
+        case Expression::Kind::number:
+            return expression.value;
+        case Expression::Kind::formal:
+            return formals.at(expression.index);
+        case Expression::Kind::conditional:
+            return operand(operand(0) != 0 ? 1 : 2);
+        default:
+            break;
+    }
+    switch (expression.op) {
+        case Operator::add:
+            return operand(0) + operand(1);
+        case Operator::subtract:
+            return operand(0) - operand(1);
+        case Operator::multiply:
+            return operand(0) * operand(1);
+        default:
+            return operand(0) < operand(1);
+    }
+}
+
+/// The first production in file order whose strict predecessor begins at a module and whose condition holds.
+inline const Production* plain_choice(const LSystem& system, const PlainString& string, std::size_t at,
+                                      std::vector<double>& formals) {
+    for (const Production& production : system.productions) {
+        const std::size_t width = production.strict.size();
+        if (at + width > string.size()) continue;
+        formals.clear();
+        bool matches = true;
+        for (std::size_t k = 0; k < width; ++k) {
+            matches &= production.strict[k].letter == string[at + k].letter;
+            formals.insert(formals.end(), string[at + k].values.begin(), string[at + k].values.end());
+        }
+        if (matches && (!production.condition || plain_value(*production.condition, formals) != 0)) return &production;
+    }
+    return nullptr;
+}
+
+/// What replaces modules from `at` on: the first of each strict module's symbol carries it on, the others are born.
+inline void plain_successor(const Production& production, const Alphabet& alphabet, const PlainString& string,
+                            std::size_t at, const std::vector<double>& formals, std::uint32_t step, PlainString& to) {
+    const std::size_t first = to.size();
+    std::vector<bool> carried(production.successor.size());
+    for (const ModuleTemplate& module : production.successor) {
+        PlainModule made;
+        made.letter = module.letter;
+        for (const Expression& argument : module.arguments) made.values.push_back(plain_value(argument, formals));
+        to.push_back(made);
+    }
+    for (std::size_t s = 0; s < production.strict.size(); ++s) {
+        for (std::size_t k = 0; k < carried.size(); ++k) {
+            if (carried[k] || alphabet.symbol_of(to[first + k].letter) != alphabet.symbol_of(string[at + s].letter)) {
+                continue;
+            }
+            carried[k] = true;
+            to[first + k].identity = string[at + s].identity;
+            to[first + k].parent = string[at + s].parent;
+            to[first + k].birth = string[at + s].birth;
+            break;
+        }
+    }
+    std::uint64_t place = 0;
+    for (std::size_t k = 0; k < carried.size(); ++k) {
+        if (carried[k]) continue;
+        to[first + k].identity = mix(mix(string[at].identity, step) ^ place++);
+        to[first + k].parent = string[at].identity;
+        to[first + k].birth = step;
+    }
+}
+
+inline PlainString plain_step(const Model& model, const PlainString& string, std::uint32_t step) {
+    PlainString to;
+    std::vector<double> formals;
+    for (std::size_t i = 0; i < string.size();) {
+        const Production* const production = plain_choice(model.main(), string, i, formals);
+        if (!production) {
+            to.push_back(string[i++]);
+            continue;
+        }
+        plain_successor(*production, model.alphabet, string, i, formals, step, to);
+        i += production->strict.size();
+    }
+    return to;
+}
+
+inline PlainString plain_copy(const ModuleString& string, const Alphabet& alphabet) {
+    PlainString copy(string.size());
+    const double* value = string.parameters.data();
+    for (std::size_t i = 0; i < copy.size(); ++i) {
+        copy[i].letter = string.letters[i];
+        const int arity = alphabet.arity(copy[i].letter);
+        copy[i].values.assign(value, value + arity);
+        value += arity;
+        if (!string.has_lineage()) continue;
+        copy[i].identity = string.identities[i];
+        copy[i].parent = string.parents[i];
+        copy[i].birth = string.births[i];
+    }
+    return copy;
+}
+
+/// Modules that differ, or more if the strings have not the same length.
+inline std::size_t differences(const PlainString& expected, const PlainString& found, bool lineage) {
+    if (expected.size() != found.size()) return std::max(expected.size(), found.size());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const PlainModule &a = expected[i], &b = found[i];
+        bool same = a.letter == b.letter && a.values == b.values;
+        if (lineage) same &= a.identity == b.identity && a.parent == b.parent && a.birth == b.birth;
+        different += !same;
+    }
+    return different;
+}
+
+}  // namespace espalier::test
