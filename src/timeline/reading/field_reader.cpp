@@ -101,6 +101,26 @@ RecordedField read_vdb(const std::filesystem::path& path, const std::string& nam
 
 }  // namespace
 
+Field read_grid(const std::filesystem::path& path, const std::string& name) {
+    auto held = std::make_shared<FieldGrid>();
+    if (path.extension() == ".vdb") {
+        held->grid = open_grid(path, name);
+        held->box = held->grid->evalActiveVoxelBoundingBox();
+        return {name, metadata(*held->grid, "unit"), metadata(*held->grid, "meaning"), held};
+    }
+    initialize_openvdb();
+    RecordedField field = read_vti(path, name);
+    held->box = {openvdb::Coord(0), openvdb::Coord(field.size.x - 1, field.size.y - 1, field.size.z - 1)};
+    held->grid = openvdb::FloatGrid::create();
+    auto transform = openvdb::math::Transform::createLinearTransform();
+    transform->postScale({field.voxel.x, field.voxel.y, field.voxel.z});
+    transform->postTranslate({field.origin.x, field.origin.y, field.origin.z});
+    held->grid->setTransform(transform);
+    const openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(held->box, field.values.data());
+    openvdb::tools::copyFromDense(dense, *held->grid, 0.0f);
+    return {name, field.unit, field.meaning, held};
+}
+
 RecordedField read_field(const std::filesystem::path& path, const std::string& name) {
     return path.extension() == ".vdb" ? read_vdb(path, name) : read_vti(path, name);
 }

@@ -1,11 +1,14 @@
 // fields/NAME/NNNN.vti and .vdb, read back.
 #pragma once
 
+#include "espalier/environment/field.h"
 #include "espalier/timeline/recorded_run.h"
 
 namespace espalier {
 
 /// Of a .vdb the box of its active voxels; what the .vti holds otherwise. Throws UserError naming the file.
 RecordedField read_field(const std::filesystem::path& path, const std::string& name);
+/// The same as a grid that nobody else holds.
+Field read_grid(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace espalier

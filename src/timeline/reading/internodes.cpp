@@ -1,7 +1,10 @@
 #include "espalier/timeline/recorded_run.h"
 
+#include <algorithm>
 #include <bit>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace espalier {
 namespace {
@@ -39,20 +42,32 @@ public:
 
     void add(std::int32_t number) {
         const RecordedInternode& internode = internodes_[static_cast<std::size_t>(number)];
-        tips_.emplace(Spot{internode.plant, internode.tip}, number);
-        bases_.emplace(Spot{internode.plant, internode.base}, number);
+        put(tips_[{internode.plant, internode.tip}], internode.order, number);
+        put(bases_[{internode.plant, internode.base}], internode.order, number);
     }
 
 private:
-    using Spots = std::unordered_multimap<Spot, std::int32_t, SpotHash>;
+    /// The last internode of each order at one spot: any number of axes may meet there.
+    using Candidates = std::vector<std::pair<std::uint16_t, std::int32_t>>;
+    using Spots = std::unordered_map<Spot, Candidates, SpotHash>;
+
+    static void put(Candidates& candidates, std::uint16_t order, std::int32_t number) {
+        for (auto& [known, last] : candidates) {
+            if (known != order) continue;
+            last = number;
+            return;
+        }
+        candidates.emplace_back(order, number);
+    }
 
     // The last of lower order; if none is of lower order, the last.
-    std::int32_t best(const Spots& spots, const Spot& spot, std::uint16_t order) const {
+    static std::int32_t best(const Spots& spots, const Spot& spot, std::uint16_t order) {
         std::int32_t lower = RecordedInternode::none, any = RecordedInternode::none;
-        const auto [begin, end] = spots.equal_range(spot);
-        for (auto at = begin; at != end; ++at) {
-            any = std::max(any, at->second);
-            if (internodes_[static_cast<std::size_t>(at->second)].order < order) lower = std::max(lower, at->second);
+        const auto found = spots.find(spot);
+        if (found == spots.end()) return any;
+        for (const auto& [known, last] : found->second) {
+            any = std::max(any, last);
+            if (known < order) lower = std::max(lower, last);
         }
         return lower != RecordedInternode::none ? lower : any;
     }

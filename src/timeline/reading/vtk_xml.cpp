@@ -4,7 +4,10 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkDataCompressor.h>
+#include <vtkLZ4DataCompressor.h>
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkZLibDataCompressor.h>
 
 #include <algorithm>
@@ -60,6 +63,8 @@ std::vector<std::uint64_t> words(const std::vector<char>& bytes) {
 /// VTK's inline data: the header in base64, then all blocks in base64. Returns false if it is damaged.
 class CompressedBlocks {
 public:
+    explicit CompressedBlocks(vtkDataCompressor& compressor) : compressor_(compressor) {}
+
     bool read(std::string_view text, std::vector<char>& result) {
         return read_header(text) && decode_base64(text.substr(base64_length(header_.size() * 8)), packed_) &&
                unpack(result);
@@ -70,7 +75,7 @@ private:
         std::vector<char> bytes;
         if (!decode_base64(text.substr(0, base64_length(header_words * 8)), bytes)) return false;
         header_ = words(bytes);
-        if (header_.size() != header_words || header_[0] > text.size()) return false;
+        if (header_.size() < header_words || header_[0] > text.size()) return false;
         const std::uint64_t all = header_words + header_[0];
         if (!decode_base64(text.substr(0, base64_length(all * 8)), bytes)) return false;
         header_ = words(bytes);
@@ -94,17 +99,28 @@ private:
     bool unpack(std::size_t at, std::size_t packed, std::size_t plain, std::vector<char>& result) {
         const std::size_t before = result.size();
         result.resize(before + plain);
-        vtkNew<vtkCallbackCommand> silence;  // VTK prints errors unless somebody listens
-        silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-        vtkNew<vtkZLibDataCompressor> zlib;
-        zlib->AddObserver(vtkCommand::ErrorEvent, silence);
         const auto* from = reinterpret_cast<const unsigned char*>(packed_.data() + at);
-        return zlib->Uncompress(from, packed, reinterpret_cast<unsigned char*>(result.data() + before), plain) == plain;
+        auto* to = reinterpret_cast<unsigned char*>(result.data() + before);
+        return compressor_.Uncompress(from, packed, to, plain) == plain;
     }
 
+    vtkDataCompressor& compressor_;
     std::vector<std::uint64_t> header_;
     std::vector<char> packed_;
 };
+
+/// Null for a name that the timeline does not write. VTK prints errors unless somebody listens.
+vtkSmartPointer<vtkDataCompressor> compressor_of(std::string_view name) {
+    vtkSmartPointer<vtkDataCompressor> compressor;
+    if (name == "vtkLZ4DataCompressor") compressor = vtkSmartPointer<vtkLZ4DataCompressor>::New();
+    if (name == "vtkZLibDataCompressor") compressor = vtkSmartPointer<vtkZLibDataCompressor>::New();
+    if (!compressor) return compressor;
+    vtkNew<vtkCallbackCommand> silence;
+    silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    compressor->AddObserver(vtkCommand::ErrorEvent, silence);
+    compressor->AddObserver(vtkCommand::WarningEvent, silence);
+    return compressor;
+}
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blanks = " \t\r\n";
@@ -124,7 +140,7 @@ VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const std::string& typ
     }
     data_set_ = root_.child(type);
     if (root_.attribute("type") != type || !data_set_ || root_.attribute("header_type") != "UInt64" ||
-        root_.attribute("byte_order") != "LittleEndian" || root_.attribute("compressor") != "vtkZLibDataCompressor") {
+        root_.attribute("byte_order") != "LittleEndian" || !compressor_of(root_.attribute("compressor"))) {
         fail(fmt::format("it is no {} as a run writes it", type));
     }
 }
@@ -167,7 +183,9 @@ VtkArray VtkXmlFile::array(const XmlElement& element) const {
     if (!element.attribute("NumberOfComponents").empty()) {
         result.components = std::max<std::size_t>(1, count(element, "NumberOfComponents"));
     }
-    if (element.attribute("format") != "binary" || !CompressedBlocks().read(trimmed(element.text), result.bytes)) {
+    const auto compressor = compressor_of(root_.attribute("compressor"));
+    const bool binary = element.attribute("format") == "binary";
+    if (!binary || !CompressedBlocks(*compressor).read(trimmed(element.text), result.bytes)) {
         fail(fmt::format("the data of array '{}' are damaged", element.attribute("Name")));
     }
     return result;

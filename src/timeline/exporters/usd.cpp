@@ -1,0 +1,258 @@
+// USD as text: growth as time samples. A plant has curves with widths for its axes and a mesh for its surfaces.
+#include "espalier/base/file.h"
+
+#include "timeline/export/colour.h"
+#include "timeline/export/surface_mesh.h"
+#include "timeline/export/tubes.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include <iterator>
+
+namespace espalier {
+namespace {
+
+/// An attribute's value at each frame, as text.
+class Samples {
+public:
+    /// `declaration` is as in "point3f[] points"; `metadata` may be "".
+    Samples(std::string declaration, std::string metadata)
+        : declaration_(std::move(declaration)), metadata_(std::move(metadata)) {}
+
+    void add(int step, std::string value) {
+        // Between three equal ones the middle one says nothing.
+        const std::size_t count = values_.size();
+        if (count >= 2 && values_[count - 1].second == value && values_[count - 2].second == value) values_.pop_back();
+        values_.emplace_back(step, std::move(value));
+    }
+
+    void append_to(std::string& text) const {
+        const std::string metadata =
+            metadata_.empty() ? ""
+                              : fmt::format(" (\n                interpolation = \"{}\"\n            )", metadata_);
+        if (values_.size() == 1) {
+            fmt::format_to(std::back_inserter(text), "            {} = {}{}\n", declaration_, values_[0].second,
+                           metadata);
+            return;
+        }
+        if (!metadata.empty()) fmt::format_to(std::back_inserter(text), "            {}{}\n", declaration_, metadata);
+        fmt::format_to(std::back_inserter(text), "            {}.timeSamples = {{\n", declaration_);
+        for (const auto& [step, value] : values_) {
+            fmt::format_to(std::back_inserter(text), "                {}: {},\n", step, value);
+        }
+        text += "            }\n";
+    }
+
+private:
+    std::string declaration_, metadata_;
+    std::vector<std::pair<int, std::string>> values_;
+};
+
+template <class Range, class Format>
+std::string list(const Range& range, const Format& format) {
+    std::string text = "[";
+    for (const auto& value : range) {
+        if (text.size() > 1) text += ", ";
+        format(text, value);
+    }
+    return text + "]";
+}
+
+void put_number(std::string& text, auto number) {
+    fmt::format_to(std::back_inserter(text), "{}", number);
+}
+
+void put_vector(std::string& text, const glm::vec3& v) {
+    fmt::format_to(std::back_inserter(text), "({}, {}, {})", v.x, v.y, v.z);
+}
+
+std::string numbers(const auto& range) {
+    return list(range, [](std::string& text, const auto& value) { put_number(text, value); });
+}
+
+std::string vectors(const std::vector<glm::vec3>& range) {
+    return list(range, put_vector);
+}
+
+std::string colours(const std::vector<Rgb>& range) {
+    return list(range, [](std::string& text, const Rgb& rgb) { put_vector(text, linear_light(rgb)); });
+}
+
+std::string extent(const std::vector<glm::vec3>& points, float margin) {
+    if (points.empty()) return "[(0, 0, 0), (0, 0, 0)]";
+    glm::vec3 lower = points.front(), upper = lower;
+    for (const glm::vec3& point : points) {
+        lower = glm::min(lower, point);
+        upper = glm::max(upper, point);
+    }
+    return vectors({lower - margin, upper + margin});
+}
+
+const char* visibility(bool visible) {
+    return visible ? "\"inherited\"" : "\"invisible\"";
+}
+
+/// The axes of one plant at one frame.
+struct Curves {
+    std::vector<int> counts;
+    std::vector<glm::vec3> points;
+    std::vector<float> widths;
+    std::vector<Rgb> rgb;
+    std::vector<int> births;
+    float widest = 0;
+};
+
+class PlantSamples {
+public:
+    void add(int step, const Curves& curves) {
+        counts_.add(step, numbers(curves.counts));
+        points_.add(step, vectors(curves.points));
+        widths_.add(step, numbers(curves.widths));
+        colours_.add(step, colours(curves.rgb));
+        births_.add(step, numbers(curves.births));
+        extent_.add(step, extent(curves.points, curves.widest / 2));
+        shown_.add(step, visibility(!curves.counts.empty()));
+    }
+
+    void add(int step, const ExportMesh& mesh, std::uint32_t plant) {
+        std::vector<glm::vec3> points, normals;
+        std::vector<glm::vec2> uvs;
+        std::vector<Rgb> rgb;
+        std::vector<std::size_t> corners;
+        for (const ExportPart& part : mesh.parts) {
+            if (part.plant != plant) continue;
+            const std::size_t shift = points.size() - part.first_vertex;
+            for (std::size_t i = part.first_vertex; i < part.first_vertex + part.vertices; ++i) {
+                points.push_back(mesh.points[i]);
+                normals.push_back(mesh.normals[i]);
+                uvs.push_back(mesh.uvs[i]);
+            }
+            for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
+                rgb.push_back(mesh.materials[mesh.material_of[i]].rgb);
+                for (const std::uint32_t corner : mesh.triangles[i]) corners.push_back(corner + shift);
+            }
+        }
+        triangles_ += rgb.size();
+        face_counts_.add(step, numbers(std::vector<int>(rgb.size(), 3)));
+        corners_.add(step, numbers(corners));
+        mesh_points_.add(step, vectors(points));
+        normals_.add(step, vectors(normals));
+        uvs_.add(step, list(uvs, [](std::string& text, const glm::vec2& uv) {
+                     fmt::format_to(std::back_inserter(text), "({}, {})", uv.x, uv.y);
+                 }));
+        mesh_colours_.add(step, colours(rgb));
+        mesh_extent_.add(step, extent(points, 0));
+        mesh_shown_.add(step, visibility(!rgb.empty()));
+    }
+
+    std::size_t triangles() const { return triangles_; }
+
+    void append_to(std::string& text, const std::string& name, const std::string& label) const {
+        text += "    def Xform \"" + name + "\" (\n        displayName = \"" + label + "\"\n    )\n    {\n";
+        text += "        def BasisCurves \"axes\"\n        {\n            uniform token type = \"linear\"\n";
+        for (const Samples* samples : {&counts_, &points_, &widths_, &colours_, &births_, &extent_, &shown_}) {
+            samples->append_to(text);
+        }
+        text +=
+            "        }\n        def Mesh \"surfaces\"\n        {\n            uniform bool doubleSided = true\n"
+            "            uniform token subdivisionScheme = \"none\"\n";
+        for (const Samples* samples :
+             {&face_counts_, &corners_, &mesh_points_, &normals_, &uvs_, &mesh_colours_, &mesh_extent_, &mesh_shown_}) {
+            samples->append_to(text);
+        }
+        text += "        }\n    }\n";
+    }
+
+private:
+    Samples counts_{"int[] curveVertexCounts", ""}, points_{"point3f[] points", ""},
+        widths_{"float[] widths", "vertex"}, colours_{"color3f[] primvars:displayColor", "vertex"},
+        births_{"int[] primvars:birth", "vertex"}, extent_{"float3[] extent", ""}, shown_{"token visibility", ""};
+    Samples face_counts_{"int[] faceVertexCounts", ""}, corners_{"int[] faceVertexIndices", ""},
+        mesh_points_{"point3f[] points", ""}, normals_{"normal3f[] normals", "vertex"},
+        uvs_{"texCoord2f[] primvars:st", "vertex"}, mesh_colours_{"color3f[] primvars:displayColor", "uniform"},
+        mesh_extent_{"float3[] extent", ""}, mesh_shown_{"token visibility", ""};
+    std::size_t triangles_ = 0;
+};
+
+/// The axes of every plant.
+std::vector<Curves> curves_of(const RecordedGeometry& geometry, const ExportJob& job) {
+    std::vector<Curves> result(job.run.plants().size());
+    const float thinnest = thinnest_radius(geometry);
+    for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
+        const std::size_t row = geometry.lines.first + line;
+        if (geometry.of_cells.kinds[row] != Kind::axis) continue;
+        const TubeLine tube = tube_line(geometry, geometry.lines[line], job.options.simplify, thinnest);
+        if (tube.nodes.size() < 2) continue;
+        Curves& curves = result[geometry.of_cells.plants[row]];
+        curves.counts.push_back(static_cast<int>(tube.nodes.size()));
+        for (const TubeNode& node : tube.nodes) {
+            curves.points.push_back(upright(node.position, job.options.up));
+            curves.widths.push_back(2 * node.radius);
+            curves.widest = std::max(curves.widest, 2 * node.radius);
+            curves.rgb.push_back(colour_of(geometry.of_points, static_cast<std::size_t>(node.row)));
+            curves.births.push_back(geometry.of_points.births[static_cast<std::size_t>(node.row)]);
+        }
+    }
+    return result;
+}
+
+// Quotes and backslashes end or change a text.
+std::string quoted(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += static_cast<unsigned char>(c) < 32 ? ' ' : c;
+    }
+    return result;
+}
+
+class Usd final : public Exporter {
+public:
+    void write(const ExportJob& job) const override {
+        std::vector<PlantSamples> plants(job.run.plants().size());
+        const auto wanted = [&](std::uint32_t plant) { return !job.options.plant || *job.options.plant == plant; };
+        for (const RecordedFrame* frame : job.frames) {
+            const RecordedGeometry geometry = job.run.geometry(*frame);
+            const std::vector<Curves> curves = curves_of(geometry, job);
+            const ExportMesh surfaces = surfaces_of(geometry, job.options);
+            for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
+                if (!wanted(plant)) continue;
+                plants[plant].add(frame->step, curves[plant]);
+                plants[plant].add(frame->step, surfaces, plant);
+            }
+        }
+        std::string text = head(job);
+        std::size_t triangles = 0;
+        for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
+            if (!wanted(plant)) continue;
+            const std::string& name = job.run.plants()[plant].name;
+            plants[plant].append_to(text, fmt::format("plant_{}", plant), quoted(name));
+            triangles += plants[plant].triangles();
+        }
+        text += "}\n";
+        const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], "usda") : job.path("usda");
+        write_text(path, text);
+        job.report({path, 0, triangles, job.frames.size(), "time samples"});
+    }
+
+private:
+    static std::string head(const ExportJob& job) {
+        return fmt::format(
+            "#usda 1.0\n(\n    defaultPrim = \"world\"\n    doc = \"{}, made by espalier\"\n    metersPerUnit = 1\n"
+            "    upAxis = \"{}\"\n    startTimeCode = {}\n    endTimeCode = {}\n    timeCodesPerSecond = 24\n)\n\n"
+            "def Xform \"world\"\n{{\n",
+            quoted(job.run.scene()), job.options.up == 'z' ? "Z" : "Y", job.frames.front()->step,
+            job.frames.back()->step);
+    }
+};
+
+const RegisteredExporter entry{
+    {"usd", "USD as text (.usda), growth as time samples: for Houdini, Blender, Omniverse, usdview",
+     "One file: per plant the axes as curves with widths, colour and birth at every node, the surfaces as a mesh, and\n"
+     "when either is visible. A step is a time code, 24 of them a second; --step all for the whole growth.\n"
+     "Lost: identities, parameters, textures; --sides means nothing to curves"},
+    [] { return std::make_unique<Usd>(); }};
+
+}  // namespace
+}  // namespace espalier
