@@ -1,23 +1,19 @@
 // Everything `espalier analyse` measures of a plant in a frame.
 #pragma once
 
+#include "espalier/timeline/run_analysis.h"
+
 #include "timeline/analysis/branching.h"
 #include "timeline/analysis/crown.h"
 #include "timeline/analysis/fractal_dimension.h"
 #include "timeline/analysis/profile.h"
 #include "timeline/analysis/widths.h"
 
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace espalier {
-
-struct AnalysisOptions {
-    std::set<std::string> leaf_symbols;  ///< empty: everything with a surface is a leaf
-    double layer = 0, voxel = 0;         ///< m; 0: chosen for each plant
-};
 
 struct PlantAnalysis {
     std::uint32_t plant = 0;
@@ -50,7 +46,7 @@ std::vector<PlantAnalysis> analyse(const RecordedGeometry& geometry, std::span<c
 
 /// One figure of a plant: a column of analysis.csv.
 struct Measure {
-    std::string name, unit, meaning;
+    MeasureDescription description;
     double (*value)(const PlantAnalysis&);
 };
 const std::vector<Measure>& measures();

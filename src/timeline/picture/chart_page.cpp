@@ -1,4 +1,4 @@
-#include "timeline/picture/chart_page.h"
+#include "espalier/timeline/chart_page.h"
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
@@ -254,7 +254,11 @@ vtkSmartPointer<vtkChartXY> chart_of(const ChartPage& page, const Chart& chart, 
         }
     }
     set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), look, font, chart.x_title, below);
-    set_axis(*drawn->GetAxis(vtkAxis::LEFT), look, font, chart.y_title, ticks_over(y.low, y.high, up));
+    Ticks beside = ticks_over(y.low, y.high, up);
+    const double room = 0.015 * (beside.high - beside.low);  // half a line's width, so that none is cut
+    if (y.high > beside.high - room) beside.high += room;
+    if (y.low < beside.low + room && beside.low != 0) beside.low -= room;
+    set_axis(*drawn->GetAxis(vtkAxis::LEFT), look, font, chart.y_title, beside);
     drawn->GetAxis(vtkAxis::TOP)->SetVisible(false);
     drawn->GetAxis(vtkAxis::RIGHT)->SetVisible(false);
     return drawn;

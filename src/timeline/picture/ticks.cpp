@@ -1,4 +1,4 @@
-#include "timeline/picture/chart_page.h"
+#include "espalier/timeline/chart_page.h"
 
 #include <fmt/format.h>
 

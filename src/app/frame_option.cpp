@@ -1,0 +1,72 @@
+#include "frame_option.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <optional>
+
+namespace espalier {
+namespace {
+
+std::optional<int> whole_number(const std::string& text) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
+    return value;
+}
+
+struct Steps {
+    int from = 0, to = std::numeric_limits<int>::max(), every = 1;
+};
+
+[[noreturn]] void reject(const std::string& text) {
+    throw UserError(fmt::format("--step {}: a step, first, last, all, or FROM:TO[:EVERY] is expected", text));
+}
+
+Steps steps_of(const std::string& text) {
+    Steps steps;
+    if (text == "all") return steps;
+    std::vector<std::string> parts(1);
+    for (const char character : text) {
+        if (character == ':')
+            parts.emplace_back();
+        else
+            parts.back() += character;
+    }
+    if (parts.size() < 2 || parts.size() > 3) reject(text);
+    int* const numbers[] = {&steps.from, &steps.to, &steps.every};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].empty() && i < 2) continue;
+        const std::optional<int> number = whole_number(parts[i]);
+        if (!number || (i == 2 && *number == 0)) reject(text);
+        *numbers[i] = *number;
+    }
+    return steps;
+}
+
+}  // namespace
+
+std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const std::string& text) {
+    std::vector<const RecordedFrame*> recorded;
+    for (const RecordedFrame& frame : run.frames()) recorded.push_back(&frame);
+    if (recorded.empty()) throw UserError(fmt::format("{} holds no frames", run.folder().string()));
+    if (text == "first") return {recorded.front()};
+    if (text == "last") return {recorded.back()};
+    if (const std::optional<int> step = whole_number(text)) return {&run.frame(*step)};
+    const Steps steps = steps_of(text);
+    std::vector<const RecordedFrame*> chosen;
+    for (const RecordedFrame* frame : recorded) {
+        const bool inside = frame->step >= steps.from && frame->step <= steps.to;
+        if (inside && (frame->step - steps.from) % steps.every == 0) chosen.push_back(frame);
+    }
+    if (chosen.empty()) {
+        throw UserError(fmt::format("--step {}: {} has no frame there; its frames are of steps {} to {}", text,
+                                    run.folder().string(), recorded.front()->step, recorded.back()->step));
+    }
+    return chosen;
+}
+
+}  // namespace espalier
