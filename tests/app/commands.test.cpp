@@ -21,7 +21,7 @@ std::size_t lines_in(const std::string& text) {
 TEST_CASE_METHOD(Workplace, "help teaches by example and never fails", "[app]") {
     CHECK(run("--help").code == 0);
     CHECK(run("--version").out == std::string(ESPALIER_VERSION) + "\n");
-    for (const char* command : {"run", "check", "derive", "info", "list"}) {
+    for (const char* command : {"run", "check", "derive", "info", "list", "plot", "analyse"}) {
         const Outcome outcome = run(std::string(command) + " --help");
         CHECK(outcome.code == 0);
         CHECK_THAT(outcome.out, Contains("Example") && Contains(std::string("espalier ") + command));
