@@ -8,6 +8,8 @@
 #include "plans.h"
 #include "program.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -101,6 +103,8 @@ public:
     std::vector<std::uint8_t> ignored;  ///< by letter: passed over in contexts
     bool ring = false;
     bool may_cut = false;  ///< `%` can stand in the string and is no production's business
+    /// Of all plants that grow from it: see workplace.h.
+    mutable tbb::enumerable_thread_specific<std::shared_ptr<Machine>> machines;
 
     Machine machine() const { return Machine(constants, registers, arrays, source->quirks); }
     /// Globals and arrays as declared, external ones not yet lent.
@@ -132,6 +136,8 @@ struct Enclosure {
 
 Enclosure enclosure_of(const Alphabet& alphabet);
 
+class Painter;
+
 class CompiledModel {
 public:
     std::shared_ptr<const Model> source;
@@ -139,6 +145,7 @@ public:
     Enclosure enclosure;
     /// The string may hold sub-L-systems.
     bool nested = false;
+    mutable tbb::enumerable_thread_specific<std::shared_ptr<Painter>> painters;  ///< of all plants that grow from it
 
     const CompiledSystem& main() const { return *systems.front(); }
     /// The L-system of a number; null if there is none.

@@ -16,6 +16,11 @@ namespace {
 constexpr double most_steps = 1e9;
 constexpr int longest_leap = 64;  // what words become is remembered for every step of a leap
 
+std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 }  // namespace
 
 Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given)
@@ -26,11 +31,8 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
               model->any(&CompiledSystem::picture_draws)),
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
-      machines([this] {
-          Machine machine = main.machine();
-          machine.attach(&variables, &services, Stream::derivation);
-          return machine;
-      }) {
+      machines(main, variables, services),
+      serial(next_serial()) {
     if (!settings.print) settings.print = [](const std::string& text) { std::fputs(text.c_str(), stderr); };
     services.print = settings.print;
     services.warn = [this](const Place& place, const std::string& message) { warn_once(place, message); };
@@ -167,7 +169,7 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
 
 // `%` deletes everything from itself to the end of its branch, to `$`, or to the end of the string.
 std::size_t Derivation::State::end_of_cut(const ModuleString& from, std::size_t cut) const {
-    const auto& partner = scratch.links.partner;
+    const auto& partner = scratch->links.partner;
     const std::uint32_t open = partner[cut];
     const std::uint32_t close = open == BranchLinks::none ? BranchLinks::none : partner[open];
     const std::size_t stop = close == BranchLinks::none ? from.size() : close;
@@ -182,21 +184,21 @@ std::size_t Derivation::State::end_of_cut(const ModuleString& from, std::size_t 
 }
 
 void Derivation::State::find_kept(const ModuleString& from) {
-    scratch.kept.clear();
+    scratch->kept.clear();
     std::size_t begin = 0;
     const LetterId* const letters = from.letters.data();
     const LetterId* const end = letters + from.size();
     if (main.may_cut) {
         const LetterId* at = std::find(letters, end, Alphabet::cut);
-        if (at != end) link_branches(from, scratch.links);
+        if (at != end) link_branches(from, scratch->links);
         while (at != end) {
             const auto cut = static_cast<std::size_t>(at - letters);
-            if (cut > begin) scratch.kept.emplace_back(begin, cut);
+            if (cut > begin) scratch->kept.emplace_back(begin, cut);
             begin = end_of_cut(from, cut);
             at = std::find(letters + begin, end, Alphabet::cut);
         }
     }
-    if (begin < from.size()) scratch.kept.emplace_back(begin, from.size());
+    if (begin < from.size()) scratch->kept.emplace_back(begin, from.size());
 }
 
 StepInput Derivation::State::prepare(const ModuleString& from) {
@@ -208,21 +210,21 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
     StringView view{&from};
     const bool uses_context = model->any(&CompiledSystem::uses_context);
     if (uses_context && (model->nested || main.choosing.needs_partners)) {
-        link_branches(from, scratch.links);
-        view.partner = scratch.links.partner.data();
+        link_branches(from, scratch->links);
+        view.partner = scratch->links.partner.data();
     }
     // Where several L-systems share the string, each has neighbours of its own: they are looked for one by one.
     if (uses_context && !model->nested) {
-        scratch.neighbours.find(main.choosing.gazes, from);
-        view.neighbours = &scratch.neighbours;
+        scratch->neighbours.find(main.choosing.gazes, from);
+        view.neighbours = &scratch->neighbours;
     }
     if (model->any(&CompiledSystem::binds_context) && (model->nested || main.choosing.gazes.positions)) {
-        if (scratch.places.find(from, model->source->alphabet.arities().data()) != from.parameters.size()) {
+        if (scratch->places.find(from, model->source->alphabet.arities().data()) != from.parameters.size()) {
             throw RunError("the string's parameters do not fit its modules");
         }
-        view.places = &scratch.places;
+        view.places = &scratch->places;
     }
-    return {main, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch.kept};
+    return {main, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch->kept};
 }
 
 void Derivation::State::warn_of_depth() {
@@ -240,11 +242,11 @@ void Derivation::State::warn_of_depth() {
 void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
     const StepInput input = prepare(from);
     if (main.ordered() || main.rules.several_strict || !main.decomposition.empty()) {
-        rewrite_in_one_pass(input, scratch, machines, services, to, depth_limit);
+        rewrite_in_one_pass(input, *scratch, machines, services, to, depth_limit);
         follow_length();
         warn_of_depth();
     } else {
-        rewrite_in_two_passes(input, scratch, forecast, machines, to);
+        rewrite_in_two_passes(input, *scratch, forecast, machines, to);
     }
 }
 
@@ -282,10 +284,14 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     state.variables.globals[0] = ++state.step;
     ++state.generation;
     state.run_block(state.main.start_each, "the StartEach block");
-    if (state.model->nested)
-        state.rewrite_nested(from, to);
-    else
-        state.rewrite(from, to);
+    {
+        const Workplace workplace(from.size(), state.own_scratch);
+        state.scratch = &workplace.scratch();
+        if (state.model->nested)
+            state.rewrite_nested(from, to);
+        else
+            state.rewrite(from, to);
+    }
     state.run_block(state.main.end_each, "the EndEach block");
     if (steps_done() == length()) state.run_block(state.main.end, "the End block");
     state.files.flush_all();

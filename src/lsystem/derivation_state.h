@@ -15,8 +15,6 @@
 
 namespace espalier {
 
-class Painter;
-
 struct Derivation::State {
     State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given);
 
@@ -55,12 +53,14 @@ struct Derivation::State {
     std::uint32_t step = 0;
     int length = 0;
     bool length_is_set = false;  ///< by set_length(), not by the model
-    Scratch scratch;
-    Forecast forecast;  ///< of the string that was written last
+    std::unique_ptr<Scratch> own_scratch;
+    Scratch* scratch = nullptr;  ///< lent for the step at hand
+    Forecast forecast;           ///< of the string that was written last
     Machines machines;
     /// Grows with every change of variables, so that painters know what they have seen.
     std::uint64_t generation = 0;
-    mutable tbb::enumerable_thread_specific<std::unique_ptr<Painter>> painters;
+    /// Never the same for two states.
+    const std::uint64_t serial;
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
     std::mutex warning;

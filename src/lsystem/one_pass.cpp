@@ -7,28 +7,30 @@
 
 namespace espalier {
 
-GrowingString::GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
+GrowingString::GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes, Room room)
     : string_(string), input_(input), bytes_(bytes) {
     string_.clear();
-    bytes_ += string_.bytes();
+    if (room == Room::lent) return;
+    modules_ = string_.letters.capacity();
+    parameters_ = string_.parameters.capacity();
+    held_ = string_.bytes();
+    bytes_ += held_;
 }
 
 void GrowingString::grow(std::size_t arity) {
-    const std::size_t modules = std::max<std::size_t>(1024, string_.letters.size() * 2);
-    const std::size_t parameters = std::max<std::size_t>(
-        string_.parameters.capacity(), string_.parameters.capacity() - string_.parameters.size() < arity
-                                           ? std::max<std::size_t>(1024, (string_.parameters.size() + arity) * 2)
-                                           : 0);
-    const std::size_t before = string_.bytes();
-    const std::size_t after = bytes_needed(modules, parameters, input_.lineage);
-    const std::size_t total = bytes_ += after > before ? after - before : 0;
-    if (total > input_.memory || modules >= BranchLinks::none) refuse_memory(input_, modules, total, uses);
-    string_.letters.reserve(modules);
-    string_.parameters.reserve(parameters);
+    const std::size_t parameters = string_.parameters.size() + arity;
+    if (string_.letters.size() == modules_) modules_ = std::max<std::size_t>(1024, modules_ * 2);
+    if (parameters > parameters_) parameters_ = std::max<std::size_t>(1024, parameters * 2);
+    const std::size_t needed = bytes_needed(modules_, parameters_, input_.lineage);
+    const std::size_t total = bytes_ += needed > held_ ? needed - held_ : 0;
+    held_ = std::max(held_, needed);
+    if (total > input_.memory || modules_ >= BranchLinks::none) refuse_memory(input_, modules_, total, uses);
+    string_.letters.reserve(modules_);
+    string_.parameters.reserve(parameters_);
     if (!input_.lineage) return;
-    string_.identities.reserve(modules);
-    string_.parents.reserve(modules);
-    string_.births.reserve(modules);
+    string_.identities.reserve(modules_);
+    string_.parents.reserve(modules_);
+    string_.births.reserve(modules_);
 }
 
 OnePass::OnePass(const StepInput& input, Machine& machine, Services& services, GrowingString& out)
@@ -166,10 +168,8 @@ void OnePass::set_draws() {
 
 namespace {
 
-void run_in_order(const StepInput& input, Scratch& scratch, Machine& machine, Services& services, ModuleString& to,
+void run_in_order(const StepInput& input, Scratch& scratch, Machine& machine, Services& services, GrowingString& out,
                   std::atomic<bool>& limit) {
-    std::atomic<std::size_t> bytes = input.from.bytes();
-    GrowingString out(to, input, bytes);
     OnePass pass(input, machine, services, out);
     const auto arities = input.model.source->alphabet.arities();
     std::size_t at = 0, parameters_at = 0, rewritten = 0;
@@ -186,6 +186,21 @@ void copy_column(const Column<T>& from, Column<T>& to, std::size_t at) {
     if (!from.empty()) std::memcpy(to.data() + at, from.data(), from.size() * sizeof(T));
 }
 
+void copy_piece(const ModuleString& piece, ModuleString& to, std::size_t at, std::size_t parameters_at) {
+    copy_column(piece.letters, to.letters, at);
+    copy_column(piece.parameters, to.parameters, parameters_at);
+    copy_column(piece.identities, to.identities, at);
+    copy_column(piece.parents, to.parents, at);
+    copy_column(piece.births, to.births, at);
+}
+
+void make_room(const StepInput& input, ModuleString& to, std::size_t modules, std::size_t parameters,
+               std::size_t held) {
+    const std::size_t bytes = held + bytes_needed(modules, parameters, input.lineage);
+    if (bytes > input.memory || modules >= BranchLinks::none) refuse_memory(input, modules, bytes, {});
+    resize(to, modules, parameters, input.lineage);
+}
+
 void join(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to, std::size_t held) {
     std::size_t modules = 0, parameters = 0;
     for (std::size_t k = 0; k < scratch.chunks.size(); ++k) {
@@ -194,16 +209,10 @@ void join(const StepInput& input, Scratch& scratch, Machines& machines, ModuleSt
         modules += scratch.pieces[k].size();
         parameters += scratch.pieces[k].parameters.size();
     }
-    const std::size_t bytes = held + bytes_needed(modules, parameters, input.lineage);
-    if (bytes > input.memory || modules >= BranchLinks::none) refuse_memory(input, modules, bytes, {});
-    resize(to, modules, parameters, input.lineage);
+    make_room(input, to, modules, parameters, held);
     for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine&) {
         const ModuleString& piece = scratch.pieces[static_cast<std::size_t>(&chunk - scratch.chunks.data())];
-        copy_column(piece.letters, to.letters, chunk.out);
-        copy_column(piece.parameters, to.parameters, chunk.out_parameters);
-        copy_column(piece.identities, to.identities, chunk.out);
-        copy_column(piece.parents, to.parents, chunk.out);
-        copy_column(piece.births, to.births, chunk.out);
+        copy_piece(piece, to, chunk.out, chunk.out_parameters);
     });
 }
 
@@ -212,11 +221,21 @@ void join(const StepInput& input, Scratch& scratch, Machines& machines, ModuleSt
 void rewrite_in_one_pass(const StepInput& input, Scratch& scratch, Machines& machines, Services& services,
                          ModuleString& to, std::atomic<bool>& limit) {
     make_chunks(input, scratch);
-    if (input.model.ordered() || input.model.rules.several_strict || scratch.chunks.size() == 1) {
-        return run_in_order(input, scratch, machines.local(), services, to, limit);
-    }
-    if (scratch.pieces.size() < scratch.chunks.size()) scratch.pieces.resize(scratch.chunks.size());
+    const std::size_t pieces = std::max<std::size_t>(scratch.chunks.size(), 1);
+    if (scratch.pieces.size() < pieces) scratch.pieces.resize(pieces);
     std::atomic<std::size_t> bytes = input.from.bytes();
+    if (scratch.chunks.size() == 1 || input.from.size() <= grain) {
+        // What grows has room to spare; the plant's string shall have what it needs.
+        ModuleString& piece = scratch.pieces[0];
+        GrowingString out(piece, input, bytes, GrowingString::Room::lent);
+        run_in_order(input, scratch, machines.local(), services, out, limit);
+        make_room(input, to, piece.size(), piece.parameters.size(), input.from.bytes());
+        return copy_piece(piece, to, 0, 0);
+    }
+    if (input.model.ordered() || input.model.rules.several_strict) {
+        GrowingString out(to, input, bytes);
+        return run_in_order(input, scratch, machines.local(), services, out, limit);
+    }
     for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) {
         GrowingString out(scratch.pieces[static_cast<std::size_t>(&chunk - scratch.chunks.data())], input, bytes);
         OnePass pass(input, machine, services, out);

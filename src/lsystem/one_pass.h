@@ -11,14 +11,14 @@ namespace espalier {
 /// A string that grows within the step's memory.
 class GrowingString {
 public:
+    /// Of memory that is lent only what is used counts: how much there is depends on who had it before.
+    enum class Room { own, lent };
+
     /// `bytes` counts what all strings that grow in this step hold.
-    GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes);
+    GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes, Room room = Room::own);
 
     void append(LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
-        if (string_.letters.size() == string_.letters.capacity() ||
-            string_.parameters.capacity() - string_.parameters.size() < arity) {
-            grow(arity);
-        }
+        if (string_.letters.size() == modules_ || parameters_ - string_.parameters.size() < arity) grow(arity);
         string_.letters.push_back(letter);
         string_.parameters.insert(string_.parameters.end(), values, values + arity);
         if (!input_.lineage) return;
@@ -35,6 +35,8 @@ private:
     ModuleString& string_;
     const StepInput& input_;
     std::atomic<std::size_t>& bytes_;
+    std::size_t modules_ = 0, parameters_ = 0;  ///< so many have room
+    std::size_t held_ = 0;                      ///< bytes of that
 };
 
 /// Rewrites ranges of the string by the rules of one L-system.

@@ -14,26 +14,34 @@ bool changes(const CompiledRules& rules) {
 
 }  // namespace
 
-Painter::Painter(Derivation::State& state) : state_(state), model_(*state.model), services_(state.services) {
+Painter::Painter(const CompiledModel& model) : model_(model) {
     for (const auto& system : model_.systems) {
         brushes_.push_back(std::make_unique<Brush>(*system));
         changes_ |= changes(system->homomorphism);
     }
 }
 
+void Painter::work_for(Derivation::State& state) {
+    if (serial_ == state.serial) return;
+    serial_ = state.serial;
+    state_ = &state;
+    services_ = state.services;
+    string_ = nullptr;
+}
+
 void Painter::prepare(const CompiledSystem& system, Variables& variables, const StringView& view) {
     Brush& used = brush(system);
     used.machine.attach(&variables, &services_, Stream::homomorphism);
     used.matcher.view(view);
-    used.matcher.set_draws(RandomKey(state_.settings.seed, state_.settings.plant, Stream::homomorphism,
-                                     system.homomorphism.salt.value_or(state_.services.salt)),
-                           state_.step);
+    used.matcher.set_draws(RandomKey(state_->settings.seed, state_->settings.plant, Stream::homomorphism,
+                                     system.homomorphism.salt.value_or(state_->services.salt)),
+                           state_->step);
 }
 
 /// A homomorphism that multiplies at every depth is caught before it has eaten the machine.
 void Painter::require_bounds(const ModuleString& picture, const CompiledProduction& production) const {
     if (picture.size() % modules_between_looks != 0) return;
-    if (picture.size() < most_modules && picture.bytes() <= state_.settings.memory) return;
+    if (picture.size() < most_modules && picture.bytes() <= state_->settings.memory) return;
     throw RunError(
         fmt::format("{}: the picture of one module grows beyond {} modules; look at the maximum depth of "
                     "the homomorphism",
@@ -41,7 +49,7 @@ void Painter::require_bounds(const ModuleString& picture, const CompiledProducti
 }
 
 std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
-    services_.salt = state_.services.salt;
+    services_.salt = state_->services.salt;
     services_.stopped = false;
     const CompiledSystem* system = &model_.main();
     if (model_.nested) {
@@ -52,18 +60,18 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
         if (!rules.has(subject.site.letter) || rules.maximum_depth == 0) return 0;
         prepare(*system, variables_of(scope_), subject.view);
     } else if (changes_) {
-        copy_ = state_.variables;
+        copy_ = state_->variables;
         prepare(*system, copy_, subject.view);
     } else {
-        prepare(*system, state_.variables, subject.view);
+        prepare(*system, state_->variables, subject.view);
     }
     Brush& used = brush(*system);
     const CompiledProduction* production = used.matcher.choose(system->homomorphism, subject.site);
     if (production) {
-        const std::vector<Lineage> strict(production->strict.size(), {subject.site.drawer, 0, 0});
+        strict_.assign(production->strict.size(), {subject.site.drawer, 0, 0});
         used.matcher.begin_successor(*production, subject.site);
         stack_.clear();
-        used.expansion.push_successor(*production, strict.data(), state_.step, 1, stack_);
+        used.expansion.push_successor(*production, strict_.data(), state_->step, 1, stack_);
         Subject inside = subject;
         inside.site.width = production->strict.size();
         if (model_.nested)
@@ -77,7 +85,7 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
 
 void Painter::expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
     brush(model_.main())
-        .expansion.run(stack_, subject.site, state_.step, [&](const ModuleStack::Entry& entry, const double* values) {
+        .expansion.run(stack_, subject.site, state_->step, [&](const ModuleStack::Entry& entry, const double* values) {
             picture.append(entry.letter, {values, entry.arity});
             require_bounds(picture, production);
         });
@@ -89,7 +97,7 @@ void Painter::expand_nested(const Subject& subject, const CompiledProduction& pr
     level_ = 0;
     while (!stack_.empty()) {
         Expansion& expansion = brush(current()).expansion;
-        const ModuleStack::Entry* finished = expansion.replace(stack_, subject.site, state_.step);
+        const ModuleStack::Entry* finished = expansion.replace(stack_, subject.site, state_->step);
         if (!finished) continue;
         picture.append(finished->letter, {expansion.values(), finished->arity});
         require_bounds(picture, production);
@@ -121,7 +129,7 @@ void Painter::open(double id, const Subject& subject) {
     if (inside) {
         throw RunError(fmt::format(
             "{}: a homomorphism opens ?({:g}), which {}, at step {}; there is {}", model_.source->name, id,
-            system ? "would stand inside itself" : "is not an L-system of this model", state_.step, model_.labels()));
+            system ? "would stand inside itself" : "is not an L-system of this model", state_->step, model_.labels()));
     }
     const CompiledSystem& around = current();
     Variables& theirs = inner_.empty() ? variables_of(scope_) : *inner_.back().variables;
@@ -133,11 +141,11 @@ void Painter::open(double id, const Subject& subject) {
 }
 
 void Painter::look_at(const ModuleString& string) {
-    if (string_ == string.letters.data() && size_ == string.size() && generation_ == state_.generation) return;
-    scopes_.find(model_, string, state_.step);
+    if (string_ == string.letters.data() && size_ == string.size() && generation_ == state_->generation) return;
+    scopes_.find(model_, string, state_->step);
     string_ = string.letters.data();
     size_ = string.size();
-    generation_ = state_.generation;
+    generation_ = state_->generation;
     variables_.clear();
     variables_.resize(scopes_.all().size());
     made_.clear();
@@ -147,7 +155,7 @@ void Painter::look_at(const ModuleString& string) {
 Variables& Painter::variables_of(std::uint32_t scope) {
     if (variables_[scope]) return *variables_[scope];
     const Scope& own = scopes_.all()[scope];
-    const Variables* const grown = scope == 0 ? &state_.variables : state_.sub_systems.find(own);
+    const Variables* const grown = scope == 0 ? &state_->variables : state_->sub_systems.find(own);
     auto made = std::make_unique<Variables>(grown ? *grown : own.system->variables());
     if (scope != 0) borrow(*own.system, *made, *scopes_.all()[own.parent].system, variables_of(own.parent));
     if (!grown) run_start(*own.system, *made);
@@ -157,10 +165,10 @@ Variables& Painter::variables_of(std::uint32_t scope) {
 
 // Its real Start block is still to come: this one is neither heard nor seen.
 void Painter::run_start(const CompiledSystem& system, Variables& variables) {
-    state_.rehearse([&](Services& silent) {
+    state_->rehearse([&](Services& silent) {
         Machine machine = system.machine();
         machine.attach(&variables, &silent, Stream::blocks);
-        machine.draw_with(state_.block_draws);
+        machine.draw_with(state_->block_draws);
         machine.run(system.start);
     });
 }

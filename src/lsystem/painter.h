@@ -1,4 +1,4 @@
-// Draws the pictures of modules, one painter per thread.
+// Draws the pictures of modules: one painter per model and thread, whoever's plant it is.
 #pragma once
 
 #include "derivation_state.h"
@@ -29,8 +29,10 @@ struct Subject {
 
 class Painter {
 public:
-    explicit Painter(Derivation::State& state);
+    explicit Painter(const CompiledModel& model);
 
+    /// Paints for this plant from now on.
+    void work_for(Derivation::State& state);
     /// Appends the picture to `picture`; returns how many modules it replaces, 0 if no production applies.
     /// Throws EvaluationError.
     std::size_t paint(const Subject& subject, ModuleString& picture);
@@ -60,11 +62,13 @@ private:
     void run_start(const CompiledSystem& system, Variables& variables);
     void forget_variables();
 
-    Derivation::State& state_;
+    Derivation::State* state_ = nullptr;
+    std::uint64_t serial_ = 0;  ///< of the plant's state: another may come to lie where one was
     const CompiledModel& model_;
     std::vector<std::unique_ptr<Brush>> brushes_;  ///< of each L-system
     bool changes_ = false;                         ///< homomorphisms assign, or more
     ModuleStack stack_;
+    std::vector<Lineage> strict_;
     // What the blocks of a picture assign, seed or stop holds for that picture only.
     Variables copy_;
     Services services_;

@@ -29,8 +29,9 @@ std::size_t Derivation::picture(const ModuleString& string, const std::vector<st
     const LetterId letter = string.letters[module];
     if (!may_have_picture(letter)) return 0;
     State& state = *state_;
-    std::unique_ptr<Painter>& painter = state.painters.local();
-    if (!painter) painter = std::make_unique<Painter>(state);
+    std::shared_ptr<Painter>& painter = state.model->painters.local();
+    if (!painter) painter = std::make_shared<Painter>(*state.model);
+    painter->work_for(state);
     const double* values = string.parameters.data() + parameters_at;
     const Identity identity = string.has_lineage() ? string.identities[module] : mix(module);
     const Subject subject{string,

@@ -3,8 +3,8 @@
 
 #include "compiled_model.h"
 #include "matching.h"
+#include "workplace.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <atomic>
@@ -26,8 +26,6 @@ struct StepInput {
     /// Ranges of modules that live on: the whole string but for what a `%` cuts off.
     const std::vector<std::pair<std::size_t, std::size_t>>& kept;
 };
-
-using Machines = tbb::enumerable_thread_specific<Machine>;
 
 /// What was written in one go, and what the next step will make of it (Plan::next).
 struct Stretch {
