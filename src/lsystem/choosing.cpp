@@ -11,7 +11,8 @@ namespace espalier {
 namespace {
 
 constexpr std::size_t most_classes = 254;
-constexpr std::size_t most_outcomes = std::size_t{1} << 18;
+constexpr std::size_t most_outcomes = std::size_t{1} << 16;  // numbered by LetterId
+constexpr std::uint32_t most_told = std::uint32_t{1} << 24;  // so that the measures of 256 modules fit into one number
 constexpr std::uint64_t most_draws = std::uint64_t{1} << 53;
 
 /// The value of a program that is a constant.
@@ -50,9 +51,9 @@ private:
     void classify();
     void fill_table();
     Outcome outcome(LetterId letter, std::uint32_t left, std::uint32_t right);
-    Outcome known(LetterId letter, LetterId choice) const;
+    void tell(LetterId letter, const Outcome& outcome);
     Outcome tried(const Candidates& candidates);
-    std::optional<Outcome> drawn(LetterId letter, const Candidates& candidates);
+    std::optional<Outcome> drawn(const Candidates& candidates);
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
     bool certain(const CompiledProduction& production) const;
     bool wants_positions() const;
@@ -124,11 +125,7 @@ void ChoosingCompiler::classify() {
         if (!production.right.empty() && is_ordinary_right(production.right[0]))
             name(right, rights, production.right[0].letter);
     }
-    std::size_t rewritten = 0;
-    for (std::size_t l = 0; l < left.size(); ++l) {
-        rewritten += rules_.has(static_cast<LetterId>(l)) && rules_.always[l] < 0;
-    }
-    if (lefts > most_classes || rights > most_classes || rewritten * lefts * rights > most_outcomes) return;
+    if (lefts > most_classes || rights > most_classes || left.size() * lefts * rights > most_outcomes) return;
     choosing_.left_classes = lefts;
     choosing_.right_classes = rights;
     for (std::size_t l = 0; l < left.size(); ++l) {
@@ -138,28 +135,28 @@ void ChoosingCompiler::classify() {
 }
 
 void ChoosingCompiler::fill_table() {
-    const std::uint32_t places = choosing_.left_classes * choosing_.right_classes;
-    choosing_.choices.resize(rules_.productions.size());
+    choosing_.ranks.resize(rules_.productions.size());
     for (std::size_t l = 0; l < system_.ignored.size(); ++l) {
         const auto letter = static_cast<LetterId>(l);
         for (std::uint32_t k = rules_.first[l]; k < rules_.first[l + 1]; ++k) {
-            choosing_.choices[rules_.candidates[k]] = static_cast<LetterId>(k - rules_.first[l] + 1);
+            choosing_.ranks[rules_.candidates[k]] = static_cast<LetterId>(k - rules_.first[l] + 1);
         }
-        const auto first = static_cast<std::uint32_t>(choosing_.outcomes.size());
-        if (system_.plans.of_letter[l].kind != Plan::Kind::choose) {
-            choosing_.rows.push_back({first, 0});
-            const Plan& plan = system_.plans.of_letter[l];
-            choosing_.outcomes.push_back({plan.length, plan.parameters, 0, 0, Outcome::Way::known});
-            continue;
-        }
-        choosing_.rows.push_back({first, ~std::uint32_t{0}});
-        for (std::uint32_t place = 0; place < places; ++place) {
-            const std::uint32_t right = place % choosing_.right_classes;
-            choosing_.outcomes.push_back(outcome(letter, place / choosing_.right_classes, right));
-            choosing_.matches |= choosing_.outcomes.back().way == Outcome::Way::matched;
-            choosing_.draws |= choosing_.outcomes.back().way == Outcome::Way::drawn;
+        const bool depends = system_.plans.of_letter[l].kind == Plan::Kind::choose;
+        for (std::uint32_t place = 0; place < choosing_.places(); ++place) {
+            const std::uint32_t left = place / choosing_.right_classes, right = place % choosing_.right_classes;
+            tell(letter, depends ? outcome(letter, left, right) : Outcome{});
         }
     }
+}
+
+void ChoosingCompiler::tell(LetterId letter, const Outcome& outcome) {
+    const Plan& plan = system_.plans.of_letter[letter].choices[outcome.way == Outcome::Way::known ? outcome.index : 0];
+    const bool told = outcome.way == Outcome::Way::known && plan.length < most_told && plan.parameters < most_told;
+    choosing_.outcomes.push_back(outcome);
+    choosing_.choices.push_back(told ? static_cast<LetterId>(outcome.index) : Choosing::untold);
+    choosing_.measures.push_back(told ? plan.length | std::uint64_t{plan.parameters} << 32 : 0);
+    choosing_.tells_all &= told;
+    choosing_.matches |= outcome.way == Outcome::Way::matched;
 }
 
 /// False if the production cannot apply between neighbours of these classes.
@@ -167,7 +164,7 @@ bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint3
     const bool never = production.before.empty() && production.has_condition &&
                        constant(system_, production.condition) == std::optional(0.0);
     if (never) return false;
-    const bool told = choosing_.left_classes * choosing_.right_classes > 1;
+    const bool told = choosing_.places() > 1;
     if (told && !production.left.empty() && is_ordinary_left(production.left[0])) {
         const std::uint32_t named = left_class(production.left[0].letter);
         if (named == 0 || named != left) return false;
@@ -181,7 +178,7 @@ bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint3
 
 /// True if a production applies wherever it is possible.
 bool ChoosingCompiler::certain(const CompiledProduction& production) const {
-    const bool told = choosing_.left_classes * choosing_.right_classes > 1;
+    const bool told = choosing_.places() > 1;
     const bool left =
         production.left.empty() || (told && production.left.size() == 1 && is_ordinary_left(production.left[0]));
     const bool right =
@@ -199,18 +196,13 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         all_certain &= certain(production);
         if (!rules_.stochastic && certain(production)) break;
     }
-    if (candidates.empty()) return known(letter, 0);
+    if (candidates.empty()) return {};
     if (rules_.stochastic) {
-        const std::optional<Outcome> lottery = all_certain ? drawn(letter, candidates) : std::nullopt;
+        const std::optional<Outcome> lottery = all_certain ? drawn(candidates) : std::nullopt;
         return lottery ? *lottery : tried(candidates);
     }
-    return certain(rules_.productions[candidates[0]]) ? known(letter, choosing_.choices[candidates[0]])
-                                                      : tried(candidates);
-}
-
-Outcome ChoosingCompiler::known(LetterId letter, LetterId choice) const {
-    const Plan& plan = system_.plans.of_letter[letter].choices[choice];
-    return {plan.length, plan.parameters, 0, choice, Outcome::Way::known};
+    if (!certain(rules_.productions[candidates[0]])) return tried(candidates);
+    return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
 }
 
 Outcome ChoosingCompiler::tried(const Candidates& candidates) {
@@ -220,11 +212,11 @@ Outcome ChoosingCompiler::tried(const Candidates& candidates) {
         choosing_.tried.insert(choosing_.tried.end(), candidates.begin(), candidates.end());
         choosing_.trials.push_back({begin, static_cast<std::uint32_t>(choosing_.tried.size())});
     }
-    return {0, 0, at->second, 0, Outcome::Way::matched};
+    return {Outcome::Way::matched, at->second};
 }
 
 /// Nothing if a weight is not a constant, or not one that can be drawn with.
-std::optional<Outcome> ChoosingCompiler::drawn(LetterId letter, const Candidates& candidates) {
+std::optional<Outcome> ChoosingCompiler::drawn(const Candidates& candidates) {
     std::vector<Weighted> pool;
     double sum = 0;
     for (const std::uint32_t candidate : candidates) {
@@ -233,9 +225,9 @@ std::optional<Outcome> ChoosingCompiler::drawn(LetterId letter, const Candidates
             production.has_weight ? constant(system_, production.weight) : std::optional(1.0);
         if (!weight || !(*weight >= 0 && std::isfinite(*weight))) return std::nullopt;
         sum += *weight;
-        if (*weight > 0) pool.push_back({choosing_.choices[candidate], *weight});
+        if (*weight > 0) pool.push_back({choosing_.ranks[candidate], *weight});
     }
-    if (pool.size() < 2) return known(letter, pool.empty() ? LetterId{0} : pool[0].choice);
+    if (pool.size() < 2) return Outcome{Outcome::Way::known, pool.empty() ? 0u : pool[0].choice};
     const auto [at, made] = lotteries_.try_emplace(candidates, static_cast<std::uint32_t>(choosing_.lotteries.size()));
     if (made) {
         Lottery lottery;
@@ -245,14 +237,17 @@ std::optional<Outcome> ChoosingCompiler::drawn(LetterId letter, const Candidates
             std::uint64_t low = 0, high = most_draws;
             while (low < high) {
                 const std::uint64_t middle = low + (high - low) / 2;
-                (fall(pool, sum, middle) >= k ? high : low) = fall(pool, sum, middle) >= k ? middle : middle + 1;
+                if (fall(pool, sum, middle) >= k)
+                    high = middle;
+                else
+                    low = middle + 1;
             }
             lottery.limits.push_back(low);
             lottery.choices.push_back(pool[k].choice);
         }
         choosing_.lotteries.push_back(std::move(lottery));
     }
-    return Outcome{0, 0, at->second, 0, Outcome::Way::drawn};
+    return Outcome{Outcome::Way::drawn, at->second};
 }
 
 /// Where classes do not say all: contexts are matched, or their parameters read.

@@ -11,17 +11,15 @@ namespace espalier {
 
 class CompiledSystem;
 
-/// What a letter between two classes of neighbours becomes.
+/// What a letter between two classes of neighbours becomes, where the table of choices does not tell.
 struct Outcome {
     enum class Way : std::uint8_t {
-        known,    ///< `choice`
-        drawn,    ///< by lottery `more`
-        matched,  ///< by trying the productions of trial `more`
+        known,    ///< choice `index`
+        drawn,    ///< by lottery `index`
+        matched,  ///< by trying the productions of trial `index`
     };
-    std::uint32_t length = 0, parameters = 0;  ///< of what a known choice writes
-    std::uint32_t more = 0;
-    LetterId choice = 0;  ///< among its letter's Plan::choices
     Way way = Way::known;
+    std::uint32_t index = 0;
 };
 
 /// Productions that may apply, in file order: trials[begin] to trials[end].
@@ -41,20 +39,20 @@ struct Choosing {
     /// A pattern ends branches with `=`, or names brackets to its left: they are followed by their partners.
     bool needs_partners = false;
 
-    /// A letter's outcomes: outcomes[first + (place & mask)], where `place` is left class * right_classes + right
-    /// class.
-    struct Row {
-        std::uint32_t first = 0, mask = 0;
-    };
-    std::vector<Row> rows;  ///< by letter
-    std::vector<Outcome> outcomes;
+    // Tables by letter * places + left class * right_classes + right class.
+    static constexpr LetterId untold = no_letter;
+    std::vector<LetterId> choices;        ///< among the letter's Plan::choices, or `untold`
+    std::vector<std::uint64_t> measures;  ///< of a choice: modules and (from bit 32 on) parameters
+    std::vector<Outcome> outcomes;        ///< of those that are not told
     std::uint32_t left_classes = 1, right_classes = 1;
+    bool tells_all = true;
     bool matches = false;  ///< some way is `matched`
-    bool draws = false;    ///< some way is `drawn`
+
+    std::uint32_t places() const { return left_classes * right_classes; }
 
     std::vector<Trial> trials;
     std::vector<std::uint32_t> tried;  ///< indices of productions
-    std::vector<LetterId> choices;     ///< of each production, among its letter's
+    std::vector<LetterId> ranks;       ///< choice of each production, among its letter's
     std::vector<Lottery> lotteries;
 };
 

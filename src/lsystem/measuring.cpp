@@ -10,18 +10,18 @@ namespace {
 // What a module's neighbours are to the table of outcomes, from the columns that were found.
 
 struct NoClasses {
-    std::uint32_t operator()(std::size_t) const { return 0; }
+    LetterId operator()(std::size_t) const { return 0; }
 };
 
 template <bool Left, bool Right>
 struct FoundClasses {
     const std::uint8_t *left, *right;
-    std::uint32_t rights;
+    LetterId rights;
 
-    std::uint32_t operator()(std::size_t module) const {
-        std::uint32_t place = 0;
-        if constexpr (Left) place = left[module] * rights;
-        if constexpr (Right) place += right[module];
+    LetterId operator()(std::size_t module) const {
+        LetterId place = 0;
+        if constexpr (Left) place = static_cast<LetterId>(left[module] * rights);
+        if constexpr (Right) place = static_cast<LetterId>(place + right[module]);
         return place;
     }
 };
@@ -31,15 +31,17 @@ struct ClassesAtPositions {
     const Choosing& choosing;
     const Neighbours& neighbours;
 
-    std::uint32_t operator()(std::size_t module) const {
-        return look(choosing.gazes.left, neighbours.left, module) * choosing.right_classes +
-               look(choosing.gazes.right, neighbours.right, module);
+    LetterId operator()(std::size_t module) const {
+        return static_cast<LetterId>(look(choosing.gazes.left, neighbours.left, module) * choosing.right_classes +
+                                     look(choosing.gazes.right, neighbours.right, module));
     }
     std::uint32_t look(const Gaze& gaze, const Column<std::uint32_t>& positions, std::size_t module) const {
         if (!gaze.wanted || positions[module] == Neighbours::none) return 0;
         return gaze.codes[letters[positions[module]]] & 0xFF;
     }
 };
+
+constexpr std::size_t looked_up_at_once = 256;  // their measures are added up in one number
 
 /// Chooses and measures the modules of one chunk.
 class Measuring {
@@ -58,8 +60,9 @@ public:
 private:
     template <class ClassOf>
     void run(Chunk& chunk, const ClassOf& class_of);
-    template <bool Known, class ClassOf>
-    void choose(Chunk& chunk, const ClassOf& class_of);
+    template <bool All>
+    void look_up(std::size_t begin, std::size_t end, const double*& values);
+    void find_out(const Outcome& outcome, std::size_t module, const double* values);
     void match(const Trial& trial, std::size_t module, const double* values);
     void draw(std::uint32_t lottery, std::size_t module);
     void hold_lotteries();
@@ -85,11 +88,11 @@ private:
 void Measuring::run(Chunk& chunk) {
     const Gazes& gazes = choosing_.gazes;
     const Neighbours* const found = input_.view.neighbours;
-    if (!found || choosing_.left_classes * choosing_.right_classes == 1) return run(chunk, NoClasses{});
+    if (!found || choosing_.places() == 1) return run(chunk, NoClasses{});
     if (gazes.positions) return run(chunk, ClassesAtPositions{letters_, choosing_, *found});
     const std::uint8_t* const left = found->left_classes.data();
     const std::uint8_t* const right = found->right_classes.data();
-    const std::uint32_t rights = choosing_.right_classes;
+    const auto rights = static_cast<LetterId>(choosing_.right_classes);
     if (!gazes.left.wanted) return run(chunk, FoundClasses<false, true>{left, right, rights});
     if (!gazes.right.wanted) return run(chunk, FoundClasses<true, false>{left, right, rights});
     run(chunk, FoundClasses<true, true>{left, right, rights});
@@ -97,37 +100,50 @@ void Measuring::run(Chunk& chunk) {
 
 template <class ClassOf>
 void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
-    if (choosing_.matches || choosing_.draws)
-        choose<false>(chunk, class_of);
-    else
-        choose<true>(chunk, class_of);
+    const auto places = static_cast<LetterId>(choosing_.places());
+    const double* values = input_.from.parameters.data() + chunk.parameters_at;
+    for (std::size_t begin = chunk.begin; begin < chunk.end; begin += looked_up_at_once) {
+        const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
+        for (std::size_t i = begin; i < end; ++i) {
+            choices_[i] = static_cast<LetterId>(letters_[i] * places + class_of(i));
+        }
+        if (choosing_.tells_all)
+            look_up<true>(begin, end, values);
+        else
+            look_up<false>(begin, end, values);
+    }
     hold_lotteries();
     chunk.out_end = modules_;
     chunk.out_parameters_end = parameters_;
 }
 
-template <bool Known, class ClassOf>
-void Measuring::choose(Chunk& chunk, const ClassOf& class_of) {
-    const Choosing::Row* const rows = choosing_.rows.data();
-    const Outcome* const outcomes = choosing_.outcomes.data();
+/// Turns places in the table into choices.
+template <bool All>
+void Measuring::look_up(std::size_t begin, std::size_t end, const double*& values) {
+    const LetterId* const choices = choosing_.choices.data();
+    const std::uint64_t* const measures = choosing_.measures.data();
     const std::uint16_t* const arities = input_.model.source->alphabet.arities().data();
-    const double* values = input_.from.parameters.data() + chunk.parameters_at;
-    std::size_t modules = 0, parameters = 0;
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-        const LetterId letter = letters_[i];
-        const Choosing::Row row = rows[letter];
-        const Outcome& outcome = outcomes[row.first + (class_of(i) & row.mask)];
-        choices_[i] = outcome.choice;
-        modules += outcome.length;
-        parameters += outcome.parameters;
-        if constexpr (!Known) {
-            if (outcome.way == Outcome::Way::matched) match(choosing_.trials[outcome.more], i, values);
-            if (outcome.way == Outcome::Way::drawn) draw(outcome.more, i);
-            values += arities[letter];
+    std::uint64_t measure = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        const LetterId place = choices_[i];
+        choices_[i] = choices[place];
+        measure += measures[place];
+        if constexpr (!All) {
+            if (choices[place] == Choosing::untold) find_out(choosing_.outcomes[place], i, values);
+            if (choosing_.matches) values += arities[letters_[i]];
         }
     }
-    modules_ += modules;
-    parameters_ += parameters;
+    modules_ += static_cast<std::uint32_t>(measure);
+    parameters_ += measure >> 32;
+}
+
+void Measuring::find_out(const Outcome& outcome, std::size_t module, const double* values) {
+    if (outcome.way == Outcome::Way::drawn)
+        draw(outcome.index, module);
+    else if (outcome.way == Outcome::Way::matched)
+        match(choosing_.trials[outcome.index], module, values);
+    else
+        take(module, static_cast<LetterId>(outcome.index));
 }
 
 void Measuring::match(const Trial& trial, std::size_t module, const double* values) {
@@ -135,7 +151,7 @@ void Measuring::match(const Trial& trial, std::size_t module, const double* valu
     try {
         const CompiledRules& rules = input_.model.rules;
         const CompiledProduction* const chosen = matcher_.choose(rules, tried, site_of(input_, module, values));
-        take(module, chosen ? choosing_.choices[static_cast<std::size_t>(chosen - rules.productions.data())] : 0);
+        take(module, chosen ? choosing_.ranks[static_cast<std::size_t>(chosen - rules.productions.data())] : 0);
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, input_.model.source->alphabet, letters_[module], values, input_.step));
     }

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace espalier {
@@ -14,8 +15,8 @@ void for_each_part(std::size_t parts, const Work& work) {
     tbb::parallel_for(std::size_t{0}, parts, work);
 }
 
-std::size_t parts_of(std::size_t modules) {
-    return (modules + Neighbours::grain - 1) / Neighbours::grain;
+std::size_t parts_of(std::size_t modules, std::size_t grain) {
+    return (modules + grain - 1) / grain;
 }
 
 /// Looks along a string in one direction. A state is what the next module sees: a neighbour's position, or its class.
@@ -25,10 +26,14 @@ public:
     Look(const Gaze& gaze, const ModuleString& string, Column<Value>& column, std::vector<Section<Value>>& parts)
         : gaze_(gaze), letters_(string.letters.data()), size_(string.size()), column_(column), parts_(parts) {}
 
-    void run(bool ring) {
+    void run(bool ring, std::size_t grain) {
         column_.resize(size_);
-        parts_.resize(parts_of(size_));
-        for_each_part(parts_.size(), [&](std::size_t k) { scan(k); });
+        parts_.resize(parts_of(size_, grain));
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            parts_[k].begin = k * grain;
+            parts_[k].end = std::min(parts_[k].begin + grain, size_);
+        }
+        for_each_part(parts_.size(), [&](std::size_t k) { scan(parts_[k]); });
         join(ring);
         for_each_part(parts_.size(), [&](std::size_t k) { complete(parts_[k]); });
     }
@@ -40,17 +45,12 @@ private:
     static constexpr Value unknown = static_cast<Value>(is_class ? 0xFF : Neighbours::none - 1);
     static constexpr LetterId enters = Forward ? Alphabet::open_bracket : Alphabet::close_bracket;
 
-    /// The n-th module of a part that begins, in the direction of looking, with module `first`.
-    static std::size_t at(std::size_t first, std::size_t n) { return Forward ? first + n : first - n; }
-    static std::size_t first_of(const Section<Value>& part) { return Forward ? part.begin : part.end - 1; }
-
-    Value pass(Value state, LetterId letter, std::size_t module) const {
-        const std::uint16_t code = gaze_.codes[letter];
-        if constexpr (is_class) return static_cast<Value>((state & (code >> 8)) | code);
-        return code == Gaze::keeps ? state : static_cast<Value>(module);
+    static Value pass(Value state, std::uint16_t code, std::size_t module) {
+        const auto becomes = static_cast<Value>(is_class ? code : module);
+        return code == Gaze::keeps ? state : becomes;
     }
 
-    void scan(std::size_t k);
+    void scan(Section<Value>& part);
     void join(bool ring);
     void complete(const Section<Value>& part);
 
@@ -62,36 +62,38 @@ private:
 };
 
 template <class Value, bool Forward>
-void Look<Value, Forward>::scan(std::size_t k) {
-    Section<Value>& part = parts_[k];
-    part.begin = k * Neighbours::grain;
-    part.end = std::min(part.begin + Neighbours::grain, size_);
+void Look<Value, Forward>::scan(Section<Value>& part) {
     part.exits.clear();
-    part.entries.resize(part.end - part.begin);
-    Value* const base = part.entries.data();
+    part.entries.resize(part.end - part.begin + 1);
+    part.entries[0] = unknown;
+    Value* const base = part.entries.data() + 1;
     Value* top = base;
+    // Kept at hand: writing to a column of bytes might, for all the compiler knows, change the members.
     Value* const out = column_.data();
+    const LetterId* const letters = letters_;
+    const std::uint16_t* const codes = gaze_.codes.data();
     const LetterId brackets = gaze_.branches ? 2 : 0;
     Value state = unknown;
-    const std::size_t first = first_of(part), count = part.end - part.begin;
-    for (std::size_t n = 0; n < count; ++n) {
-        const std::size_t i = at(first, n);
-        const LetterId letter = letters_[i];
+    std::size_t i = Forward ? part.begin : part.end - 1;
+    for (std::size_t n = part.end - part.begin; n > 0; --n, Forward ? ++i : --i) {
+        const LetterId letter = letters[i];
         out[i] = state;
+        const Value passed = pass(state, codes[letter], i);
         if (letter >= brackets) {
-            state = pass(state, letter, i);
-        } else if (letter == enters) {
-            *top++ = state;
-            state = pass(state, letter, i);
-        } else if (top != base) {
-            state = *--top;
+            state = passed;
+        } else if (const bool begins = letter == enters; begins | (top != base)) {
+            // Nobody can foretell which of the two it is, so that both are done alike.
+            const Value seen = top[-1];
+            *top = state;
+            top += begins ? 1 : -1;
+            state = begins ? passed : seen;
         } else {
             part.exits.push_back(static_cast<std::uint32_t>(i));
             state = unknown;
         }
     }
     part.last = state;
-    part.entries.resize(static_cast<std::size_t>(top - base));
+    part.entries.resize(static_cast<std::size_t>(top - part.entries.data()));
 }
 
 /// Follows branches from part to part. A bracket that ends no branch lets nothing be seen beyond it.
@@ -101,13 +103,14 @@ void Look<Value, Forward>::join(bool ring) {
     Value before = unknown;  // of the whole string: in a ring, what is seen from behind it
     for (std::size_t n = 0; n < parts_.size(); ++n) {
         Section<Value>& part = parts_[Forward ? n : parts_.size() - 1 - n];
-        part.beyond.assign(1, before);
-        for (std::size_t k = 0; k < part.exits.size(); ++k) {
-            part.beyond.push_back(branches.empty() ? none : branches.back());
-            if (!branches.empty()) branches.pop_back();
-        }
-        const auto known = [&](Value value) { return value == unknown ? part.beyond.back() : value; };
-        for (const Value entry : part.entries) branches.push_back(known(entry));
+        part.beyond.assign(part.exits.size() + 1, none);
+        part.beyond[0] = before;
+        const std::size_t ended = std::min(part.exits.size(), branches.size());
+        std::copy_n(branches.rbegin(), ended, part.beyond.begin() + 1);
+        branches.resize(branches.size() - ended);
+        const Value beyond = part.beyond.back();
+        const auto known = [beyond](Value value) { return value == unknown ? beyond : value; };
+        std::transform(part.entries.begin() + 1, part.entries.end(), std::back_inserter(branches), known);
         before = known(part.last);
     }
     const Value around = ring && before != unknown ? before : none;
@@ -117,20 +120,16 @@ void Look<Value, Forward>::join(bool ring) {
 /// Fills in what lies before the part, and before the branches that end in it.
 template <class Value, bool Forward>
 void Look<Value, Forward>::complete(const Section<Value>& part) {
-    const std::size_t first = first_of(part), count = part.end - part.begin;
+    Value* const column = column_.data();
+    std::size_t from = Forward ? part.begin : part.end;
     for (std::size_t k = 0; k < part.beyond.size(); ++k) {
-        const auto distance = [&](std::size_t exit) { return Forward ? exit - first : first - exit; };
-        const std::size_t stop = k < part.exits.size() ? distance(part.exits[k]) + 1 : count;
-        std::size_t depth = 0;
-        for (std::size_t n = k == 0 ? 0 : distance(part.exits[k - 1]) + 1; n < stop; ++n) {
-            const std::size_t i = at(first, n);
-            if (column_[i] == unknown)
-                column_[i] = part.beyond[k];
-            else if (depth == 0)
-                break;
-            if (!gaze_.branches || letters_[i] > Alphabet::close_bracket) continue;
-            depth = letters_[i] == enters ? depth + 1 : depth - (depth > 0);
+        const Value beyond = part.beyond[k];
+        const bool exits = k < part.exits.size();
+        const std::size_t to = Forward ? exits ? part.exits[k] + 1 : part.end : exits ? part.exits[k] : part.begin;
+        for (std::size_t i = std::min(from, to), end = std::max(from, to); i < end; ++i) {
+            column[i] = column[i] == unknown ? beyond : column[i];
         }
+        from = to;
     }
 }
 
@@ -139,21 +138,24 @@ void Look<Value, Forward>::complete(const Section<Value>& part) {
 void Neighbours::find(const Gazes& gazes, const ModuleString& string) {
     if (string.empty()) return;
     if (gazes.positions) {
-        if (gazes.left.wanted) Look<std::uint32_t, true>(gazes.left, string, left, positions_).run(gazes.ring);
-        if (gazes.right.wanted) Look<std::uint32_t, false>(gazes.right, string, right, positions_).run(gazes.ring);
-        if (gazes.next.wanted) Look<std::uint32_t, false>(gazes.next, string, next, positions_).run(gazes.ring);
+        if (gazes.left.wanted) Look<std::uint32_t, true>(gazes.left, string, left, positions_).run(gazes.ring, grain_);
+        if (gazes.right.wanted)
+            Look<std::uint32_t, false>(gazes.right, string, right, positions_).run(gazes.ring, grain_);
+        if (gazes.next.wanted) Look<std::uint32_t, false>(gazes.next, string, next, positions_).run(gazes.ring, grain_);
     } else {
-        if (gazes.left.wanted) Look<std::uint8_t, true>(gazes.left, string, left_classes, classes_).run(gazes.ring);
-        if (gazes.right.wanted) Look<std::uint8_t, false>(gazes.right, string, right_classes, classes_).run(gazes.ring);
+        if (gazes.left.wanted)
+            Look<std::uint8_t, true>(gazes.left, string, left_classes, classes_).run(gazes.ring, grain_);
+        if (gazes.right.wanted)
+            Look<std::uint8_t, false>(gazes.right, string, right_classes, classes_).run(gazes.ring, grain_);
     }
 }
 
 std::size_t ParameterPlaces::find(const ModuleString& string, const std::uint16_t* arities) {
     within_.resize(string.size());
-    bases_.resize(parts_of(string.size()));
+    bases_.resize(parts_of(string.size(), grain));
     for_each_part(bases_.size(), [&](std::size_t k) {
         std::uint32_t at = 0;
-        const std::size_t begin = k * Neighbours::grain, end = std::min(begin + Neighbours::grain, string.size());
+        const std::size_t begin = k * grain, end = std::min(begin + grain, string.size());
         for (std::size_t i = begin; i < end; ++i) {
             within_[i] = at;
             at += arities[string.letters[i]];

@@ -32,7 +32,7 @@ template <class Value>
 struct Section {
     std::size_t begin = 0, end = 0;
     std::vector<std::uint32_t> exits;  ///< brackets that end branches begun before this part
-    Column<Value> entries;             ///< what is seen before branches that begin here and end after this part
+    Column<Value> entries;             ///< from the second: what is seen before branches that end after this part
     Value last{};                      ///< what is seen from behind this part
     std::vector<Value> beyond;         ///< what is seen before this part, and before the branch that each exit ends
 };
@@ -41,8 +41,9 @@ struct Section {
 class Neighbours {
 public:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
-    /// Modules that one thread looks at before another may have its turn.
-    static constexpr std::size_t grain = 8192;
+
+    /// `grain` modules are looked at by one thread before another may have its turn.
+    explicit Neighbours(std::size_t grain = 8192) : grain_(grain) {}
 
     void find(const Gazes& gazes, const ModuleString& string);
 
@@ -52,6 +53,7 @@ public:
     Column<std::uint8_t> left_classes, right_classes;
 
 private:
+    std::size_t grain_;
     std::vector<Section<std::uint32_t>> positions_;
     std::vector<Section<std::uint8_t>> classes_;
 };
@@ -62,9 +64,11 @@ public:
     /// Returns how many parameters all modules have.
     std::size_t find(const ModuleString& string, const std::uint16_t* arities);
 
-    std::size_t operator[](std::size_t module) const { return bases_[module / Neighbours::grain] + within_[module]; }
+    std::size_t operator[](std::size_t module) const { return bases_[module / grain] + within_[module]; }
 
 private:
+    static constexpr std::size_t grain = 8192;
+
     std::vector<std::size_t> bases_;
     Column<std::uint32_t> within_;
 };
