@@ -63,7 +63,7 @@ std::uint32_t InternodeLives::life_of(Identity identity, std::uint32_t part, std
 
 void InternodeLives::record(int step, const PlantFrame& plant, std::span<const std::uint16_t> symbols) {
     const ModuleString& string = *plant.string;
-    const std::vector<Internode>& internodes = plant.interpretation->geometry.internodes;
+    const Column<Internode>& internodes = plant.interpretation->geometry.internodes;
     if (!internodes.empty() && !string.has_lineage()) {
         throw RunError(fmt::format("lifespans need the lineage of plant '{}', which is not kept", plant.name));
     }

@@ -24,10 +24,15 @@ bool begins_symbol(const std::string& beginning) {
     return next != registry().end() && next->first.starts_with(beginning);
 }
 
+/// A question without parameters is none.
+Symbol::Effect effect_of(const Symbol& symbol, int arity) {
+    return symbol.effect == Symbol::Effect::asks && arity == 0 ? Symbol::Effect::other : symbol.effect;
+}
+
 }  // namespace
 
-Symbol::Symbol(std::string name_, std::vector<int> arities_, std::string help_, SymbolAction action_)
-    : name(std::move(name_)), arities(std::move(arities_)), help(std::move(help_)), action(action_) {
+Symbol::Symbol(std::string name_, std::vector<int> arities_, std::string help_, SymbolAction action_, Effect effect_)
+    : name(std::move(name_)), arities(std::move(arities_)), help(std::move(help_)), action(action_), effect(effect_) {
     registry()[name] = this;
 }
 
@@ -51,6 +56,7 @@ SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), 
         if (process == model.processes.end()) continue;
         processes[letter] = std::int16_t(process - model.processes.begin());
         levels[0][letter].action = communication->action;
+        levels[0][letter].effect = effect_of(*communication, levels[0][letter].arity);
     }
 }
 
@@ -68,7 +74,10 @@ std::uint16_t SymbolTable::add_level(const Alphabet& alphabet, const std::string
 
         LetterMeaning meaning;
         meaning.arity = std::uint16_t(arity);
-        if (symbol && symbol->accepts(arity)) meaning.action = symbol->action;
+        if (symbol && symbol->accepts(arity)) {
+            meaning.action = symbol->action;
+            meaning.effect = effect_of(*symbol, arity);
+        }
         if (arity == 0 && begins_symbol(name)) meaning.level = add_level(alphabet, name);
         meaning.belongs = symbol || meaning.level;
         levels[index][letter] = meaning;

@@ -3,6 +3,8 @@
 
 #include "espalier/turtle/symbol.h"
 
+#include <atomic>
+
 namespace espalier {
 
 /// What one letter means in one place. `level` is the table for the next module where that one may belong to the same
@@ -12,16 +14,36 @@ struct LetterMeaning {
     std::uint16_t arity = 0;
     std::uint16_t level = 0;
     bool belongs = false;  ///< in a level beyond the first: part of the symbol that began before
+    Symbol::Effect effect = Symbol::Effect::other;
+};
+
+/// A symbol found in a string: its last module, and what it does.
+struct SymbolMatch {
+    std::size_t module;
+    LetterMeaning meaning;
 };
 
 class SymbolTable {
 public:
     explicit SymbolTable(const Model& model);
 
+    /// The longest symbol that begins at module i. Only its last module may have parameters.
+    SymbolMatch match(const ModuleString& string, std::size_t i) const {
+        SymbolMatch found{i, levels[0][string.letters[i]]};
+        while (found.meaning.level && found.module + 1 < string.size()) {
+            const LetterMeaning& next = levels[found.meaning.level][string.letters[found.module + 1]];
+            if (!next.belongs) break;
+            found = {found.module + 1, next};
+        }
+        return found;
+    }
+
     /// levels[0] is for the first module of a symbol, the others for what follows certain beginnings.
     std::vector<std::vector<LetterMeaning>> levels;
     /// Index into Model::processes of letters such as ?light, -1 for all others.
     std::vector<std::int16_t> processes;
+    /// Set once a string of this model could not be walked by several threads: then all are walked in one piece.
+    mutable std::atomic<bool> unpredictable = false;
 
 private:
     std::uint16_t add_level(const Alphabet& alphabet, const std::string& beginning);

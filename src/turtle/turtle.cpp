@@ -4,16 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace espalier {
 namespace {
-
-/// Turns `first` towards `second`, both unit and perpendicular.
-void rotate_pair(glm::dvec3& first, glm::dvec3& second, Rotation by) {
-    const glm::dvec3 turned = first * by.cosine + second * by.sine;
-    second = second * by.cosine - first * by.sine;
-    first = turned;
-}
 
 /// Rodrigues' rotation formula; `axis` is a unit vector.
 glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& axis, Rotation by) {
@@ -59,22 +53,8 @@ Rotation::Rotation(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)
     }
 }
 
-Rotation Rotation::inverse() const {
-    Rotation result = *this;
-    result.sine = -sine;
-    return result;
-}
-
-void turn_left(Pose& pose, Rotation rotation) {
-    rotate_pair(pose.heading, pose.left, rotation);
-}
-
-void pitch_down(Pose& pose, Rotation rotation) {
-    rotate_pair(pose.heading, pose.up, rotation);
-}
-
-void roll_left(Pose& pose, Rotation rotation) {
-    rotate_pair(pose.left, pose.up, rotation);
+Rotation rotation_of_degrees(double degrees) {
+    return Rotation(degrees * (std::numbers::pi / 180));
 }
 
 void level(Pose& pose) {

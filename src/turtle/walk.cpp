@@ -1,49 +1,98 @@
 // What symbols do to a walk: move, branch, draw, ask.
+#include "espalier/turtle/walk.h"
+
 #include "espalier/base/text.h"
-#include "espalier/turtle/symbol.h"
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <numbers>
+#include <cstring>
+#include <tuple>
+#include <utility>
 
 namespace espalier {
 namespace {
-
-/// cpfg's smallest line width.
-constexpr double thinnest = 1e-7;
-
-Rotation rotation_of_degrees(double degrees) {
-    return Rotation(degrees * (std::numbers::pi / 180));
-}
-
-void add_ball(Box& bounds, const glm::dvec3& centre, double radius) {
-    bounds.lower = glm::min(bounds.lower, centre - radius);
-    bounds.upper = glm::max(bounds.upper, centre + radius);
-}
 
 bool finite(const glm::dvec3& vector) {
     return std::isfinite(vector.x + vector.y + vector.z);
 }
 
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+bool same(const TurtleState& a, const TurtleState& b) {
+    const auto numbers = [](const TurtleState& t) { return std::array{t.width, t.scale, t.node_width, t.elasticity}; };
+    const auto integers = [](const TurtleState& t) {
+        return std::tuple(t.colour, t.back_colour, t.order, t.on_axis, t.branches_off, t.texture, t.brush, t.systems,
+                          t.cylinder);
+    };
+    const auto first = numbers(a), second = numbers(b);
+    return integers(a) == integers(b) && std::memcmp(&a.pose, &b.pose, sizeof(Pose)) == 0 &&
+           std::memcmp(&first, &second, sizeof(first)) == 0;
+}
+
+/// States of finished walks: plants are many, and their memory is that of the next.
+std::vector<WalkState>& spare_states() {
+    thread_local std::vector<WalkState> spare;
+    return spare;
+}
+
+WalkState spare_state() {
+    std::vector<WalkState>& spare = spare_states();
+    if (spare.empty()) return {};
+    WalkState state = std::move(spare.back());
+    spare.pop_back();
+    return state;
+}
+
 }  // namespace
 
+void WalkState::clear() {
+    turtle = TurtleState();
+    elasticities.clear();
+    stopped = false;
+    stack.clear();
+    elasticity_stack.clear();
+    systems.clear();
+    brushes.clear();
+    open_polygons.clear();
+    open_vertices.clear();
+    cylinders.clear();
+    patches.clear();
+}
+
+bool WalkState::is_between_drawings() const {
+    return !stopped && brushes.size() == 1 && open_polygons.empty() && cylinders.empty() && patches.empty();
+}
+
+bool WalkState::stands_like(const WalkState& other) const {
+    const auto same_scale = [](const SystemScale& a, const SystemScale& b) {
+        return std::memcmp(&a, &b, sizeof(SystemScale)) == 0;
+    };
+    return same(turtle, other.turtle) && same(elasticities, other.elasticities) &&
+           same(elasticity_stack, other.elasticity_stack) &&
+           std::equal(stack.begin(), stack.end(), other.stack.begin(), other.stack.end(),
+                      [](const TurtleState& a, const TurtleState& b) { return same(a, b); }) &&
+           std::equal(systems.begin(), systems.end(), other.systems.begin(), other.systems.end(), same_scale);
+}
+
 Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings& settings_, std::uint32_t plant,
-           Interpretation& result)
-    : settings(settings_),
+           Interpretation& result, const Room* room)
+    : WalkState(spare_state()),
+      settings(settings_),
       model_(model),
       string_(string),
       geometry_(result.geometry),
-      queries_(result.queries),
+      internodes_(room ? RowWriter<Column<Internode>>(room->internodes)
+                       : RowWriter<Column<Internode>>(result.geometry.internodes)),
+      queries_(room ? RowWriter<QueryColumn>(room->queries) : RowWriter<QueryColumn>(result.queries)),
       plant_(plant),
       radius_of_width_(settings_.line_style == LineStyle::pixel ? 0 : 0.5),
       default_rotation_(settings_.angle),
       older_tropism_(glm::normalize(settings_.tropism_direction)) {
+    WalkState::clear();
     turtle.pose = settings.pose;
     turtle.width = turtle.node_width = settings.line_width;
     turtle.scale = settings.scale;
@@ -55,79 +104,20 @@ Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings&
     Brush brush;
     brush.sides = std::max(settings.contour_sides, 3);
     brush.follows_roll = settings.twist_of_cylinders;
-    brushes_.push_back(brush);
+    brushes.push_back(brush);
     geometry_.shapes = settings.shapes;
 }
 
-void Walk::move(double distance, bool draws, bool records_vertex) {
-    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings.tropisms, elasticities);
-    const glm::dvec3 base = turtle.pose.position;
-    turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
-    if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
-    if (!finite(turtle.pose.position)) fail("the turtle's position is not a number any more");
-    if (records_vertex) record_vertex();
-    if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
-    if (!draws) {
-        turtle.on_axis = false;
-        return;
-    }
-    if (!turtle.on_axis) begin_axis();
-    if (!settings.tapered_lines) turtle.node_width = turtle.width;
-    const double base_radius = radius(turtle.node_width), tip_radius = radius(turtle.width);
-    geometry_.internodes.push_back({module_, turtle.axis, turtle.order, std::uint16_t(turtle.colour), base,
-                                    turtle.pose.position, base_radius, tip_radius});
-    turtle.node_width = turtle.width;
-    if (turtle.texture != 0) {
-        geometry_.textures.resize(geometry_.internodes.size());
-        geometry_.textures.back() = turtle.texture;
-    }
-    add_ball(geometry_.bounds, base, base_radius);
-    add_ball(geometry_.bounds, turtle.pose.position, tip_radius);
+Walk::~Walk() {
+    constexpr std::size_t most_spare = 4;
+    std::vector<WalkState>& spare = spare_states();
+    if (spare.size() < most_spare) spare.push_back(std::move(*this));
 }
 
 void Walk::jump(const glm::dvec3& position) {
     turtle.pose.position = position;
     turtle.on_axis = false;
     if (!finite(position)) fail("the turtle's position is not a number");
-}
-
-void Walk::begin_axis() {
-    turtle.axis = geometry_.axes++;
-    turtle.on_axis = true;
-    turtle.node_width = turtle.width;
-}
-
-Rotation Walk::rotation(std::span<const double> parameters) {
-    if (parameters.empty()) return default_rotation_;
-    const double degrees = parameters[0];
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(degrees);
-    KnownRotation& known = known_rotations_[(bits * 0x9E3779B97F4A7C15u) >> 60];
-    if (known.degrees != degrees) known = {degrees, rotation_of_degrees(degrees)};
-    return known.rotation;
-}
-
-void Walk::push() {
-    stack_.push_back(turtle);
-    elasticity_stack_.insert(elasticity_stack_.end(), elasticities.begin(), elasticities.end());
-    turtle.on_axis = false;
-    turtle.branches_off = true;
-    if (turtle.order < std::numeric_limits<std::uint16_t>::max()) ++turtle.order;
-}
-
-void Walk::pop() {
-    // Strings of old models may end more branches than they began; `check` warns of the productions.
-    if (stack_.empty()) return;
-    turtle = stack_.back();
-    stack_.pop_back();
-    if (systems_.size() > turtle.systems) systems_.resize(turtle.systems);
-    const auto first = elasticity_stack_.end() - std::ptrdiff_t(elasticities.size());
-    std::copy(first, elasticity_stack_.end(), elasticities.begin());
-    elasticity_stack_.erase(first, elasticity_stack_.end());
-}
-
-void Walk::set_width(double width) {
-    if (!std::isfinite(width)) fail("the line width is not a number");
-    turtle.width = std::max(width, thinnest);
 }
 
 void Walk::set_scale(double scale) {
@@ -140,35 +130,31 @@ double* Walk::elasticity(double id) {
 }
 
 void Walk::open_polygon(bool filled) {
-    open_polygons_.push_back({open_vertices_.size(), module_, filled});
+    open_polygons.push_back({open_vertices.size(), module_, filled});
 }
 
 void Walk::close_polygon() {
     // A cut may have taken the `{` away: then there is nothing to fill.
-    if (open_polygons_.empty()) return;
-    const OpenPolygon polygon = open_polygons_.back();
-    open_polygons_.pop_back();
-    const std::size_t count = open_vertices_.size() - polygon.first;
+    if (open_polygons.empty()) return;
+    const OpenPolygon polygon = open_polygons.back();
+    open_polygons.pop_back();
+    const std::size_t count = open_vertices.size() - polygon.first;
     if (polygon.filled && count >= 3) {
         geometry_.polygons.push_back({polygon.module, std::uint32_t(geometry_.vertices.size()), std::uint32_t(count),
                                       turtle.order, std::uint16_t(turtle.colour), look()});
-        for (std::size_t i = polygon.first; i < open_vertices_.size(); ++i) {
-            geometry_.vertices.push_back(open_vertices_[i]);
-            geometry_.bounds.add(open_vertices_[i]);
+        for (std::size_t i = polygon.first; i < open_vertices.size(); ++i) {
+            geometry_.vertices.push_back(open_vertices[i]);
+            geometry_.bounds.add(open_vertices[i]);
         }
     }
-    open_vertices_.resize(polygon.first);
-}
-
-void Walk::record_vertex() {
-    if (!open_polygons_.empty()) open_vertices_.push_back(turtle.pose.position);
+    open_vertices.resize(polygon.first);
 }
 
 void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
     if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
     geometry_.organs.push_back({module_, shape, turtle.order, std::uint16_t(turtle.colour), 0, pose,
                                 glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
-    add_ball(geometry_.bounds, pose.position, std::abs(diameter) / 2);
+    add_ball(pose.position, std::abs(diameter) / 2);
 }
 
 Look Walk::look() const {
@@ -176,25 +162,26 @@ Look Walk::look() const {
 }
 
 void Walk::enter_system(double scale) {
-    systems_.push_back({turtle.scale, turtle.width});
-    turtle.systems = std::uint32_t(systems_.size());
+    systems.push_back({turtle.scale, turtle.width});
+    turtle.systems = std::uint32_t(systems.size());
     set_scale(turtle.scale * scale);
     set_width(turtle.width * scale);
 }
 
 void Walk::leave_system() {
-    if (systems_.empty()) return;
-    turtle.scale = systems_.back().scale;
-    turtle.width = systems_.back().width;
-    systems_.pop_back();
-    turtle.systems = std::uint32_t(systems_.size());
+    if (systems.empty()) return;
+    turtle.scale = systems.back().scale;
+    turtle.width = systems.back().width;
+    systems.pop_back();
+    turtle.systems = std::uint32_t(systems.size());
 }
 
 void Walk::ask(QueryKind kind) {
     const std::size_t arity = model_.alphabet.arity(letter_);
     if (in_picture_ || arity == 0) return;
     const std::size_t next = std::size_t(module_) + 1;
-    Query& query = queries_.emplace_back();
+    Query& query = queries_.add();
+    query = Query();
     query.kind = kind;
     if (kind == QueryKind::communication && processes_) query.process = (*processes_)[letter_];
     query.plant = plant_;

@@ -1,5 +1,5 @@
 // Generalized cylinders as a walk meets them: control points now, their surface when the cylinder ends.
-#include "espalier/turtle/symbol.h"
+#include "espalier/turtle/walk.h"
 
 #include <glm/geometric.hpp>
 
@@ -41,14 +41,14 @@ void Walk::begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double
     }
     open.strips = strips_of(strips, 1);
     open.last_is_marked = false;
-    turtle.cylinder = std::int32_t(cylinders_.size());
+    turtle.cylinder = std::int32_t(cylinders.size());
     turtle.branches_off = false;
-    cylinders_.push_back(std::move(open));
+    cylinders.push_back(std::move(open));
     record_control_point({}, false);
 }
 
 void Walk::branch_cylinder() {
-    const OpenCylinder& parent = cylinders_[std::size_t(turtle.cylinder)];
+    const OpenCylinder& parent = cylinders[std::size_t(turtle.cylinder)];
     OpenCylinder open;
     open.cylinder.curve = parent.cylinder.curve;
     // Only the axis itself can come back to its beginning.
@@ -57,20 +57,21 @@ void Walk::branch_cylinder() {
     if (open.cylinder.curve == closed_spline) open.cylinder.curve = open_spline;
     open.cylinder.sides = brush().sides;
     open.cylinder.texture_ratio = parent.cylinder.texture_ratio;
-    open.cylinder.points = {parent.cylinder.points.back()};
+    // One that begins within a polygon may have no point yet.
+    if (!parent.cylinder.points.empty()) open.cylinder.points = {parent.cylinder.points.back()};
     open.strips = parent.strips;
     open.last_is_marked = true;
-    turtle.cylinder = std::int32_t(cylinders_.size());
+    turtle.cylinder = std::int32_t(cylinders.size());
     turtle.branches_off = false;
-    cylinders_.push_back(std::move(open));
+    cylinders.push_back(std::move(open));
 }
 
 void Walk::record_control_point(std::optional<double> strips, bool marked) {
     if (turtle.cylinder < 0) return;
     // What F draws in a branch, or between the vertices of a polygon, is no part of the cylinder around it.
-    if (!marked && (turtle.branches_off || (!open_polygons_.empty() && open_polygons_.back().filled))) return;
+    if (!marked && (turtle.branches_off || (!open_polygons.empty() && open_polygons.back().filled))) return;
     if (turtle.branches_off) branch_cylinder();
-    OpenCylinder& open = cylinders_[std::size_t(turtle.cylinder)];
+    OpenCylinder& open = cylinders[std::size_t(turtle.cylinder)];
     std::vector<CylinderPoint>& points = open.cylinder.points;
 
     CylinderPoint point{module_, turtle.order, std::uint16_t(turtle.colour), look(), turtle.pose};
@@ -105,7 +106,7 @@ void Walk::end_cylinder(std::optional<double> strips) {
     if (turtle.cylinder < 0) return;
     if (!turtle.branches_off) {
         using enum GeneralizedCylinder::Curve;
-        OpenCylinder& open = cylinders_[std::size_t(turtle.cylinder)];
+        OpenCylinder& open = cylinders[std::size_t(turtle.cylinder)];
         std::vector<CylinderPoint>& points = open.cylinder.points;
         if (open.cylinder.curve == closed_hermite || open.cylinder.curve == closed_spline) {
             if (points.size() > 3 && same_place(points.front(), points.back())) points.pop_back();
@@ -119,7 +120,7 @@ void Walk::end_cylinder(std::optional<double> strips) {
 }
 
 void Walk::draw_cylinder(std::int32_t number) {
-    GeneralizedCylinder& cylinder = cylinders_[std::size_t(number)].cylinder;
+    GeneralizedCylinder& cylinder = cylinders[std::size_t(number)].cylinder;
     draw(cylinder, geometry_);
     cylinder.points = {};
     require_room();
@@ -133,7 +134,7 @@ void Walk::require_room() const {
 }
 
 void Walk::finish() {
-    for (std::size_t i = 0; i < cylinders_.size(); ++i) draw_cylinder(std::int32_t(i));
+    for (std::size_t i = 0; i < cylinders.size(); ++i) draw_cylinder(std::int32_t(i));
 }
 
 }  // namespace espalier

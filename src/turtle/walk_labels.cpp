@@ -1,6 +1,6 @@
 // Labels: a text of the model filled in with the module's parameters, where the turtle is.
 #include "espalier/lsystem/print_format.h"
-#include "espalier/turtle/symbol.h"
+#include "espalier/turtle/walk.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // Surfaces as a walk meets them: those of the view file, and those whose control points the turtle walks to.
-#include "espalier/turtle/symbol.h"
+#include "espalier/turtle/walk.h"
 
 #include <glm/geometric.hpp>
 
@@ -59,20 +59,20 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
 
 void Walk::begin_patch(double id, BicubicPatch::Basis basis) {
     if (std::isnan(id)) return;
-    OpenPatch& patch = patches_[std::trunc(id)];
+    OpenPatch& patch = patches[std::trunc(id)];
     patch = {basis, turtle.pose.position, {}};
 }
 
 void Walk::patch_point(double id, double row, double column) {
-    const auto patch = patches_.find(std::trunc(id));
+    const auto patch = patches.find(std::trunc(id));
     const int i = index_of(row), j = index_of(column);
-    if (patch == patches_.end() || i < 0 || j < 0) return;
+    if (patch == patches.end() || i < 0 || j < 0) return;
     patch->second.points[std::size_t(i)][std::size_t(j)] = turtle.pose.position;
 }
 
 void Walk::draw_patch(double id, double rows, double columns) {
-    const auto open = patches_.find(std::trunc(id));
-    if (open == patches_.end()) return;
+    const auto open = patches.find(std::trunc(id));
+    if (open == patches.end()) return;
     const auto& points = open->second.points;
     // A model that counts from 1 fills row 4 or column 4, and neither row 0 nor column 0.
     bool has_first = false, has_last = false;

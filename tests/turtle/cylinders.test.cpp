@@ -187,3 +187,8 @@ TEST_CASE("strange cylinders draw what can be drawn and break nothing", "[turtle
     }
     CHECK(Drawing("{(0)f.f.f.}").geometry().polygons.size() == 1);  // 0 is no curve
 }
+
+TEST_CASE("a cylinder that begins within a polygon has no point there for its branches to begin at", "[turtle]") {
+    CHECK(volume("!(0.5){@Gs[f@Gcf(2)@Ge]") == Approx(tube(0.5, 2)));
+    CHECK(Drawing("{@Gs[@Ge]").geometry().mesh.pieces.empty());
+}

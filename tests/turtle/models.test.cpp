@@ -159,7 +159,7 @@ TEST_CASE("queries in pictures are not sent, those of the string are", "[turtle]
         "homomorphism\n"
         "A --> F?P(0,0)?E(1)\n"
         "endlsystem\n");
-    const std::vector<Query>& queries = plant.draw().queries;
+    const QueryColumn& queries = plant.draw().queries;
     REQUIRE(queries.size() == 2);
     CHECK(queries[0].pose.position.y == 1);
     CHECK(queries[0].module == 2);
@@ -174,7 +174,7 @@ TEST_CASE("declared processes are asked by name from a model file", "[turtle]") 
         "axiom: A?water(1,2)F?light(3)\n"
         "A --> A\n"
         "endlsystem\n");
-    const std::vector<Query>& queries = plant.draw().queries;
+    const QueryColumn& queries = plant.draw().queries;
     REQUIRE(queries.size() == 2);
     CHECK(plant.model->processes.at(queries[0].process) == "water");
     CHECK(plant.model->processes.at(queries[1].process) == "light");

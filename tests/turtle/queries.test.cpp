@@ -84,7 +84,7 @@ TEST_CASE("?P ?H ?L ?U equal an independent replay on 100 random strings", "[tur
             }
         }
         Drawing drawing(text);
-        const std::vector<Query>& queries = drawing.draw().queries;
+        const QueryColumn& queries = drawing.draw().queries;
         REQUIRE(queries.size() == 4 * expected.size());
         double error = 0;
         for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -98,7 +98,7 @@ TEST_CASE("?P ?H ?L ?U equal an independent replay on 100 random strings", "[tur
 
 TEST_CASE("a query names the module that carries its parameters", "[turtle]") {
     Drawing drawing("A(1)?E(7,8)B(9)");
-    const std::vector<Query>& queries = drawing.draw().queries;
+    const QueryColumn& queries = drawing.draw().queries;
     REQUIRE(queries.size() == 1);
     const Query& query = queries[0];
     CHECK(query.kind == QueryKind::communication);
@@ -116,7 +116,7 @@ TEST_CASE("a query names the module that carries its parameters", "[turtle]") {
 
 TEST_CASE("the following module is the next one, a bracket too, and none at the end", "[turtle]") {
     Drawing drawing("?E(1)[?P(1,2)]?E(1)");
-    const std::vector<Query>& queries = drawing.draw().queries;
+    const QueryColumn& queries = drawing.draw().queries;
     REQUIRE(queries.size() == 3);
     CHECK(queries[0].following == Alphabet::open_bracket);
     CHECK(queries[1].following == Alphabet::close_bracket);
@@ -145,7 +145,7 @@ TEST_CASE("a query carries the turtle's pose, width and scale", "[turtle]") {
 TEST_CASE("declared processes are asked under their own names", "[turtle]") {
     Drawing drawing("<?water>(1,2)<?light>(3)?E(4)<?wind>(5)");
     drawing.model.processes = {"light", "water"};
-    const std::vector<Query>& queries = drawing.draw().queries;
+    const QueryColumn& queries = drawing.draw().queries;
     REQUIRE(queries.size() == 3);
     CHECK(queries[0].process == 1);
     CHECK(queries[0].parameters.size() == 2);
@@ -163,7 +163,7 @@ TEST_CASE("queries with a wrong number of parameters ask nothing", "[turtle]") {
 
 TEST_CASE("the turtle fills two or three parameters and leaves a communication alone", "[turtle]") {
     Drawing drawing("F(2)?P(9,9)?P(9,9,9)s(9,9)?E(5,6)");
-    const std::vector<Query>& queries = drawing.draw().queries;
+    const QueryColumn& queries = drawing.draw().queries;
     REQUIRE(queries.size() == 4);
     CHECK(answer_to(queries[0]) == std::vector<double>{0, 2});
     CHECK(answer_to(queries[1]) == std::vector<double>{0, 2, 0});
@@ -173,7 +173,7 @@ TEST_CASE("the turtle fills two or three parameters and leaves a communication a
 
 TEST_CASE("?Q is the rotation of the initial frame to the turtle's", "[turtle]") {
     Drawing drawing("?Q(0,0,0,0)+(20)&(35)/(150)F?Q(0,0,0,0)");
-    const std::vector<Query>& queries = drawing.draw().queries;
+    const QueryColumn& queries = drawing.draw().queries;
     CHECK(answer_to(queries.at(0)) == std::vector<double>{1, 0, 0, 0});
     const std::vector<double> q = answer_to(queries.at(1));
     const glm::dquat rotation(q[0], q[1], q[2], q[3]);

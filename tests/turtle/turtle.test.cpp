@@ -231,6 +231,6 @@ TEST_CASE("the older tropism bends after each step as cpfg does", "[turtle]") {
 
 TEST_CASE("a branch gives the older elasticity back", "[turtle]") {
     Drawing drawing("+(90)[_(0.4)F]?E(1)F?E(1)");
-    const std::vector<Query>& queries = drawing.draw().queries;
+    const QueryColumn& queries = drawing.draw().queries;
     CHECK(queries.at(0).pose.heading == queries.at(1).pose.heading);
 }

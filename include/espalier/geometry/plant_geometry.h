@@ -1,6 +1,7 @@
 // What a turtle draws: internodes, polygons, organs and meshes with the module they belong to. Metres, radians.
 #pragma once
 
+#include "espalier/base/column.h"
 #include "espalier/geometry/shapes.h"
 
 #include <glm/vec3.hpp>
@@ -99,7 +100,7 @@ struct Label {
 };
 
 struct PlantGeometry {
-    std::vector<Internode> internodes;
+    Column<Internode> internodes;
     std::vector<Polygon> polygons;
     std::vector<glm::dvec3> vertices;
     std::vector<Organ> organs;

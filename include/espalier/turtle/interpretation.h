@@ -16,7 +16,7 @@ namespace espalier {
 /// What one interpretation of one plant yields: the value that processes and recorders all read.
 struct Interpretation {
     PlantGeometry geometry;
-    std::vector<Query> queries;  ///< in string order
+    QueryColumn queries;  ///< in string order
 
     void clear();
 };
@@ -27,6 +27,8 @@ std::shared_ptr<const SymbolTable> symbol_table(const Model& model);
 
 struct InterpretOptions {
     std::uint32_t plant = 0;
+    /// Modules that a thread walks at least; 0: all in one piece. Changes the time it takes, not the result.
+    std::size_t chunk = 8192;
 };
 
 /// Walks `string` once. `derivation` gives modules their pictures (homomorphism); may be null.

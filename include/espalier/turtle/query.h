@@ -29,6 +29,23 @@ struct Query {
     double scale = 1;
 };
 
+/// Takes queries as they are: whoever makes room for one writes it, though a Query has values to begin with.
+template <class T>
+class UnwrittenAllocator : public UninitialisedAllocator<T> {
+public:
+    template <class U>
+    struct rebind {
+        using other = UnwrittenAllocator<U>;
+    };
+    using UninitialisedAllocator<T>::UninitialisedAllocator;
+    using UninitialisedAllocator<T>::construct;
+
+    template <class U>
+    void construct(U*) noexcept {}
+};
+
+using QueryColumn = std::vector<Query, UnwrittenAllocator<Query>>;
+
 /// An answer is written over a copy of the query's own parameters; what a process leaves alone keeps its value.
 using Answer = std::span<double>;
 

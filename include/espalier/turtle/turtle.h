@@ -85,14 +85,33 @@ struct Rotation {
 
     Rotation() = default;
     Rotation(double angle);
-    Rotation inverse() const;
+    Rotation inverse() const {
+        Rotation result = *this;
+        result.sine = -sine;
+        return result;
+    }
 };
 
+Rotation rotation_of_degrees(double degrees);
+
+/// Turns `first` towards `second`, both unit and perpendicular.
+inline void rotate_pair(glm::dvec3& first, glm::dvec3& second, Rotation by) {
+    const glm::dvec3 turned = first * by.cosine + second * by.sine;
+    second = second * by.cosine - first * by.sine;
+    first = turned;
+}
+
 // Rotations in cpfg's senses.
-void turn_left(Pose& pose, Rotation rotation);   ///< + : H towards L
-void pitch_down(Pose& pose, Rotation rotation);  ///< & : H towards U
-void roll_left(Pose& pose, Rotation rotation);   ///< / : L towards U
-void level(Pose& pose);                          ///< @v: left horizontal
+inline void turn_left(Pose& pose, Rotation rotation) {  ///< + : H towards L
+    rotate_pair(pose.heading, pose.left, rotation);
+}
+inline void pitch_down(Pose& pose, Rotation rotation) {  ///< & : H towards U
+    rotate_pair(pose.heading, pose.up, rotation);
+}
+inline void roll_left(Pose& pose, Rotation rotation) {  ///< / : L towards U
+    rotate_pair(pose.left, pose.up, rotation);
+}
+void level(Pose& pose);  ///< @v: left horizontal
 /// Turns the heading to `heading` with the least twist; a zero vector means straight up.
 void head_towards(Pose& pose, const glm::dvec3& heading);
 /// Bends and rolls as before every segment; one elasticity per tropism.

@@ -11,12 +11,15 @@ double distance(std::span<const double> parameters) {
 const Symbol draw{"F",
                   {},
                   "F(length): move forward and draw; marks a polygon vertex. Length 1, times the scale",
-                  [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); }};
+                  [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); },
+                  Symbol::Effect::draws};
 
 const Symbol draw_unmarked{
-    "G", {}, "G(length): move forward and draw, marking no vertex", [](Walk& walk, std::span<const double> parameters) {
-        walk.move(distance(parameters), true, false);
-    }};
+    "G",
+    {},
+    "G(length): move forward and draw, marking no vertex",
+    [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, false); },
+    Symbol::Effect::draws};
 
 const Symbol skip{"f",
                   {},

@@ -1,0 +1,53 @@
+// Where a walk puts rows of one kind: at the end of a column, or in a stretch of it that was counted before.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace espalier {
+
+/// What a walk throws that meets more rows than were counted for it: its plan was wrong.
+struct WrongPlan {};
+
+/// `Rows` is a column whose resize() leaves new rows unwritten.
+template <class Rows>
+class RowWriter {
+public:
+    using Row = typename Rows::value_type;
+
+    /// Writes from the column's beginning; close() cuts off what was not written.
+    explicit RowWriter(Rows& rows) : rows_(&rows) {
+        rows.resize(rows.capacity());
+        begin_ = next_ = rows.data();
+        end_ = begin_ + rows.size();
+    }
+    explicit RowWriter(std::span<Row> room) : begin_(room.data()), next_(begin_), end_(begin_ + room.size()) {}
+    RowWriter(const RowWriter&) = delete;
+    ~RowWriter() { close(); }
+
+    Row& add() {
+        if (next_ == end_) make_room();
+        return *next_++;
+    }
+    std::size_t size() const { return std::size_t(next_ - begin_); }
+    bool full() const { return next_ == end_; }
+    void close() {
+        if (rows_) rows_->resize(size());
+    }
+
+private:
+    void make_room() {
+        if (!rows_) throw WrongPlan();
+        const std::size_t written = size();
+        rows_->resize(std::max<std::size_t>(16, written * 2));
+        begin_ = rows_->data();
+        next_ = begin_ + written;
+        end_ = begin_ + rows_->size();
+    }
+
+    Rows* rows_ = nullptr;
+    Row *begin_ = nullptr, *next_ = nullptr, *end_ = nullptr;
+};
+
+}  // namespace espalier

@@ -1,0 +1,269 @@
+// The walk of one turtle along one string: what a symbol acts upon.
+#pragma once
+
+#include "espalier/turtle/interpretation.h"
+#include "espalier/turtle/row_writer.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// What a walk carries from one module to the next.
+struct WalkState {
+    struct OpenPolygon {
+        std::size_t first;
+        std::uint32_t module;
+        bool filled;
+    };
+    struct OpenCylinder {
+        GeneralizedCylinder cylinder;
+        int strips;
+        bool last_is_marked;  ///< by a symbol of its own; the end of an F gives way to one in the same place
+    };
+    struct OpenPatch {
+        BicubicPatch::Basis basis;
+        glm::dvec3 origin;
+        std::array<std::array<std::optional<glm::dvec3>, 5>, 5> points;  ///< counted from 0 or from 1
+    };
+    struct SystemScale {
+        double scale, width;
+    };
+
+    TurtleState turtle;
+    std::vector<double> elasticities;  ///< one per tropism
+    bool stopped = false;              ///< nothing that follows is drawn
+    std::vector<TurtleState> stack;    ///< one per open branch
+    std::vector<double> elasticity_stack;
+    std::vector<SystemScale> systems;  ///< entered sub-L-systems
+    std::vector<Brush> brushes;
+    std::vector<OpenPolygon> open_polygons;
+    std::vector<glm::dvec3> open_vertices;
+    std::vector<OpenCylinder> cylinders;
+    std::map<double, OpenPatch> patches;
+
+    /// Forgets everything, keeps the memory.
+    void clear();
+    /// True if nothing is half drawn and no brush was changed: what follows depends on turtles, scales and
+    /// elasticities alone.
+    bool is_between_drawings() const;
+    /// Compares turtles, scales and elasticities, to the last bit, but not how axes are numbered.
+    bool stands_like(const WalkState& other) const;
+};
+
+class Walk : private WalkState {
+public:
+    /// A stretch of a column for each kind of row that was counted before.
+    struct Room {
+        std::span<Internode> internodes;
+        std::span<Query> queries;
+    };
+
+    /// As a turtle begins, into an empty result; with `room`, rows that were counted go there instead.
+    Walk(const Model& model, const ModuleString& string, const TurtleSettings& settings, std::uint32_t plant,
+         Interpretation& result, const Room* room = nullptr);
+    Walk(const Walk&) = delete;
+    ~Walk();
+
+    const TurtleSettings& settings;
+    using WalkState::elasticities;
+    using WalkState::stopped;
+    using WalkState::turtle;
+
+    /// Moves by distance * scale along the heading, after the tropisms have acted on it.
+    void move(double distance, bool draws, bool records_vertex);
+    /// Moves elsewhere; the next internode begins a new axis.
+    void jump(const glm::dvec3& position);
+    /// The first parameter as an angle in degrees, or the model's angle if there is none.
+    Rotation rotation(std::span<const double> parameters);
+
+    void push();
+    void pop();
+
+    void set_width(double width);
+    void set_scale(double scale);
+    /// The elasticity of a tropism counted from 1; null if there is no such tropism.
+    double* elasticity(double id);
+
+    /// Opens a polygon; a group of vertices that is not `filled` collects them and draws nothing.
+    void open_polygon(bool filled);
+    void close_polygon();
+    void record_vertex() {
+        if (!open_polygons.empty()) open_vertices.push_back(turtle.pose.position);
+    }
+
+    /// Puts a disc, sphere or circle at `pose`; `diameter` in metres, the scale already in it.
+    void place(Organ::Shape shape, const Pose& pose, double diameter);
+    /// Draws the surface of this id, stretched along left, heading and up, and moves to its end point.
+    void place_surface(std::uint32_t id, const glm::dvec3& factors);
+
+    /// Begins a generalized cylinder here. `strips`: between control points that do not say.
+    void begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double> strips);
+    /// A control point of the open cylinder, `strips` from the one before. In a branch the first begins a cylinder of
+    /// its own, from the last control point of the axis that bears the branch.
+    void control_point(std::optional<double> strips);
+    void end_cylinder(std::optional<double> strips);
+    bool in_cylinder_braces() const { return !open_polygons.empty() && !open_polygons.back().filled; }
+
+    /// Patches whose control points are positions of the turtle, by number.
+    void begin_patch(double id, BicubicPatch::Basis basis);
+    void patch_point(double id, double row, double column);
+    void draw_patch(double id, double rows, double columns);
+
+    /// The first value is the number of a text, printf's format for the others.
+    void write_label(std::span<const double> values);
+
+    /// Scales lengths and widths until the sub-L-system is left.
+    void enter_system(double scale);
+    void leave_system();
+
+    const Brush& brush() const { return brushes[turtle.brush]; }
+    /// Changes the brush from here on, until the end of the branch.
+    template <class Change>
+    void change_brush(Change change) {
+        Brush brush = brushes[turtle.brush];
+        change(brush);
+        turtle.brush = std::uint32_t(brushes.size());
+        brushes.push_back(brush);
+    }
+
+    /// Draws what the string left open.
+    void finish();
+
+    /// Sends the current module's parameters; does nothing inside a picture, whose answers nobody could read.
+    void ask(QueryKind kind);
+
+    /// The symbol of the current module, one code point or a declared name.
+    const std::string& symbol() const;
+
+    /// Throws RunError naming the module, the plant and the modules around it.
+    [[noreturn]] void fail(const std::string& what) const;
+
+private:
+    friend class StringWalk;
+    struct KnownRotation {
+        double degrees;
+        Rotation rotation;
+    };
+
+    void begin_axis();
+    void record_control_point(std::optional<double> strips, bool marked);
+    void branch_cylinder();
+    void draw_cylinder(std::int32_t number);
+    void require_room() const;
+    void require_position() const;
+    const Contour* contour() const;
+    Look look() const;
+    double radius(double width) const { return radius_of_width_ * width; }
+    void add_ball(const glm::dvec3& centre, double radius) {
+        geometry_.bounds.lower = glm::min(geometry_.bounds.lower, centre - radius);
+        geometry_.bounds.upper = glm::max(geometry_.bounds.upper, centre + radius);
+    }
+
+    const Model& model_;
+    const ModuleString& string_;
+    PlantGeometry& geometry_;
+    RowWriter<Column<Internode>> internodes_;
+    RowWriter<QueryColumn> queries_;
+    const std::uint32_t plant_;
+    const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
+
+    std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn
+    std::size_t parameters_at_ = 0;  // where its parameters begin
+    LetterId letter_ = no_letter;    // of the module that acts: module_'s own, or one of its picture
+    bool in_picture_ = false;
+
+    const double radius_of_width_;
+    const Rotation default_rotation_;
+    const glm::dvec3 older_tropism_;
+    std::array<KnownRotation, 16> known_rotations_;  // angles repeat; sines are dear
+};
+
+// --- what the letters of every tree do ------------------------------------------------------------------------------
+
+inline void Walk::begin_axis() {
+    turtle.axis = geometry_.axes++;
+    turtle.on_axis = true;
+    turtle.node_width = turtle.width;
+}
+
+inline void Walk::move(double distance, bool draws, bool records_vertex) {
+    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings.tropisms, elasticities);
+    const glm::dvec3 base = turtle.pose.position;
+    turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
+    if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
+    require_position();
+    if (records_vertex) record_vertex();
+    if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
+    if (!draws) {
+        turtle.on_axis = false;
+        return;
+    }
+    const bool continues = turtle.on_axis && settings.tapered_lines;
+    if (!turtle.on_axis) begin_axis();
+    if (!settings.tapered_lines) turtle.node_width = turtle.width;
+    const double base_radius = radius(turtle.node_width), tip_radius = radius(turtle.width);
+    internodes_.add() = {module_, turtle.axis,          turtle.order, std::uint16_t(turtle.colour),
+                         base,    turtle.pose.position, base_radius,  tip_radius};
+    turtle.node_width = turtle.width;
+    if (turtle.texture != 0) {
+        geometry_.textures.resize(internodes_.size());
+        geometry_.textures.back() = turtle.texture;
+    }
+    if (!continues) add_ball(base, base_radius);  // else it is the end of the segment before
+    add_ball(turtle.pose.position, tip_radius);
+}
+
+inline void Walk::require_position() const {
+    const glm::dvec3& position = turtle.pose.position;
+    if (!std::isfinite(position.x + position.y + position.z)) fail("the turtle's position is not a number any more");
+}
+
+inline Rotation Walk::rotation(std::span<const double> parameters) {
+    if (parameters.empty()) return default_rotation_;
+    const double degrees = parameters[0];
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(degrees);
+    KnownRotation& known = known_rotations_[(bits * 0x9E3779B97F4A7C15u) >> 60];
+    if (known.degrees != degrees) known = {degrees, rotation_of_degrees(degrees)};
+    return known.rotation;
+}
+
+inline void Walk::push() {
+    stack.push_back(turtle);
+    if (!elasticities.empty()) {
+        elasticity_stack.insert(elasticity_stack.end(), elasticities.begin(), elasticities.end());
+    }
+    turtle.on_axis = false;
+    turtle.branches_off = true;
+    if (turtle.order < std::numeric_limits<std::uint16_t>::max()) ++turtle.order;
+}
+
+inline void Walk::pop() {
+    // Strings of old models may end more branches than they began; `check` warns of the productions.
+    if (stack.empty()) return;
+    turtle = stack.back();
+    stack.pop_back();
+    if (systems.size() > turtle.systems) systems.resize(turtle.systems);
+    if (elasticities.empty()) return;
+    const auto first = elasticity_stack.end() - std::ptrdiff_t(elasticities.size());
+    std::copy(first, elasticity_stack.end(), elasticities.begin());
+    elasticity_stack.erase(first, elasticity_stack.end());
+}
+
+inline void Walk::set_width(double width) {
+    constexpr double thinnest = 1e-7;  // cpfg's
+    if (!std::isfinite(width)) fail("the line width is not a number");
+    turtle.width = std::max(width, thinnest);
+}
+
+}  // namespace espalier

@@ -1,0 +1,72 @@
+// What can be known of a stretch of the string before it is walked: how much it draws, and what of it the turtle at its
+// end still feels.
+#pragma once
+
+#include "turtle/string_walk.h"
+
+#include <array>
+#include <vector>
+
+namespace espalier {
+
+/// Sums over stretches: parameters, and rows of result that are known from the letters.
+struct WalkCounts {
+    std::size_t parameters = 0, internodes = 0, queries = 0;
+
+    WalkCounts& operator+=(const WalkCounts& other);
+};
+
+/// What every letter adds to the counts and to the depth of branches, packed into one number.
+class LetterCounts {
+public:
+    explicit LetterCounts(const SymbolTable& symbols);
+
+    std::vector<std::uint64_t> of;  ///< by letter
+};
+
+/// Modules [begin, end) of the string, bounded by brackets, so that no symbol reaches across.
+class WalkPlan {
+public:
+    static constexpr std::size_t block_size = 64;
+
+    WalkPlan(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
+
+    /// Reads the letters. May run beside others.
+    void read(const WalkInput& input, const LetterCounts& letters);
+
+    /// Moves `state` from the beginning of this stretch to its end; `parameters` stand before it. Walks only what is in
+    /// no branch that ends within the stretch; what that draws goes to `scratch`.
+    void advance(const WalkInput& input, std::size_t parameters, WalkState& state, Interpretation& scratch) const;
+
+    std::size_t begin() const { return begin_; }
+    std::size_t end() const { return end_; }
+    const WalkCounts& counts() const { return counts_; }
+    /// Modules that advance() walks.
+    std::size_t kept() const;
+
+private:
+    /// So many modules: the parameters before them, the depth before them and the least depth behind one of them, all
+    /// counted from the beginning of the stretch.
+    struct Block {
+        std::size_t parameters;
+        std::int64_t depth, least;
+    };
+    /// A run of modules that advance() walks.
+    struct Run {
+        std::size_t begin, end, parameters;
+    };
+
+    std::size_t count_rows(const WalkInput& input, std::size_t from, std::size_t end);
+    void find_runs(const WalkInput& input);
+    std::size_t opening_of(const ModuleString& string, std::size_t closing, std::int64_t depth) const;
+    std::size_t parameters_before(const WalkInput& input, std::size_t module) const;
+
+    std::size_t begin_, end_;
+    WalkCounts counts_;
+    std::vector<Block> blocks_;
+    std::int64_t depth_ = 0;  ///< at the end
+    std::size_t pops_ = 0;    ///< branches that began before this stretch and end in it
+    std::vector<Run> runs_;   ///< last one first
+};
+
+}  // namespace espalier
