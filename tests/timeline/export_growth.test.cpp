@@ -12,6 +12,12 @@ namespace {
 using namespace espalier;
 using Json = nlohmann::json;
 
+std::uint32_t word(const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
 /// The chunks of a .glb.
 struct GlbFile {
     Json json;

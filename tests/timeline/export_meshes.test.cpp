@@ -93,6 +93,21 @@ TEST_CASE("tubes of an STL are closed and hold what their rings hold", "[export]
     CHECK(ring_area(256) == Approx(std::numbers::pi).epsilon(0.001));
 }
 
+TEST_CASE("where an axis ends and others begin, its tube goes on along the straightest of equals", "[export]") {
+    HandmadePlant fork;
+    fork.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, {0, 1, 0}, 0);
+    fork.add_internode(2, 1, 1, 1, 1, {0, 1, 0}, {-1, 1.2, 0}, 0);
+    fork.add_internode(3, 1, 1, 2, 1, {0, 1, 0}, {0.2, 2, 0}, 0);
+    const ExportedPlant exported(fork, "stl");
+    const auto data = read<vtkSTLReader>(exported.files.at(0).path);
+    CHECK(data->GetNumberOfCells() == 8 * (2 * 3 + 2 * 2));  // three pieces, two tubes
+    CHECK(is_closed(*data));
+    const std::string obj = bytes_of(ExportedPlant(fork, "obj").files.at(0).path);
+    std::size_t groups = 0;
+    for (std::size_t at = obj.find("\ng "); at != std::string::npos; at = obj.find("\ng ", at + 1)) ++groups;
+    CHECK(groups == 2);
+}
+
 TEST_CASE("a mesh stands on y, or on z if asked for", "[export]") {
     ExportOptions options = of_plant(0);
     double bounds[6], turned[6];

@@ -24,14 +24,31 @@ struct Exported {
         : recorded(settings) {
         std::vector<const RecordedFrame*> frames;
         for (const int step : steps) frames.push_back(&run.frame(step));
-        const std::string formats[] = {format};
         export_run({run, frames, options, recorded.folder.path / "export",
                     [this](const ExportedFile& file) { files.push_back(file); }},
-                   formats);
+                   std::vector{format});
     }
 
     std::filesystem::path path() const { return files.at(0).path; }
     std::string text() const { return bytes_of(path()); }
+};
+
+/// One frame of one plant, without fields, written in one format.
+struct ExportedPlant {
+    RunFolder folder;
+    std::vector<ExportedFile> files;
+
+    ExportedPlant(const HandmadePlant& plant, const std::string& format) {
+        Timeline timeline(folder.path, timeline_table(), 0);
+        record(timeline, 0, {&plant});
+        timeline.finish();
+        timeline.write_run(run_json);
+        const RecordedRun run(folder.path);
+        const RecordedFrame* const frames[] = {&run.frame(0)};
+        export_run(
+            {run, frames, {}, folder.path / "export", [this](const ExportedFile& file) { files.push_back(file); }},
+            std::vector{format});
+    }
 };
 
 /// Of a ring with so many corners, by the square of its radius.

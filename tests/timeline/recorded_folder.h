@@ -6,6 +6,8 @@
 
 #include "timeline/frames.h"
 
+#include <algorithm>
+
 namespace espalier {
 
 inline constexpr const char* run_json =
@@ -47,6 +49,7 @@ struct RecordedFolder {
             internode.tip.x += 5;
         }
         right.add_triangle(50);
+        std::fill(right.string.births.begin(), right.string.births.end(), 0u);  // it was there at step 0
         for (const int step : {0, 4}) {
             Fields fields;
             fields.provide(light_field(0.5f + static_cast<float>(step)));

@@ -22,6 +22,16 @@ struct AxisTree {
     std::vector<std::uint32_t> trunks() const;
 };
 
+/// Points that one tube follows.
+struct AxisPath {
+    std::uint32_t plant;
+    std::size_t row;  ///< of `of_cells`: of the axis it begins with
+    std::vector<std::int32_t> points;
+};
+
+/// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
+std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const ExportOptions& options);
+
 /// Of the plants asked for.
 AxisTree axis_tree(const RecordedGeometry& geometry, const ExportOptions& options);
 

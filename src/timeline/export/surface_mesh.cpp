@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "timeline/export/axis_tree.h"
 #include "timeline/export/tubes.h"
 
 #include <fmt/format.h>
@@ -28,13 +29,11 @@ public:
           part_of_(geometry.points.size(), 0) {}
 
     void add_tubes() {
-        for (std::size_t line = 0; line < geometry_.lines.size(); ++line) {
-            const std::size_t row = geometry_.lines.first + line;
-            if (geometry_.of_cells.kinds[row] != Kind::axis || !wanted(row)) continue;
-            const TubeLine tube = tube_line(geometry_, geometry_.lines[line], options_.simplify, thinnest_);
+        for (const AxisPath& path : axis_paths(geometry_, options_)) {
+            const TubeLine tube = tube_line(geometry_, path.points, options_.simplify, thinnest_);
             if (tube.nodes.size() < 2) continue;
             require_room(tube.nodes.size() * static_cast<std::size_t>(options_.sides + 1));
-            begin_part(row);
+            begin_part(path.row);
             add_tube(tube);
             end_part();
         }
@@ -207,6 +206,32 @@ ExportMesh surfaces_of(const RecordedGeometry& geometry, const ExportOptions& op
     MeshBuilder builder(geometry, options);
     builder.add_surfaces();
     return builder.take();
+}
+
+std::map<std::uint32_t, ExportMesh> by_plant(const ExportMesh& mesh) {
+    std::map<std::uint32_t, ExportMesh> plants;
+    const auto append = [](auto& to, const auto& from, std::size_t first, std::size_t count) {
+        const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
+        to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+    };
+    for (const ExportPart& part : mesh.parts) {
+        ExportMesh& own = plants[part.plant];
+        if (own.parts.empty()) own.materials = mesh.materials;
+        ExportPart& moved = own.parts.emplace_back(part);
+        moved.first_vertex = own.points.size();
+        moved.first_triangle = own.triangles.size();
+        append(own.points, mesh.points, part.first_vertex, part.vertices);
+        append(own.normals, mesh.normals, part.first_vertex, part.vertices);
+        append(own.uvs, mesh.uvs, part.first_vertex, part.vertices);
+        append(own.rgb, mesh.rgb, part.first_vertex, part.vertices);
+        append(own.material_of, mesh.material_of, part.first_triangle, part.triangles);
+        const auto shift = static_cast<std::uint32_t>(moved.first_vertex - part.first_vertex);  // modulo 2^32
+        for (std::size_t i = 0; i < part.triangles; ++i) {
+            const auto [a, b, c] = mesh.triangles[part.first_triangle + i];
+            own.triangles.push_back({a + shift, b + shift, c + shift});
+        }
+    }
+    return plants;
 }
 
 std::string part_name(const RecordedRun& run, const ExportPart& part, std::size_t number) {

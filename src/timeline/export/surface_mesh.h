@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,9 @@ Rgb colour_of(const RecordedAttributes& attributes, std::size_t row);
 ExportMesh mesh_of(const RecordedGeometry& geometry, const ExportOptions& options);
 /// The surfaces alone.
 ExportMesh surfaces_of(const RecordedGeometry& geometry, const ExportOptions& options);
+
+/// Each plant's parts with vertices of their own; materials keep their numbers.
+std::map<std::uint32_t, ExportMesh> by_plant(const ExportMesh& mesh);
 
 /// The radius given to lines that have none: a thousandth of the diagonal of the frame.
 float thinnest_radius(const RecordedGeometry& geometry);

@@ -54,7 +54,7 @@ private:
             "area,volume";
         for (const auto& [name, values] : geometry.parameters) {
             parameters_.push_back(name);
-            text_ += "," + csv_text(name);
+            text_.append(",").append(csv_text(name));
         }
         text_ += '\n';
     }

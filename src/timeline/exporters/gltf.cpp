@@ -25,27 +25,9 @@ ExportedFile write_frame(const ExportJob& job, const RecordedFrame& frame) {
     for (const ExportMaterial& material : mesh.materials) materials.push_back(material.rgb);
     Glb glb;
     std::vector<std::size_t> roots;
-    for (std::size_t number = 0; number < mesh.parts.size();) {
-        const std::uint32_t plant = mesh.parts[number].plant;
-        std::vector<glm::vec3> points, normals;
-        std::vector<glm::vec2> uvs;
-        std::vector<std::array<std::uint32_t, 3>> triangles;
-        std::vector<std::uint32_t> material_of;
-        for (; number < mesh.parts.size() && mesh.parts[number].plant == plant; ++number) {
-            const ExportPart& part = mesh.parts[number];
-            const auto shift = static_cast<std::uint32_t>(points.size() - part.first_vertex);
-            for (std::size_t i = part.first_vertex; i < part.first_vertex + part.vertices; ++i) {
-                points.push_back(mesh.points[i]);
-                normals.push_back(mesh.normals[i]);
-                uvs.push_back(mesh.uvs[i]);
-            }
-            for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
-                const auto [a, b, c] = mesh.triangles[i];
-                triangles.push_back({a + shift, b + shift, c + shift});
-                material_of.push_back(mesh.material_of[i]);
-            }
-        }
-        const std::size_t shape = glb.add_mesh(points, normals, uvs, triangles, material_of, materials);
+    for (const auto& [plant, own] : by_plant(mesh)) {
+        const std::size_t shape =
+            glb.add_mesh(own.points, own.normals, own.uvs, own.triangles, own.material_of, materials);
         roots.push_back(glb.add_node({{"name", job.run.plants()[plant].name}, {"mesh", shape}}));
     }
     const auto path = job.path(frame, "glb");

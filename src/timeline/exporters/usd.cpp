@@ -1,6 +1,7 @@
 // USD as text: growth as time samples. A plant has curves with widths for its axes and a mesh for its surfaces.
 #include "espalier/base/file.h"
 
+#include "timeline/export/axis_tree.h"
 #include "timeline/export/colour.h"
 #include "timeline/export/surface_mesh.h"
 #include "timeline/export/tubes.h"
@@ -9,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include <iterator>
+#include <map>
 
 namespace espalier {
 namespace {
@@ -115,34 +117,21 @@ public:
         shown_.add(step, visibility(!curves.counts.empty()));
     }
 
-    void add(int step, const ExportMesh& mesh, std::uint32_t plant) {
-        std::vector<glm::vec3> points, normals;
-        std::vector<glm::vec2> uvs;
+    void add(int step, const ExportMesh& mesh) {
         std::vector<Rgb> rgb;
-        std::vector<std::size_t> corners;
-        for (const ExportPart& part : mesh.parts) {
-            if (part.plant != plant) continue;
-            const std::size_t shift = points.size() - part.first_vertex;
-            for (std::size_t i = part.first_vertex; i < part.first_vertex + part.vertices; ++i) {
-                points.push_back(mesh.points[i]);
-                normals.push_back(mesh.normals[i]);
-                uvs.push_back(mesh.uvs[i]);
-            }
-            for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
-                rgb.push_back(mesh.materials[mesh.material_of[i]].rgb);
-                for (const std::uint32_t corner : mesh.triangles[i]) corners.push_back(corner + shift);
-            }
-        }
+        for (const std::uint32_t material : mesh.material_of) rgb.push_back(mesh.materials[material].rgb);
         triangles_ += rgb.size();
         face_counts_.add(step, numbers(std::vector<int>(rgb.size(), 3)));
-        corners_.add(step, numbers(corners));
-        mesh_points_.add(step, vectors(points));
-        normals_.add(step, vectors(normals));
-        uvs_.add(step, list(uvs, [](std::string& text, const glm::vec2& uv) {
+        corners_.add(step, list(mesh.triangles, [](std::string& text, const auto& corners) {
+                         fmt::format_to(std::back_inserter(text), "{}, {}, {}", corners[0], corners[1], corners[2]);
+                     }));
+        mesh_points_.add(step, vectors(mesh.points));
+        normals_.add(step, vectors(mesh.normals));
+        uvs_.add(step, list(mesh.uvs, [](std::string& text, const glm::vec2& uv) {
                      fmt::format_to(std::back_inserter(text), "({}, {})", uv.x, uv.y);
                  }));
         mesh_colours_.add(step, colours(rgb));
-        mesh_extent_.add(step, extent(points, 0));
+        mesh_extent_.add(step, extent(mesh.points, 0));
         mesh_shown_.add(step, visibility(!rgb.empty()));
     }
 
@@ -179,12 +168,10 @@ private:
 std::vector<Curves> curves_of(const RecordedGeometry& geometry, const ExportJob& job) {
     std::vector<Curves> result(job.run.plants().size());
     const float thinnest = thinnest_radius(geometry);
-    for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
-        const std::size_t row = geometry.lines.first + line;
-        if (geometry.of_cells.kinds[row] != Kind::axis) continue;
-        const TubeLine tube = tube_line(geometry, geometry.lines[line], job.options.simplify, thinnest);
+    for (const AxisPath& path : axis_paths(geometry, job.options)) {
+        const TubeLine tube = tube_line(geometry, path.points, job.options.simplify, thinnest);
         if (tube.nodes.size() < 2) continue;
-        Curves& curves = result[geometry.of_cells.plants[row]];
+        Curves& curves = result[path.plant];
         curves.counts.push_back(static_cast<int>(tube.nodes.size()));
         for (const TubeNode& node : tube.nodes) {
             curves.points.push_back(upright(node.position, job.options.up));
@@ -215,11 +202,11 @@ public:
         for (const RecordedFrame* frame : job.frames) {
             const RecordedGeometry geometry = job.run.geometry(*frame);
             const std::vector<Curves> curves = curves_of(geometry, job);
-            const ExportMesh surfaces = surfaces_of(geometry, job.options);
+            std::map<std::uint32_t, ExportMesh> surfaces = by_plant(surfaces_of(geometry, job.options));
             for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
                 if (!wanted(plant)) continue;
                 plants[plant].add(frame->step, curves[plant]);
-                plants[plant].add(frame->step, surfaces, plant);
+                plants[plant].add(frame->step, surfaces[plant]);
             }
         }
         std::string text = head(job);
