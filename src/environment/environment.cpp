@@ -74,7 +74,7 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
         arities_.push_back(processes_.back()->query_arity());
     }
     if (processes_.size() == 1) default_ = 0;
-    batches_.resize(processes_.size() + 1);
+    batches_.resize(processes_.size());
 }
 
 Environment::~Environment() = default;

@@ -4,12 +4,30 @@
 #include "espalier/environment/environment.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 
 namespace espalier {
 namespace {
+
+constexpr std::size_t block = 4096;  // queries: less is not worth a second thread
+
+std::size_t blocks(std::size_t queries) {
+    return (queries + block - 1) / block;
+}
+
+/// Calls work(begin, end) for one block of queries after the other, or side by side.
+template <class Work>
+void for_blocks(std::size_t queries, const Work& work) {
+    if (queries == 0) return;
+    if (queries <= block) return work(std::size_t{0}, queries);
+    tbb::parallel_for(std::size_t{0}, blocks(queries),
+                      [&](std::size_t i) { work(i * block, std::min(queries, (i + 1) * block)); });
+}
 
 std::string described(const PlantView& plant, int step) {
     return fmt::format("step {}: plant {} (model {})", step, plant.plant, plant.model->name);
@@ -20,56 +38,114 @@ std::string described(const PlantView& plant, int step) {
 void Environment::exchange(const WorldView& world, std::span<ModuleString*> strings) {
     assert(strings.size() == world.plants.size());
     gather(world);
-    answer_turtle_queries();
     for (std::size_t process = 0; process < processes_.size(); ++process) consult(process, world);
     // Only now: the queries' parameters point into these strings.
-    for (const Batch& batch : batches_) {
-        for (std::size_t i = 0; i < batch.queries.size(); ++i) {
-            Column<double>& parameters = strings[batch.queries[i].plant]->parameters;
-            std::copy(batch.answers[i].begin(), batch.answers[i].end(),
-                      parameters.begin() + static_cast<std::ptrdiff_t>(batch.queries[i].parameters_at));
-        }
+    for (const Batch& batch : batches_) write_answers(batch, strings);
+    answer_turtle_queries(world, strings);
+}
+
+// Plant order, then string order.
+void Environment::gather(const WorldView& world) {
+    for (Batch& batch : batches_) {
+        batch.copies.clear();
+        batch.queries = {};
+    }
+    last_model_ = nullptr;
+    if (!borrow(world)) {
+        for (const PlantView& plant : world.plants) gather(plant, world.step);
+        for (Batch& batch : batches_) batch.queries = batch.copies;
+    }
+    for (std::size_t process = 0; process < processes_.size(); ++process) {
+        begin_answers(batches_[process]);
+        send(process);
     }
 }
 
-// Plant order, then string order; answers begin as copies of the parameters.
-void Environment::gather(const WorldView& world) {
-    for (Batch& batch : batches_) {
-        batch.queries.clear();
-        batch.values.clear();
-        batch.answers.clear();
+// Where one plant asks nothing but one process, and in its own words, the process reads the questions where they are.
+bool Environment::borrow(const WorldView& world) {
+    const PlantView* only = nullptr;
+    for (const PlantView& plant : world.plants) {
+        if (plant.interpretation->queries.empty()) continue;
+        if (only != nullptr) return false;
+        only = &plant;
     }
-    for (const PlantView& plant : world.plants) gather(plant, world.step);
-    for (Batch& batch : batches_) {
-        double* next = batch.values.data();
-        for (const Query& query : batch.queries) {
-            batch.answers.emplace_back(next, query.parameters.size());
-            next += query.parameters.size();
+    if (only == nullptr) return true;
+    const std::span<const Query> queries = only->interpretation->queries;
+    const Query& first = queries.front();
+    if (first.kind != QueryKind::communication || routed_) return false;
+    name_processes(*only);
+    const std::optional<std::size_t> process = process_for(first, *only, world.step);
+    if (!process || communications_[*process].changes_queries()) return false;
+    std::atomic<bool> alike = true;
+    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Query& query = queries[i];
+            const bool same = query.kind == first.kind && query.process == first.process;
+            if (!same || !is_sound(query, *process)) alike = false;
         }
-    }
-    for (std::size_t process = 0; process < processes_.size(); ++process) send(process);
+    });
+    if (!alike || communications_[*process].rounds_parameters()) return false;
+    batches_[*process].queries = queries;
+    return true;
+}
+
+// Many plants share a model.
+void Environment::name_processes(const PlantView& plant) {
+    if (plant.model == last_model_) return;
+    last_model_ = plant.model;
+    by_name_.clear();
+    for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
 }
 
 void Environment::gather(const PlantView& plant, int step) {
-    by_name_.clear();
-    for (const std::string& name : plant.model->processes) by_name_.push_back(find(name));
+    if (plant.interpretation->queries.empty()) return;
+    name_processes(plant);
     for (const Query& asked : plant.interpretation->queries) {
+        if (asked.kind != QueryKind::communication) continue;
         const std::optional<std::size_t> process = process_for(asked, plant, step);
         if (!process) continue;
-        Batch& batch = batches_[*process];
-        Query& query = batch.queries.emplace_back(asked);
+        Query& query = batches_[*process].copies.emplace_back(asked);
         if (is_routed(query)) {
             query.parameters = query.parameters.subspan(1);
             ++query.parameters_at;
         }
-        if (*process != batches_end()) require_sound(query, *process, plant, step);
-        batch.values.insert(batch.values.end(), query.parameters.begin(), query.parameters.end());
+        if (!is_sound(query, *process)) throw_unsound(query, *process, plant, step);
     }
+}
+
+// Answers begin as copies of the parameters.
+void Environment::begin_answers(Batch& batch) {
+    const std::span<const Query> queries = batch.queries;
+    std::vector<std::size_t> begins(blocks(queries.size()) + 1, 0);
+    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+        std::size_t parameters = 0;
+        for (std::size_t i = begin; i < end; ++i) parameters += queries[i].parameters.size();
+        begins[begin / block + 1] = parameters;
+    });
+    for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+    batch.values.resize(begins.back());
+    batch.answers.resize(queries.size());
+    for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+        double* next = batch.values.data() + begins[begin / block];
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::span<const double> parameters = queries[i].parameters;
+            batch.answers[i] = {next, parameters.size()};
+            for (const double parameter : parameters) *next++ = parameter;
+        }
+    });
+}
+
+void Environment::write_answers(const Batch& batch, std::span<ModuleString*> strings) {
+    for_blocks(batch.queries.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            double* next = strings[batch.queries[i].plant]->parameters.data() + batch.queries[i].parameters_at;
+            for (const double answer : batch.answers[i]) *next++ = answer;
+        }
+    });
 }
 
 // Nothing for a query that is to stay as it is.
 std::optional<std::size_t> Environment::process_for(const Query& query, const PlantView& plant, int step) const {
-    if (query.kind != QueryKind::communication) return batches_end();
     const bool unnamed = query.process < 0;
     if (is_routed(query)) {
         const double number = query.parameters[0];
@@ -95,20 +171,28 @@ void Environment::send(std::size_t process) {
     const Communication& communication = communications_[process];
     Batch& batch = batches_[process];
     if (communication.changes_queries()) {
-        for (Query& query : batch.queries) communication.send(query);
+        for (Query& query : batch.copies) communication.send(query);
     }
     if (!communication.rounds_parameters()) return;
     batch.sent.resize(batch.values.size());
     for (std::size_t i = 0; i < batch.values.size(); ++i) batch.sent[i] = communication.rounded(batch.values[i]);
     const double* next = batch.sent.data();
-    for (Query& query : batch.queries) {
+    for (Query& query : batch.copies) {
         query.parameters = {next, query.parameters.size()};
         next += query.parameters.size();
     }
 }
 
 // A module may be written by a rule that `require_answers` has not seen, and a NaN may come out of any expression.
-void Environment::require_sound(const Query& query, std::size_t process, const PlantView& plant, int step) const {
+bool Environment::is_sound(const Query& query, std::size_t process) const {
+    const auto [fewest, most] = arities_[process];
+    const auto given = static_cast<int>(query.parameters.size());
+    bool sound = given >= fewest && given <= most;
+    for (const double value : query.parameters) sound = sound && std::isfinite(value);
+    return sound;
+}
+
+void Environment::throw_unsound(const Query& query, std::size_t process, const PlantView& plant, int step) const {
     const auto [fewest, most] = arities_[process];
     const auto given = static_cast<int>(query.parameters.size());
     if (given < fewest || given > most) {
@@ -122,9 +206,19 @@ void Environment::require_sound(const Query& query, std::size_t process, const P
     }
 }
 
-void Environment::answer_turtle_queries() {
-    const Batch& batch = batches_[batches_end()];
-    for (std::size_t i = 0; i < batch.queries.size(); ++i) answer_from_turtle(batch.queries[i], batch.answers[i]);
+// Straight into the strings: nobody else sees these answers.
+void Environment::answer_turtle_queries(const WorldView& world, std::span<ModuleString*> strings) {
+    for (const PlantView& plant : world.plants) {
+        const std::span<const Query> queries = plant.interpretation->queries;
+        double* parameters = strings[plant.plant]->parameters.data();
+        for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Query& query = queries[i];
+                if (query.kind == QueryKind::communication) continue;
+                answer_from_turtle(query, {parameters + query.parameters_at, query.parameters.size()});
+            }
+        });
+    }
 }
 
 void Environment::consult(std::size_t process, const WorldView& world) {
@@ -158,7 +252,9 @@ void Environment::round_answers(std::size_t process) {
 
 void Environment::require_finite(std::size_t process, const WorldView& world) const {
     const Batch& batch = batches_[process];
-    for (std::size_t i = 0; i < batch.answers.size(); ++i) {
+    bool finite = true;
+    for (const double value : batch.values) finite = finite & std::isfinite(value);
+    for (std::size_t i = 0; !finite && i < batch.answers.size(); ++i) {
         for (const double value : batch.answers[i]) {
             if (std::isfinite(value)) continue;
             throw RunError(fmt::format("{}: process '{}' ({}) answers {}",

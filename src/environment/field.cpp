@@ -7,6 +7,13 @@
 #include <fmt/ranges.h>
 
 namespace espalier {
+namespace {
+
+void bring_up_to_date(Field& field) {
+    if (field.current) field.grid = field.current();
+}
+
+}  // namespace
 
 void Fields::provide(Field field) {
     std::string name = field.name;
@@ -24,7 +31,14 @@ const Field& Fields::need(const std::string& name) const {
 
 const Field* Fields::find(const std::string& name) const {
     const auto found = fields_.find(name);
-    return found == fields_.end() ? nullptr : &found->second;
+    if (found == fields_.end()) return nullptr;
+    bring_up_to_date(found->second);
+    return &found->second;
+}
+
+const std::map<std::string, Field>& Fields::all() const {
+    for (auto& [name, field] : fields_) bring_up_to_date(field);
+    return fields_;
 }
 
 }  // namespace espalier

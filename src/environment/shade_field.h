@@ -1,63 +1,66 @@
-// The shade of all pyramids, in bricks of 8 x 8 x 8 voxels laid out as OpenVDB's leaves. Only bricks that something
-// shades exist.
+// The shade of all pyramids of a step: what changed since the last one is added and taken away, or all is summed anew,
+// whichever is less work. Sums of whole numbers: both come to the same.
 #pragma once
 
-#include "environment/shade_pyramid.h"
+#include "environment/shade_bricks.h"
+#include "environment/shade_changes.h"
+#include "environment/shade_sweep.h"
 
 #include <cstddef>
 
 namespace espalier {
 
+/// The part of a square that lies in a brick: rows from `left` to `right`, of each the voxels from `back` to `front`.
+struct ShadePart {
+    Shade* layer;
+    int left, right, back, front;
+    Shade weight;
+};
+
 class ShadeField {
 public:
-    static constexpr int brick_edge = 8;
-    static constexpr std::size_t brick_voxels = 512;
+    /// `memory`: bytes that bricks, and grids made of them, may take.
+    explicit ShadeField(std::size_t memory) : bricks_(memory) {}
 
-    /// `clip`: the voxels there are. `memory`: bytes that bricks, and grids made of them, may take.
-    ShadeField(const VoxelBox& clip, std::size_t memory) : clip_(clip), memory_(memory) {}
-
-    /// The sum of all pyramids. Throws RunError before allocating more than the memory allows.
+    /// Comes to be the sum of this step's pyramids; it must have been asked for that of the step before. False if
+    /// nothing changed. Throws RunError before allocating more than the memory allows.
+    bool show(const ShadeCasts& casts);
+    /// The sum of all pyramids, whatever was before.
     void rebuild(const ShadeCasts& casts);
+    /// Takes the changes in, which lead to this step's pyramids. False, and nothing done, where only a rebuild can.
+    bool update(const ShadeCasts& casts, const ShadeChanges& changes);
 
     Shade at(const glm::ivec3& voxel) const {
-        if (!box_.has(voxel)) return 0;
-        const std::int32_t brick = directory_[cell(brick_of(voxel))];
-        return brick < 0 ? 0 : sums_[static_cast<std::size_t>(brick) * brick_voxels + offset(voxel)];
+        const std::int32_t brick = bricks_.find(ShadeBricks::brick_of(voxel));
+        return brick < 0 ? 0 : bricks_.sums(static_cast<std::size_t>(brick))[ShadeBricks::offset(voxel)];
     }
 
-    const VoxelBox& clip() const { return clip_; }
     const VoxelBox& box() const { return box_; }  ///< around all pyramids
-    std::size_t bricks() const { return origins_.size(); }
-    const glm::ivec3& origin(std::size_t brick) const { return origins_[brick]; }
-    std::span<const Shade> sums(std::size_t brick) const { return {&sums_[brick * brick_voxels], brick_voxels}; }
+    ShadeBricks& bricks() { return bricks_; }
+    const ShadeBricks& bricks() const { return bricks_; }
 
 private:
-    static glm::ivec3 brick_of(const glm::ivec3& voxel) { return {voxel.x >> 3, voxel.y >> 3, voxel.z >> 3}; }
-    static std::size_t offset(const glm::ivec3& v) {
-        return static_cast<std::size_t>((v.x & 7) << 6 | (v.y & 7) << 3 | (v.z & 7));
-    }
-    std::size_t cell(const glm::ivec3& brick) const {
-        const glm::ivec3 at = brick - first_brick_;
-        return (static_cast<std::size_t>(at.x) * size_.y + static_cast<std::size_t>(at.y)) * size_.z +
-               static_cast<std::size_t>(at.z);
-    }
-    template <class Visit>
-    void visit_bricks(const ShadeCasts& casts, const ShadeCast& cast, const Visit& visit) const;
-    void enclose(const ShadeCasts& casts);
-    void list_casts_by_brick(const ShadeCasts& casts);
-    void number_bricks();
-    void sum_brick(const ShadeCasts& casts, std::size_t brick);
-    void require_memory(std::size_t pairs, std::size_t bricks) const;
+    /// The outermost apices, and how many pyramids have each of them.
+    struct Extremes {
+        glm::ivec3 lower{std::numeric_limits<int>::max()}, upper{std::numeric_limits<int>::min()};
+        glm::ivec3 at_lower{0}, at_upper{0};
 
-    VoxelBox clip_, box_;
-    std::size_t memory_;
-    glm::ivec3 first_brick_{0};
-    glm::tvec3<std::size_t> size_{0};     ///< of the directory, in bricks
-    Column<std::int32_t> directory_;      ///< number of the brick at each place, -1: none
-    std::vector<glm::ivec3> origins_;     ///< of each brick
-    Column<std::uint32_t> casts_;         ///< the casts that reach brick 0, then those of brick 1, ...
-    std::vector<std::size_t> casts_end_;  ///< where each brick's casts end
-    Column<Shade> sums_;
+        void add(const glm::ivec3& apex);
+        /// False if no pyramid is known any more to be outermost.
+        bool remove(const glm::ivec3& apex);
+    };
+
+    void enclose(const ShadeCasts& casts, const Extremes& extremes);
+    static Extremes extremes_of(std::span<const ShadeCast> casts);
+    void add(const ShadeCasts& casts, const ShadeCast& cast, Shade sign);
+
+    ShadeBricks bricks_;
+    ShadeSweep sweep_;
+    ShadeChanges changes_;
+    std::vector<ShadePart> parts_;
+    Extremes extremes_;
+    VoxelBox box_;
+    std::size_t shown_ = 0;  ///< pyramids
 };
 
 }  // namespace espalier

@@ -1,17 +1,33 @@
-// Shade and light as OpenVDB grids, for other processes, recorders and users.
+// Shade and light as OpenVDB grids, for other processes, recorders and users. They are brought up to date when they are
+// asked for, and then only in the bricks that changed.
 #pragma once
 
 #include "espalier/environment/field.h"
 
-#include "environment/shade_field.h"
+#include "environment/shade_bricks.h"
 
+#include <memory>
 #include <string>
 
 namespace espalier {
 
-/// Provides fields `name` (light) and `name`.shade. Voxels that nothing shades are inactive: full light, no shade.
-/// `shown`: the voxels a viewer should be shown.
-void provide_shade_fields(const ShadeField& field, const ShadeRule& rule, double voxel, const VoxelBox& shown,
-                          const std::string& name, Fields& fields);
+class ShadeGrids {
+public:
+    /// Fields will be `name` (light) and `name`.shade.
+    ShadeGrids(std::string name, const ShadeRule& rule, double voxel);
+    ~ShadeGrids();
+
+    /// Provides both fields. `bricks` and `shown`, the voxels a viewer should be shown, are looked at whenever a field
+    /// is asked for. Voxels that nothing shades are inactive: full light, no shade.
+    void provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fields);
+
+private:
+    struct Grids;
+    void bring_up_to_date(ShadeBricks& bricks, const VoxelBox& shown);
+
+    std::string name_;
+    ShadeRule rule_;
+    std::unique_ptr<Grids> grids_;
+};
 
 }  // namespace espalier

@@ -23,17 +23,26 @@ double mixed(double a, double b, double t) {
     return a + t * (b - a);
 }
 
+// As std::floor, for what fits into an int; without a call.
+int floored(double value) {
+    const int whole = static_cast<int>(value);
+    return whole - (value < whole);
+}
+
 }  // namespace
 
 glm::ivec3 ShadeLattice::voxel_of(const glm::dvec3& point) const {
-    glm::dvec3 at = glm::floor(point / voxel + 0.5);
+    glm::dvec3 at = point / voxel + 0.5;
     if (flat) at.z = 0;
+    glm::ivec3 result;
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(at[axis]) < farthest_voxel) continue;
-        throw RunError(fmt::format("a query at ({:g}, {:g}, {:g}) is too far away for voxels of {:g} m", point.x,
-                                   point.y, point.z, voxel));
+        if (!(at[axis] >= 1 - farthest_voxel && at[axis] < farthest_voxel)) {
+            throw RunError(fmt::format("a query at ({:g}, {:g}, {:g}) is too far away for voxels of {:g} m", point.x,
+                                       point.y, point.z, voxel));
+        }
+        result[axis] = floored(at[axis]);
     }
-    return glm::ivec3(at);
+    return result;
 }
 
 glm::ivec3 ShadeLattice::wrapped(glm::ivec3 v) const {
@@ -60,25 +69,65 @@ glm::dvec3 ShadeLight::gradient(const glm::dvec3& point, double radius, std::spa
 
 double ShadeLight::of_voxel(const glm::ivec3& voxel, std::span<const ShadeCast> own) const {
     const glm::ivec3 stored = lattice_.wrapped(voxel);
-    if (!field_.clip().has(stored)) return casts_.rule().full_light;
-    Shade shade = field_.at(stored);
-    for (const ShadeCast& cast : own) shade -= casts_.at(cast, stored);
+    if (!casts_.clip().has(stored)) return casts_.rule().full_light;
+    return left_by(field_.at(stored), stored, own);
+}
+
+double ShadeLight::left_by(Shade shade, const glm::ivec3& voxel, std::span<const ShadeCast> own) const {
+    for (const ShadeCast& cast : own) shade -= casts_.at(cast, voxel);
     return light_under(casts_.rule(), shade);
 }
 
 double ShadeLight::interpolated(const glm::dvec3& point, std::span<const ShadeCast> own) const {
-    static_cast<void>(lattice_.voxel_of(point));  // throws if it cannot be numbered
-    glm::dvec3 at = point / lattice_.voxel;
-    if (lattice_.flat) at.z = 0;
-    const glm::dvec3 low = glm::floor(at);
-    const glm::dvec3 t = at - low;
-    const glm::ivec3 corner(low);
+    const Corner corner = corner_of(point);
+    if (const Shade* sums = sums_around(corner.voxel))
+        return interpolated(corner, [&](const glm::ivec3& v) { return left_by(sums[ShadeBricks::offset(v)], v, own); });
+    return interpolated(corner, [&](const glm::ivec3& v) { return of_voxel(v, own); });
+}
+
+template <class LightOf>
+double ShadeLight::interpolated(const Corner& corner, const LightOf& light_of) const {
+    const auto& [voxel, t] = corner;
     const auto along_x = [&](int y, int z) {
-        const glm::ivec3 v(corner.x, corner.y + y, z);
-        return mixed(of_voxel(v, own), of_voxel(v + glm::ivec3(1, 0, 0), own), t.x);
+        const glm::ivec3 v(voxel.x, voxel.y + y, z);
+        return mixed(light_of(v), light_of(v + glm::ivec3(1, 0, 0)), t.x);
     };
     const auto plane = [&](int z) { return mixed(along_x(0, z), along_x(1, z), t.y); };
-    return lattice_.flat ? plane(0) : mixed(plane(corner.z), plane(corner.z + 1), t.z);
+    return lattice_.flat ? plane(0) : mixed(plane(voxel.z), plane(voxel.z + 1), t.z);
+}
+
+ShadeLight::Corner ShadeLight::corner_of(const glm::dvec3& point) const {
+    glm::dvec3 at = point / lattice_.voxel;
+    if (lattice_.flat) at.z = 0;
+    Corner corner;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(std::abs(at[axis]) < farthest_voxel - 1)) static_cast<void>(lattice_.voxel_of(point));  // throws
+        corner.voxel[axis] = floored(at[axis]);
+        corner.part[axis] = at[axis] - corner.voxel[axis];
+    }
+    return corner;
+}
+
+// The sums of the one brick that all voxels around the corner lie in, or null.
+const Shade* ShadeLight::sums_around(const glm::ivec3& voxel) const {
+    const auto within = [](int v) { return (v & 7) != 7; };
+    if (lattice_.periodic || lattice_.flat) return nullptr;
+    if (!casts_.clip().has(voxel) || !casts_.clip().has(voxel + 1)) return nullptr;
+    if (!within(voxel.x) || !within(voxel.y) || !within(voxel.z)) return nullptr;
+    const std::int32_t brick = field_.bricks().find(ShadeBricks::brick_of(voxel));
+    return brick < 0 ? nullptr : field_.bricks().sums(static_cast<std::size_t>(brick));
+}
+
+void ShadeLight::fetch(const glm::dvec3& point) const {
+    if (!lattice_.trilinear) return;
+    const glm::dvec3 at = point / lattice_.voxel;
+    if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest_voxel - 1)) return;
+    const glm::ivec3 voxel(floored(at.x), floored(at.y), floored(at.z));
+    const Shade* sums = sums_around(voxel);
+    if (sums == nullptr) return;
+    for (const glm::ivec3 other : {glm::ivec3(0), glm::ivec3(1, 0, 0), glm::ivec3(0, 1, 0), glm::ivec3(1, 1, 0)}) {
+        prefetch(sums + ShadeBricks::offset(voxel + other));
+    }
 }
 
 }  // namespace espalier

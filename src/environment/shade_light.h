@@ -32,9 +32,23 @@ public:
     /// Its gradient by central differences over `radius` metres, per metre.
     glm::dvec3 gradient(const glm::dvec3& point, double radius, std::span<const ShadeCast> own) const;
 
+    /// Has the memory brought near that `at` will read.
+    void fetch(const glm::dvec3& point) const;
+
 private:
+    /// The first of the eight voxels around a point, and where between them the point lies.
+    struct Corner {
+        glm::ivec3 voxel;
+        glm::dvec3 part;
+    };
+
     double of_voxel(const glm::ivec3& voxel, std::span<const ShadeCast> own) const;
+    double left_by(Shade shade, const glm::ivec3& voxel, std::span<const ShadeCast> own) const;
     double interpolated(const glm::dvec3& point, std::span<const ShadeCast> own) const;
+    template <class LightOf>
+    double interpolated(const Corner& corner, const LightOf& light_of) const;
+    Corner corner_of(const glm::dvec3& point) const;
+    const Shade* sums_around(const glm::ivec3& voxel) const;
 
     const ShadeLattice& lattice_;
     const ShadeCasts& casts_;

@@ -6,7 +6,10 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,14 +29,22 @@ struct ShadeRule {
     bool flat = false;       ///< one voxel thick
 };
 
-/// What a query of strength `s` takes away in layer q: s a b^-q.
-/// Where shadows multiply it lets through 1 - min(1, s a b^-q), kept as an optical depth.
-double shade_of_layer(const ShadeRule& rule, double s, int q);
+constexpr double shade_steps_per_unit = 68719476736.0;  // 2^36
+constexpr double opaque_depth = 64;                     ///< an optical depth nothing comes through: e^-64 = 1.6e-28
+
 /// The square's half-width in layer q: floor(spread q).
 int half_width(const ShadeRule& rule, int q);
+
+inline double shade_value(Shade shade) {
+    return static_cast<double>(shade) / shade_steps_per_unit;
+}
+
 /// Full light less the shade, or damped by it.
-double light_under(const ShadeRule& rule, Shade shade);
-double shade_value(Shade shade);
+inline double light_under(const ShadeRule& rule, Shade shade) {
+    const double amount = shade_value(shade);
+    if (!rule.attenuate) return std::max(rule.full_light - amount, 0.0);
+    return amount >= opaque_depth ? 0 : rule.full_light * std::exp(-amount);
+}
 
 /// Voxels from `lower` to `upper`, both included.
 struct VoxelBox {
@@ -45,11 +56,16 @@ struct VoxelBox {
         return v.x >= lower.x && v.y >= lower.y && v.z >= lower.z && v.x <= upper.x && v.y <= upper.y && v.z <= upper.z;
     }
     void add(const VoxelBox& other);
-    VoxelBox within(const VoxelBox& other) const;
+    VoxelBox within(const VoxelBox& other) const {
+        return {{std::max(lower.x, other.lower.x), std::max(lower.y, other.lower.y), std::max(lower.z, other.lower.z)},
+                {std::min(upper.x, other.upper.x), std::min(upper.y, other.upper.y), std::min(upper.z, other.upper.z)}};
+    }
     double voxels() const;
+
+    friend bool operator==(const VoxelBox&, const VoxelBox&) = default;
 };
 
-/// One pyramid: its apex, and which row of ShadeCasts::layers tells its weights.
+/// One pyramid: its apex, and where in ShadeCasts::layers its weights begin.
 struct ShadeCast {
     glm::ivec3 apex;
     std::uint32_t row;
@@ -57,36 +73,60 @@ struct ShadeCast {
     friend bool operator==(const ShadeCast&, const ShadeCast&) = default;
 };
 
-/// All pyramids of a step.
+/// The pyramids of this step and of the one before. Equal strengths share a row of weights through all steps, so that
+/// equal pyramids of two steps are equal as bytes.
 class ShadeCasts {
 public:
-    explicit ShadeCasts(const ShadeRule& rule) : rule_(rule) {}
+    ShadeCasts(const ShadeRule& rule, const VoxelBox& clip);
 
-    void clear();
-    /// Casts of equal strength that follow each other share their weights. Throws RunError where sums would overflow.
+    /// This step's pyramids become those of the step before.
+    void begin_step();
+    /// A pyramid that misses the clip is only counted. Throws RunError where sums would overflow.
     void add(const glm::ivec3& apex, double s);
 
     std::span<const ShadeCast> casts() const { return casts_; }
-    Shade weight(const ShadeCast& cast, int q) const { return layers_[cast.row + static_cast<std::uint32_t>(q)]; }
-    /// What `cast` adds to `voxel`.
-    Shade at(const ShadeCast& cast, const glm::ivec3& voxel) const;
-    int half_width(int q) const { return half_widths_[static_cast<std::size_t>(q)]; }
-    VoxelBox bounds(const ShadeCast& cast) const;
-    const ShadeRule& rule() const { return rule_; }
+    /// Those of the step before; none if their weights are forgotten.
+    std::span<const ShadeCast> before() const { return before_; }
 
-    friend bool operator==(const ShadeCasts& a, const ShadeCasts& b) {
-        return a.casts_ == b.casts_ && a.layers_ == b.layers_;
+    /// The weights of all strengths; those of a pyramid begin at its row, one for each layer.
+    const Shade* layers() const { return layers_.data(); }
+    const Shade* weights(const ShadeCast& cast) const { return layers() + cast.row; }
+    /// What `cast` adds to `voxel`.
+    Shade at(const ShadeCast& cast, const glm::ivec3& voxel) const {
+        const int q = cast.apex.y - voxel.y;
+        if (q < 0 || q > rule_.depth) return 0;
+        const int width = half_width(q);
+        if (std::abs(voxel.x - cast.apex.x) > width || std::abs(voxel.z - cast.apex.z) > thickness(q)) return 0;
+        return weights(cast)[q];
     }
+    int half_width(int q) const { return half_widths_[static_cast<std::size_t>(q)]; }
+    /// Half-width along z.
+    int thickness(int q) const { return rule_.flat ? 0 : half_width(q); }
+    /// The voxels around a pyramid with this apex.
+    VoxelBox bounds(const glm::ivec3& apex) const {
+        const int width = half_width(rule_.depth), deep = thickness(rule_.depth);
+        return {{apex.x - width, apex.y - rule_.depth, apex.z - deep}, {apex.x + width, apex.y, apex.z + deep}};
+    }
+    const ShadeRule& rule() const { return rule_; }
+    const VoxelBox& clip() const { return clip_; }
 
 private:
-    ShadeRule rule_;
-    std::vector<int> half_widths_ = widths(rule_);
-    std::vector<ShadeCast> casts_;
-    Column<Shade> layers_;  ///< depth + 1 weights for each strength
-    double last_strength_ = 0;
-    double total_ = 0;
+    double shade_of_layer(double s, int q) const;
+    std::uint32_t row_of(double s);
+    std::uint32_t add_row(double s);
+    void grow_table();
 
-    static std::vector<int> widths(const ShadeRule& rule);
+    ShadeRule rule_;
+    VoxelBox clip_;
+    std::vector<int> half_widths_;
+    std::vector<double> fading_;  ///< b^-q of each layer
+    Column<ShadeCast> casts_, before_;
+    Column<Shade> layers_;              ///< depth + 1 weights for each strength
+    std::vector<double> strengths_;     ///< of each row
+    std::vector<double> darkest_;       ///< of each row, what it takes away in layer 0
+    std::vector<std::uint32_t> table_;  ///< open addressing: 1 + number of a strength, 0: free
+    std::uint32_t last_ = 0;            ///< number of the strength asked for last
+    double total_ = 0;
 };
 
 }  // namespace espalier

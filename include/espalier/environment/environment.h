@@ -54,23 +54,28 @@ public:
 private:
     /// The questions to one process and its answers, their memory reused from step to step.
     struct Batch {
-        std::vector<Query> queries;
-        Column<double> values;  ///< the answers, one after the other
-        Column<double> sent;    ///< the parameters as the process sees them, if they are rounded
+        std::span<const Query> queries;  ///< what the process sees
+        QueryColumn copies;              ///< the questions, unless they are read where they were asked
+        Column<double> values;           ///< the answers, one after the other
+        Column<double> sent;             ///< the parameters as the process sees them, if they are rounded
         std::vector<Answer> answers;
     };
 
     void gather(const WorldView& world);
+    bool borrow(const WorldView& world);
     void gather(const PlantView& plant, int step);
+    void name_processes(const PlantView& plant);
     std::optional<std::size_t> process_for(const Query& query, const PlantView& plant, int step) const;
     bool is_routed(const Query& query) const;
+    static void begin_answers(Batch& batch);
     void send(std::size_t process);
-    void require_sound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
-    void answer_turtle_queries();
+    bool is_sound(const Query& query, std::size_t process) const;
+    void throw_unsound(const Query& query, std::size_t process, const PlantView& plant, int step) const;
     void consult(std::size_t process, const WorldView& world);
     void round_answers(std::size_t process);
     void require_finite(std::size_t process, const WorldView& world) const;
-    std::size_t batches_end() const { return processes_.size(); }  ///< where the turtle's own batch stands
+    static void write_answers(const Batch& batch, std::span<ModuleString*> strings);
+    static void answer_turtle_queries(const WorldView& world, std::span<ModuleString*> strings);
 
     std::vector<std::string> names_;
     std::vector<std::string> kinds_;  ///< what each process is: "voxel-shade"
@@ -81,8 +86,9 @@ private:
     std::optional<std::size_t> default_;
     bool routed_ = false;
     bool keeps_unanswered_ = false;
-    std::vector<Batch> batches_;                       ///< one per process, and last the turtle's own
-    std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name the plant's model declares
+    std::vector<Batch> batches_;                       ///< one per process
+    std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name that `last_model_` declares
+    const Model* last_model_ = nullptr;
 };
 
 }  // namespace espalier

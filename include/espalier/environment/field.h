@@ -3,6 +3,7 @@
 
 #include "espalier/geometry/plant_geometry.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,9 +21,12 @@ struct Field {
     std::shared_ptr<const FieldGrid> grid;
     /// Static fields (a shape that does not move) are recorded once.
     bool changes = true;
+    /// Gives the grid as it is at present, for fields that are made when they are asked for; else empty.
+    std::function<std::shared_ptr<const FieldGrid>()> current = {};
 };
 
-/// The fields of a world by name: where processes meet.
+/// The fields of a world by name: where processes meet. Asking for a field may make it; ask from one thread only. A
+/// grid that nobody but the fields holds may be written over in the next step: keep the pointer to keep the values.
 class Fields {
 public:
     /// Adds or replaces.
@@ -30,10 +34,10 @@ public:
     /// Throws UserError naming the fields there are, if `name` is none of them.
     const Field& need(const std::string& name) const;
     const Field* find(const std::string& name) const;
-    const std::map<std::string, Field>& all() const { return fields_; }
+    const std::map<std::string, Field>& all() const;
 
 private:
-    std::map<std::string, Field> fields_;
+    mutable std::map<std::string, Field> fields_;
 };
 
 }  // namespace espalier

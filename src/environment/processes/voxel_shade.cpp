@@ -19,6 +19,9 @@ namespace {
 // 2^35 voxels, half a terabyte when all of them are shaded.
 constexpr double most_domain_voxels = 34359738368.0;
 
+// Questions ahead of the one that is answered: as many as the memory can look up at the same time.
+constexpr std::size_t fetched_ahead = 8;
+
 ShadeRule read_rule(const Settings& settings) {
     ShadeRule rule;
     rule.attenuate = settings.choice_or("mode", "add", {"add", "attenuate"}) == "attenuate";
@@ -118,34 +121,34 @@ VoxelBox clip_of(const ShadeLattice& lattice) {
 class VoxelShade final : public EnvironmentProcess {
 public:
     VoxelShade(Settings& settings, const EnvironmentContext& context, Fields& fields)
-        : name_(context.name),
-          casts_(read_rule(settings)),
-          lattice_(read_lattice(settings, context, casts_.rule())),
+        : rule_(read_rule(settings)),
+          lattice_(read_lattice(settings, context, rule_)),
           gradient_radius_(settings.number_or("gradient_radius", lattice_.voxel, Range::positive())),
-          field_(clip_of(lattice_), context.memory),
-          shown_casts_(casts_.rule()),
+          casts_(rule_, clip_of(lattice_)),
+          field_(context.memory),
+          grids_(context.name, rule_, lattice_.voxel),
           totals_(context.plants) {
-        publish(fields);
+        grids_.provide(field_.bricks(), lattice_.fixed ? lattice_.domain : field_.box(), fields);
     }
 
-    void advance(const WorldView&, std::span<const Query> queries, Fields& fields) override {
-        casts_.clear();
+    void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
+        casts_.begin_step();
         casts_begin_.clear();
         for (const Query& query : queries) {
             casts_begin_.push_back(casts_.casts().size());
             if (query.parameters[0] > 0) cast(lattice_.voxel_of(query.pose.position), query.parameters[0]);
         }
         casts_begin_.push_back(casts_.casts().size());
-        if (casts_ == shown_casts_) return;
-        field_.rebuild(casts_);
-        publish(fields);
-        shown_casts_ = casts_;
+        field_.show(casts_);
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         const ShadeLight light(lattice_, casts_, field_);
         const auto answer_some = [&](const tbb::blocked_range<std::size_t>& some) {
-            for (std::size_t i = some.begin(); i < some.end(); ++i) answer_one(light, queries[i], own(i), answers[i]);
+            for (std::size_t i = some.begin(); i < some.end(); ++i) {
+                if (i + fetched_ahead < some.end()) light.fetch(queries[i + fetched_ahead].pose.position);
+                answer_one(light, queries[i], own(i), answers[i]);
+            }
         };
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), answer_some);
         sum_up(queries, answers);
@@ -211,17 +214,12 @@ private:
         }
     }
 
-    void publish(Fields& fields) const {
-        const VoxelBox& shown = lattice_.fixed ? lattice_.domain : field_.box();
-        provide_shade_fields(field_, casts_.rule(), lattice_.voxel, shown, name_, fields);
-    }
-
-    std::string name_;
-    ShadeCasts casts_;
+    ShadeRule rule_;
     ShadeLattice lattice_;
     double gradient_radius_;
+    ShadeCasts casts_;
     ShadeField field_;
-    ShadeCasts shown_casts_;                ///< what `field_` holds
+    ShadeGrids grids_;
     std::vector<std::size_t> casts_begin_;  ///< of each query, and the end of the last
     std::vector<Totals> totals_;
 };

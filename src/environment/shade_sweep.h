@@ -1,0 +1,90 @@
+// All shade at once. Along x a row of voxels changes only where a layer of some pyramid begins or ends: a running row
+// takes both in, and is what every voxel's sum is copied from. Work grows with the voxels and with the layers of the
+// pyramids, not with their volume.
+#pragma once
+
+#include "environment/shade_bricks.h"
+
+namespace espalier {
+
+/// A pyramid, once for every slice it reaches into.
+struct SlicedCast {
+    ShadeCast cast;
+    int slice;
+};
+/// The pyramids of one layer of apices, on their way along x. At any x those that a layer q of theirs begins or ends at
+/// stand side by side: their apices are half_width(q) away.
+struct ShadeFront {
+    const SlicedCast* casts;
+    const std::uint32_t* first;    ///< of x - base: the first pyramid with its apex there or beyond
+    int y;                         ///< of the apices
+    int upper_layer, lower_layer;  ///< the layers q that lie at the heights of the rows
+    int nearest, farthest;         ///< their half-widths
+};
+
+/// How wide the layers of a pyramid are, and which are so wide.
+struct ShadeWidths {
+    std::vector<int> wide, deep;  ///< half-widths of each layer along x and z
+    std::vector<int>
+        first_of_width;  ///< the first layer at least so wide along x; one more entry than there are widths
+};
+
+/// The running rows of eight heights, as differences between neighbours along z: a layer of a pyramid is two numbers in
+/// its row however wide it is (Crow 1984, reversed).
+struct ShadeRows {
+    Shade* rows;         ///< one for each of the eight heights, one after the other
+    std::size_t length;  ///< of a row
+    int begin;           ///< z of its first voxel
+    int lower, upper;    ///< z that may be shaded
+    int base;            ///< x that fronts count from
+};
+
+class ShadeSweep {
+public:
+    /// Makes `bricks` those that `casts` reach, of which there must be some, and writes every sum. `box`: around them.
+    void run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks);
+
+private:
+    /// Pyramids of one slice with apices at one height, sorted along x.
+    struct Layer {
+        int slice, y;
+        std::size_t begin, end;
+    };
+    /// A stretch of bricks along x in one layer of bricks and one slice, swept by one thread.
+    struct Stretch {
+        int slice, y, begin, end;
+    };
+
+    void measure(const ShadeCasts& casts);
+    void cut(const ShadeCasts& casts, int first_z);
+    void sort();
+    void count(const ShadeCasts& casts, const ShadeBricks& bricks);
+    void list_stretches(const ShadeBricks& bricks);
+    std::vector<ShadeFront> fronts_of(const ShadeCasts& casts, const Stretch& stretch, int base, int end,
+                                      Column<std::uint32_t>& first) const;
+    void sweep(const ShadeCasts& casts, const Stretch& stretch, ShadeBricks& bricks) const;
+    /// The layers of a slice whose pyramids may reach heights from `lower` to `upper`.
+    std::span<const Layer> layers_over(int slice, int lower, int upper, int depth) const;
+
+    ShadeWidths widths_;
+    Column<SlicedCast> sorted_, spare_;
+    std::vector<Layer> layers_;
+    Column<std::uint32_t> counts_;  ///< pyramids that reach each place of the directory
+    std::vector<Stretch> stretches_;
+};
+
+/// Calls visit(brick) for every brick that the pyramid reaches in the layer `y` of bricks, which its bounds must do.
+/// Of its layers in a brick the lowest is the widest.
+template <class Visit>
+void visit_bricks(const ShadeCasts& casts, const glm::ivec3& apex, int y, const Visit& visit) {
+    const VoxelBox& clip = casts.clip();
+    const int q = std::min(casts.rule().depth, apex.y - std::max(y * ShadeBricks::edge, clip.lower.y));
+    const int width = casts.half_width(q), deep = casts.thickness(q);
+    const int left = std::max(apex.x - width, clip.lower.x) >> 3, right = std::min(apex.x + width, clip.upper.x) >> 3;
+    const int back = std::max(apex.z - deep, clip.lower.z) >> 3, front = std::min(apex.z + deep, clip.upper.z) >> 3;
+    for (int x = left; x <= right; ++x) {
+        for (int z = back; z <= front; ++z) visit(glm::ivec3(x, y, z));
+    }
+}
+
+}  // namespace espalier
