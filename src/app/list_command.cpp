@@ -1,6 +1,7 @@
 #include "espalier/base/text.h"
 #include "espalier/environment/shape.h"
 #include "espalier/simulation/scene.h"
+#include "espalier/timeline/exporter.h"
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
 
@@ -65,6 +66,7 @@ const std::vector<Kind>& kinds() {
          parts_of<ProcessRegistry>},
         {"symbols", "what the turtle does with a module", symbol_parts},
         {"recorders", "what a run writes: [timeline]", parts_of<RecorderRegistry>},
+        {"exporters", "formats of `espalier export`", parts_of<ExporterRegistry>},
         {"models", "the library of models, folder by folder", nullptr},
         {"scenes", "scenes below ./environments", scene_parts},
         {"scene", "what a scene file may say",

@@ -1,5 +1,6 @@
 // A file in an open folder is all a new part needs: what lies there and what is registered must be the same.
 #include "espalier/environment/environment_process.h"
+#include "espalier/timeline/exporter.h"
 
 #include "catch.h"
 #include "sources.h"
@@ -41,6 +42,19 @@ TEST_CASE("every file of environment/processes registers the process it is named
 
 TEST_CASE("every process explains itself", "[layout]") {
     for (const auto& [name, entry] : espalier::ProcessRegistry::entries()) {
+        INFO(name);
+        CHECK(!entry.description.summary.empty());
+        CHECK(!entry.description.help.empty());
+    }
+}
+
+TEST_CASE("every file of timeline/exporters registers the format it is named after", "[layout]") {
+    CHECK(!parts_in("src/timeline/exporters").empty());
+    CHECK(parts_in("src/timeline/exporters") == registered<espalier::ExporterRegistry>());
+}
+
+TEST_CASE("every exporter says what it carries and what is lost", "[layout]") {
+    for (const auto& [name, entry] : espalier::ExporterRegistry::entries()) {
         INFO(name);
         CHECK(!entry.description.summary.empty());
         CHECK(!entry.description.help.empty());

@@ -1,0 +1,72 @@
+// `espalier export` from outside.
+#include "catch.h"
+#include "program.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace {
+
+/// A folder with a run of five steps in it.
+struct RunPlace : Workplace {
+    RunPlace() {
+        write("bush.l", models::bush);
+        REQUIRE(run("run bush.l --output run --quiet").code == 0);
+    }
+};
+
+bool exists(const Workplace& place, const std::string& file) {
+    return std::filesystem::exists(place.path() / file);
+}
+
+}  // namespace
+
+TEST_CASE("export writes the last frame beside the run unless told otherwise", "[export]") {
+    const RunPlace place;
+    const Outcome outcome = place.run("export run --format obj,mtg");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("triangles") != std::string::npos);
+    CHECK(exists(place, "run/export/bush-0005.obj"));
+    CHECK(exists(place, "run/export/bush-0005.mtl"));
+    CHECK(exists(place, "run/export/bush-0005.mtg"));
+}
+
+TEST_CASE("export takes chosen steps into a folder, and says what it wrote as JSON", "[export]") {
+    const RunPlace place;
+    const Outcome outcome = place.run("export run --format stl --step 1:5:2 --output meshes --sides 5 --json");
+    REQUIRE(outcome.code == 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    REQUIRE(json["files"].size() == 3);
+    CHECK(json["files"][2]["path"] == "meshes/bush-0005.stl");
+    for (const auto& file : json["files"]) {
+        // Binary STL: 84 bytes, and 50 for each triangle.
+        const auto size = std::filesystem::file_size(place.path() / file["path"].get<std::string>());
+        CHECK(size == 84 + 50 * file["triangles"].get<std::size_t>());
+    }
+    CHECK(!exists(place, "run/export"));
+}
+
+TEST_CASE("export explains what it cannot do", "[export]") {
+    const RunPlace place;
+    const auto refused = [&](const std::string& arguments, const std::string& words) {
+        const Outcome outcome = place.run("export " + arguments);
+        INFO(outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK(outcome.err.find(words) != std::string::npos);
+    };
+    refused("run --format glft", "did you mean 'gltf'");
+    refused("run --format obj --step 9", "no frame of step 9");
+    refused("run --format obj --plant rose", "has no plant 'rose'");
+    refused("run --format obj --sides 2", "--sides");
+    refused("nowhere --format obj", "holds no run");
+    CHECK(!exists(place, "run/export"));
+    refused("run --format vdb", "no fields");
+}
+
+TEST_CASE("the formats are listed with what each carries and loses", "[export]") {
+    const Workplace place;
+    const Outcome outcome = place.run("list exporters rsml");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("Lost:") != std::string::npos);
+}
