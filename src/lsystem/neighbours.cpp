@@ -43,7 +43,8 @@ private:
     static constexpr Value none = is_class ? 0 : static_cast<Value>(Neighbours::none);
     /// What lies before the part, or before a branch that ends in it.
     static constexpr Value unknown = static_cast<Value>(is_class ? 0xFF : Neighbours::none - 1);
-    static constexpr LetterId enters = Forward ? Alphabet::open_bracket : Alphabet::close_bracket;
+    static constexpr LetterId begins = Forward ? Alphabet::open_bracket : Alphabet::close_bracket;
+    static constexpr LetterId ends = Forward ? Alphabet::close_bracket : Alphabet::open_bracket;
 
     static Value pass(Value state, std::uint16_t code, std::size_t module) {
         const auto becomes = static_cast<Value>(is_class ? code : module);
@@ -65,35 +66,31 @@ template <class Value, bool Forward>
 void Look<Value, Forward>::scan(Section<Value>& part) {
     part.exits.clear();
     part.entries.resize(part.end - part.begin + 1);
-    part.entries[0] = unknown;
-    Value* const base = part.entries.data() + 1;
+    Value* const base = part.entries.data();
     Value* top = base;
     // Kept at hand: writing to a column of bytes might, for all the compiler knows, change the members.
     Value* const out = column_.data();
     const LetterId* const letters = letters_;
     const std::uint16_t* const codes = gaze_.codes.data();
-    const LetterId brackets = gaze_.branches ? 2 : 0;
+    const LetterId enters = gaze_.branches ? begins : no_letter, leaves = gaze_.branches ? ends : no_letter;
     Value state = unknown;
     std::size_t i = Forward ? part.begin : part.end - 1;
     for (std::size_t n = part.end - part.begin; n > 0; --n, Forward ? ++i : --i) {
         const LetterId letter = letters[i];
         out[i] = state;
-        const Value passed = pass(state, codes[letter], i);
-        if (letter >= brackets) {
-            state = passed;
-        } else if (const bool begins = letter == enters; begins | (top != base)) {
-            // Nobody can foretell which of the two it is, so that both are done alike.
-            const Value seen = top[-1];
+        if (letter != leaves) {
             *top = state;
-            top += begins ? 1 : -1;
-            state = begins ? passed : seen;
+            top += letter == enters;
+            state = pass(state, codes[letter], i);
+        } else if (top != base) {
+            state = *--top;
         } else {
             part.exits.push_back(static_cast<std::uint32_t>(i));
             state = unknown;
         }
     }
     part.last = state;
-    part.entries.resize(static_cast<std::size_t>(top - part.entries.data()));
+    part.entries.resize(static_cast<std::size_t>(top - base));
 }
 
 /// Follows branches from part to part. A bracket that ends no branch lets nothing be seen beyond it.
@@ -110,7 +107,7 @@ void Look<Value, Forward>::join(bool ring) {
         branches.resize(branches.size() - ended);
         const Value beyond = part.beyond.back();
         const auto known = [beyond](Value value) { return value == unknown ? beyond : value; };
-        std::transform(part.entries.begin() + 1, part.entries.end(), std::back_inserter(branches), known);
+        std::transform(part.entries.begin(), part.entries.end(), std::back_inserter(branches), known);
         before = known(part.last);
     }
     const Value around = ring && before != unknown ? before : none;

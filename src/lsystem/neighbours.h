@@ -32,7 +32,7 @@ template <class Value>
 struct Section {
     std::size_t begin = 0, end = 0;
     std::vector<std::uint32_t> exits;  ///< brackets that end branches begun before this part
-    Column<Value> entries;             ///< from the second: what is seen before branches that end after this part
+    Column<Value> entries;             ///< what is seen before branches that begin here and end after this part
     Value last{};                      ///< what is seen from behind this part
     std::vector<Value> beyond;         ///< what is seen before this part, and before the branch that each exit ends
 };
