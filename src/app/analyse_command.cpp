@@ -11,16 +11,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The charts of analysis.png, as far as the plants have such a thing.
-constexpr const char* plotted[] = {"tips",        "strahler",          "branching_ratio", "pipe_exponent",
-                                   "area_ratio",  "fractal_dimension", "leaf_area_index", "crown_volume",
-                                   "asymmetry_x", "asymmetry_z",       "length",          "depth_in_ground"};
+// The charts of analysis.png and of layers.png, as far as the plants have such a thing.
+constexpr const char* over_steps[] = {"tips",        "strahler",          "branching_ratio", "pipe_exponent",
+                                      "area_ratio",  "fractal_dimension", "leaf_area_index", "crown_volume",
+                                      "asymmetry_x", "asymmetry_z",       "length",          "depth_in_ground"};
+constexpr const char* over_heights[] = {"length", "density", "leaf_area"};
 
 /// "crown volume (convex hull) (m³)"
 std::string title_of(const MeasureDescription& measure) {
@@ -37,16 +39,24 @@ bool has_values(const RecordedTable& table, const std::string& name) {
                        [&](const auto& row) { return std::isfinite(row[column]) && row[column] != 0; });
 }
 
-ChartPage page_of(const RecordedRun& run, RecordedTable table, bool dark) {
+/// Those of `names` that the plants have, drawn over `x`.
+ChartPage page_of(const RecordedRun& run, RecordedTable table, std::span<const char* const> names, const std::string& x,
+                  bool dark) {
     PlotOptions options;
     options.dark = dark;
-    for (const char* name : plotted) {
+    options.x = x;
+    for (const char* name : names) {
         if (options.quantities.size() < 9 && has_values(table, name)) options.quantities.emplace_back(name);
     }
     for (const MeasureDescription& measure : measure_descriptions()) options.titles[measure.name] = title_of(measure);
-    if (options.quantities.empty()) options.quantities = {"internodes"};
-    const PlottedTable plotted_table{run.scene(), std::move(table), run.plants()};
-    return chart_page({&plotted_table, 1}, options);
+    options.titles["density"] = "length density (m/m³)";
+    if (x == "height") {
+        options.titles["height"] = "height (m)";
+        options.titles["length"] = "length in the layer (m)";
+        options.titles["leaf_area"] = "leaf area in the layer (m²)";
+    }
+    const PlottedTable plotted{run.scene(), std::move(table), run.plants()};
+    return options.quantities.empty() ? ChartPage{} : chart_page({&plotted, 1}, options);
 }
 
 // The rows of the last step, a column a plant; long stands are cut after 8 plants.
@@ -102,11 +112,11 @@ public:
         app()
             .add_option("--voxel", voxel_, "edge of the voxels a crown fills, m; default: 1/32 of its largest extent")
             ->check(CLI::PositiveNumber);
-        app().add_flag("--no-picture", no_picture_, "do not draw analysis.png");
+        app().add_flag("--no-picture", no_picture_, "draw nothing");
         app().footer(
             R"(Writes analysis.csv with a row per step and plant; orders.csv (streams of each Strahler order), ramification.csv,
 layers.csv (lengths and leaf areas by height or depth), internodes.csv (their lengths); or analysis.json with all of it;
-and analysis.png, the main figures over the steps.
+and analysis.png, the main figures over the steps, and layers.png, of the last step.
 Examples:
   espalier analyse output/two-trees-20260101-120000
   espalier analyse output/two-roots --step last --layer 0.02 --format json
@@ -137,17 +147,21 @@ private:
         fs::create_directories(folder, error);
         if (error) throw RunError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
         format_ == "json" ? analysis.write_json(folder) : analysis.write_csv(folder);
-        RecordedTable table = analysis.table();
+        const RecordedTable table = analysis.table();
         if (!table.rows.empty()) print_last(run, table);
         fmt::print("{}\n", (folder / "").string());
         if (no_picture_) return;
-        const ChartPage page = page_of(run, std::move(table), picture_.dark());
         try {
-            write_picture(page, picture_.size(fitting_size(page)), folder / "analysis.png");
+            const bool several_steps = !table.rows.empty() && table.rows.front()[0] != table.rows.back()[0];
+            if (several_steps) draw(page_of(run, table, over_steps, "step", picture_.dark()), folder / "analysis.png");
+            draw(page_of(run, analysis.last_layers(), over_heights, "height", picture_.dark()), folder / "layers.png");
         } catch (const RunError& no_picture) {
             // The tables are what was asked for; they are complete.
-            fmt::print(stderr, "no analysis.png: {}\n", no_picture.what());
+            fmt::print(stderr, "no picture: {}\n", no_picture.what());
         }
+    }
+    void draw(const ChartPage& page, const fs::path& path) const {
+        if (!page.charts.empty()) write_picture(page, picture_.size(fitting_size(page)), path);
     }
 
     PictureOptions picture_;

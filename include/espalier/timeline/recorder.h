@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace espalier {
 
@@ -16,12 +18,17 @@ struct RecorderContext {
 };
 
 /// Constructors take (Settings& timeline table, const RecorderContext&). Every file appears complete or not at all;
-/// what is on disk after `record` returns is a whole timeline up to that frame, whatever happens next.
+/// what is on disk after `record` returns is a whole timeline up to that frame, whatever happens next. The run itself
+/// is ahead of that by a few frames: recorders work beside it, one after the other, on a thread of their own.
 class Recorder {
 public:
     virtual ~Recorder() = default;
     /// True for recorders that must see every step, whatever `every` says.
     virtual bool sees_every_step() const { return false; }
+    /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Making a field for nobody
+    /// would cost a step as much as the field itself, so frames hold no others.
+    virtual std::vector<std::string> fields() const { return {}; }
+    /// The frame and what it points to are gone when this returns; grids of fields may be kept.
     virtual void record(const Frame& frame) = 0;
     /// After the last frame, also of an interrupted or failed run.
     virtual void finish() = 0;

@@ -36,6 +36,10 @@ public:
     /// A row per step and plant: step, plant, then the measures. NaN where a plant has none.
     RecordedTable table() const;
 
+    /// The layers of the last frame's plants: step, plant, height (of the layer's middle), length, surface, leaf_area,
+    /// density.
+    RecordedTable last_layers() const;
+
     /// analysis.csv (the table), orders.csv, ramification.csv, layers.csv and internodes.csv, each complete or not at
     /// all. Throws RunError.
     void write_csv(const std::filesystem::path& folder) const;

@@ -1,4 +1,4 @@
-// Charts of the tables of runs: a line per plant, species or run over the steps.
+// Charts of the tables of runs: a line per plant, species or run, over the steps or another column.
 #pragma once
 
 #include "espalier/timeline/chart_page.h"
@@ -11,7 +11,7 @@
 
 namespace espalier {
 
-/// A run's table with columns "step" and "plant", such as its statistics.
+/// A run's table with a column "plant" and one to draw over, such as its statistics over "step".
 struct PlottedTable {
     std::string run;
     RecordedTable table;
@@ -24,6 +24,7 @@ struct PlotOptions {
     std::vector<std::string> quantities;  ///< columns, one chart each; empty: `default_quantities`
     /// `chosen`: per plant up to 8 plants, else per species if there are several, else in total. A species is a model.
     Lines lines = Lines::chosen;
+    std::string x = "step";                     ///< the column along the horizontal axis
     std::map<std::string, std::string> titles;  ///< of columns: "crown volume (m3)"; else their names
     bool dark = false;
 };

@@ -12,6 +12,9 @@
 
 namespace espalier {
 
+class FrameWriter;
+
+/// Frames are copied and written by a thread of their own, in order, while the run goes on; a few may wait.
 class Timeline {
 public:
     /// Locks the folder (two runs into one are refused) and makes the recorders `table` asks for.
@@ -25,8 +28,12 @@ public:
     void choose(FrameSelection frames);
     /// Frames come in the order of their steps, `is_last` being the end of the run. Recorders see those chosen; by
     /// `first` and `every` the last one too, by `choose` only if it would be the only one.
+    /// The first frame chosen is on disk when this returns, so that a mistake in the table is told at once. What goes
+    /// wrong with a later one is thrown by the next call, of this or of another; nothing is recorded after it.
     void record(const Frame& frame, bool is_last = false);
-    /// Every recorder finishes, whatever becomes of the others; then the first failure is thrown.
+    /// Returns when every frame recorded is on disk.
+    void wait();
+    /// Waits, then every recorder finishes, whatever becomes of the others; then the first failure is thrown.
     void finish();
 
     /// Writes run.json (complete or not at all). `json` is what the run says of itself.
@@ -41,6 +48,8 @@ private:
     int next_ = 0;
     int last_step_ = 0;
     std::vector<std::unique_ptr<Recorder>> recorders_;
+    bool sees_every_step_ = false;  // one of them
+    std::unique_ptr<FrameWriter> writer_;
 };
 
 }  // namespace espalier

@@ -66,6 +66,19 @@ RecordedTable RunAnalysis::table() const {
     return table;
 }
 
+RecordedTable RunAnalysis::last_layers() const {
+    RecordedTable table{{"step", "plant", "height", "length", "surface", "leaf_area", "density"}, {}};
+    if (frames_.empty()) return table;
+    for (const PlantAnalysis& plant : frames_.back().plants) {
+        for (const Layer& layer : plant.layers) {
+            table.rows.push_back({static_cast<double>(frames_.back().step), static_cast<double>(plant.plant),
+                                  (layer.from + layer.to) / 2, layer.length, layer.surface, layer.leaf_area,
+                                  layer.density});
+        }
+    }
+    return table;
+}
+
 namespace {
 
 /// Lines of comma-separated values; NaN is an empty cell.

@@ -17,7 +17,7 @@
 #include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
-#include <vtkPlotLine.h>
+#include <vtkPlotPoints.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSVGExporter.h>
@@ -201,29 +201,39 @@ void set_axis(vtkAxis& axis, const Look& look, float font, const std::string& ti
     axis.GetGridPen()->SetWidth(1);
 }
 
-void add_line(vtkChartXY& chart, const Series& series, const Key& key, const Look& look, float font) {
+/// A stretch of a line without gaps, of one point as a dot.
+void add_stretch(vtkChartXY& chart, const Series& series, std::size_t first, std::size_t last, const Key& key,
+                 const Look& look, float font) {
     vtkNew<vtkDoubleArray> x, y;
     x->SetName("x");
-    y->SetName(key.name.empty() ? "y" : key.name.c_str());
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
+    y->SetName("y");
+    for (std::size_t i = first; i < last; ++i) {
         x->InsertNextValue(series.x[i]);
         y->InsertNextValue(series.y[i]);
     }
     vtkNew<vtkTable> table;
     table->AddColumn(x);
     table->AddColumn(y);
-    auto* line = vtkPlotLine::SafeDownCast(chart.AddPlot(vtkChart::LINE));
+    auto* line = vtkPlotPoints::SafeDownCast(chart.AddPlot(last - first > 1 ? vtkChart::LINE : vtkChart::POINTS));
     line->SetInputData(table, 0, 1);
     const Colour& colour = look.lines[static_cast<std::size_t>(key.colour)];
     line->GetPen()->SetColor(colour);
     line->GetPen()->SetWidth(font / 7);
     line->GetPen()->SetLineType(dashes[static_cast<std::size_t>(key.dash)]);
-    // A line of few points shows where they are; of one point it would show nothing.
-    const auto shown =
-        std::count_if(series.y.begin(), series.y.end(), [](double value) { return std::isfinite(value); });
-    line->SetMarkerStyle(shown <= 12 ? vtkPlotPoints::CIRCLE : vtkPlotPoints::NONE);
-    line->SetMarkerSize(font / 2.4F);
     line->GetBrush()->SetColor(colour);
+    // A short stretch shows its points.
+    line->SetMarkerStyle(last - first <= 12 ? vtkPlotPoints::CIRCLE : vtkPlotPoints::NONE);
+    line->SetMarkerSize(font / 2.4F);
+}
+
+void add_line(vtkChartXY& chart, const Series& series, const Key& key, const Look& look, float font) {
+    const auto shown = [&](std::size_t i) { return std::isfinite(series.x[i]) && std::isfinite(series.y[i]); };
+    for (std::size_t first = 0; first < series.x.size();) {
+        std::size_t last = first;
+        while (last < series.x.size() && shown(last)) ++last;
+        if (last > first) add_stretch(chart, series, first, last, key, look, font);
+        first = last + 1;
+    }
 }
 
 vtkSmartPointer<vtkChartXY> chart_of(const ChartPage& page, const Chart& chart, const vtkRectf& place, float font) {

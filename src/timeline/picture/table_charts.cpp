@@ -150,16 +150,16 @@ private:
 };
 
 void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const std::string& quantity, const Keys& keys,
-                Lines lines) {
+                const std::string& along, Lines lines) {
     const std::optional<std::size_t> column = column_of(table.table, quantity);
     if (!column) return;
-    const std::size_t step = table.table.column("step"), plant = table.table.column("plant");
+    const std::size_t at_x = table.table.column(along), plant = table.table.column("plant");
     const std::map<double, std::string> groups = groups_of(table, lines);
-    std::map<std::size_t, std::map<double, Merged>> values;  // of each key, by step
+    std::map<std::size_t, std::map<double, Merged>> values;  // of each key, by x
     for (const std::vector<double>& row : table.table.rows) {
         const auto group = groups.find(row[plant]);
-        if (group == groups.end() || !std::isfinite(row[step])) continue;
-        values[keys.of(run, group->second)].emplace(row[step], Merged(quantity)).first->second.add(row[*column]);
+        if (group == groups.end() || !std::isfinite(row[at_x])) continue;
+        values[keys.of(run, group->second)].emplace(row[at_x], Merged(quantity)).first->second.add(row[*column]);
     }
     for (const auto& [key, by_step] : values) {
         Series series{key, {}, {}};
@@ -169,6 +169,11 @@ void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const 
         }
         chart.series.push_back(std::move(series));
     }
+}
+
+std::string title_of(const std::string& column, const PlotOptions& options) {
+    const auto title = options.titles.find(column);
+    return title == options.titles.end() ? statistics_title(column) : title->second;
 }
 
 void require_known(std::span<const PlottedTable> tables, const std::string& quantity) {
@@ -223,10 +228,9 @@ ChartPage chart_page(std::span<const PlottedTable> tables, const PlotOptions& op
         options.quantities.empty() ? default_quantities(tables) : options.quantities;
     for (const std::string& quantity : quantities) {
         require_known(tables, quantity);
-        const auto title = options.titles.find(quantity);
-        Chart chart{"step", title == options.titles.end() ? statistics_title(quantity) : title->second, {}};
+        Chart chart{title_of(options.x, options), title_of(quantity, options), {}};
         for (std::size_t run = 0; run < tables.size(); ++run) {
-            add_series(chart, tables[run], run, quantity, keys, lines);
+            add_series(chart, tables[run], run, quantity, keys, options.x, lines);
         }
         page.charts.push_back(std::move(chart));
     }
