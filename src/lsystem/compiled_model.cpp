@@ -50,7 +50,7 @@ private:
     CompiledProduction compile_production(const Production& production);
     std::vector<CompiledPattern> patterns(const std::vector<ModulePattern>& source);
     void descend(CompiledProduction& production) const;
-    void find_lanes(CompiledProduction& production) const;
+    void find_lanes(CompiledProduction& production);
     std::optional<Lane> lane(const Expression& expression, const CompiledPattern& strict) const;
     std::optional<Lane> sum_lane(const Expression& expression, const CompiledPattern& strict) const;
     void index(CompiledRules& rules) const;
@@ -211,6 +211,7 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
         compiled.arities.push_back(static_cast<std::uint16_t>(production.successor[k].arguments.size()));
         compiled.parameters += compiled.arities.back();
     }
+    compiled.writes_draw = compiled.after.effects.draws || compiled.successor.effects.draws;
     compiled.tests_draw =
         compiled.before.effects.draws || compiled.condition.effects.draws || compiled.weight.effects.draws;
     descend(compiled);
@@ -261,26 +262,29 @@ bool reads_formals_of(const Block& block, const std::vector<CompiledPattern>& pa
     });
 }
 
-void SystemCompiler::find_lanes(CompiledProduction& production) const {
-    production.affine = production.strict.size() == 1;
+void SystemCompiler::find_lanes(CompiledProduction& production) {
+    const bool single = production.strict.size() == 1;
     for (const auto* context : {&production.left, &production.right}) {
         production.reads_context |= reads_formals_of(production.source->after, *context);
     }
+    std::vector<const Expression*> rest;
     for (const ModuleTemplate& module : production.source->successor) {
         for (const Expression& argument : module.arguments) {
             production.reads_context |=
                 reads_formals_of(argument, production.left) || reads_formals_of(argument, production.right);
             const std::optional<Lane> found = lane(argument, production.strict[0]);
-            if (!found)
-                production.affine = false;
-            else
-                production.lanes.push_back(*found);
+            if (!found) {
+                production.rest_places.push_back(static_cast<std::uint32_t>(production.lanes.sources.size()));
+                rest.push_back(&argument);
+            }
+            production.lanes.push_back(found.value_or(Lane{}));
         }
     }
-    if (production.affine)
-        production.lanes.pad();
-    else
-        production.lanes.clear();
+    production.lanes.pad();
+    production.affine = single && rest.empty();
+    // Where only some are lanes, a program of its own computes the others.
+    if (!single || rest.size() == production.parameters) production.rest_places.clear();
+    if (!production.rest_places.empty()) production.rest = programs_.values(rest);
 }
 
 // Only forms that a multiplication followed by an addition computes with the very same rounding.
@@ -384,7 +388,7 @@ void SystemCompiler::name_variables() {
 void SystemCompiler::place_registers(CompiledRules& rules) {
     for (CompiledProduction& production : rules.productions) {
         for (Program* program : {&production.before, &production.condition, &production.after, &production.successor,
-                                 &production.weight}) {
+                                 &production.rest, &production.weight}) {
             programs_.place_registers(*program, compiled_->formals);
         }
     }

@@ -47,8 +47,12 @@ struct CompiledProduction {
     std::size_t length = 0;
     std::size_t parameters = 0;
     Lanes lanes;
-    bool affine = false;         ///< `lanes` say all; else the successor's program is run
+    bool affine = false;  ///< `lanes` say all; else the successor's program is run, or `rest`
+    /// The values that are no lanes, where some are, and their places among the successor's parameters.
+    Program rest;
+    std::vector<std::uint32_t> rest_places;
     bool reads_context = false;  ///< the successor needs parameters of modules in the context
+    bool writes_draw = false;    ///< after-block or successor take random numbers
     bool tests_draw = false;     ///< before-block, condition or weight take random numbers
 
     bool context_free() const { return left.empty() && right.empty(); }

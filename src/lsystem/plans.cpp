@@ -16,11 +16,14 @@ void Lanes::pad() {
     while (sources.size() % value_block != 0) push_back({});
 }
 
-void Lanes::clear() {
-    *this = {};
-}
-
 namespace {
+
+Plan::Kind kind_of(const CompiledProduction& production) {
+    if (!production.after.empty()) return Plan::Kind::program;
+    if (production.parameters == 0) return Plan::Kind::simple;
+    if (production.affine) return Plan::Kind::lanes;
+    return production.rest_places.empty() ? Plan::Kind::program : Plan::Kind::mixed;
+}
 
 Plan plan_of(const CompiledProduction& production) {
     Plan plan;
@@ -31,10 +34,7 @@ Plan plan_of(const CompiledProduction& production) {
     plan.arity = production.strict[0].arity;
     plan.lanes = &production.lanes;
     plan.production = &production;
-    if (!production.after.empty())
-        plan.kind = Plan::Kind::program;
-    else if (production.parameters > 0)
-        plan.kind = production.affine ? Plan::Kind::lanes : Plan::Kind::program;
+    plan.kind = kind_of(production);
     return plan;
 }
 

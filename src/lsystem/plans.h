@@ -39,7 +39,6 @@ struct Lanes {
 
     void push_back(const Lane& lane);
     void pad();
-    void clear();
 };
 
 struct alignas(64) Plan {
@@ -47,6 +46,7 @@ struct alignas(64) Plan {
         simple,   ///< letters, and at most `value_block` parameters that are copied
         copy,     ///< the module itself, with more parameters
         lanes,    ///< `lanes` say all parameters
+        mixed,    ///< `lanes` say some, the production's program `rest` the others
         program,  ///< the production's programs are run
         choose,   ///< depends on more than the letter
     };

@@ -105,13 +105,19 @@ Program ProgramCompiler::value(const Expression& expression) {
 }
 
 Program ProgramCompiler::arguments(const std::vector<ModuleTemplate>& modules) {
-    begin();
+    std::vector<const Expression*> all;
     for (const ModuleTemplate& module : modules) {
-        for (const Expression& argument : module.arguments) {
-            const bool text = argument.kind == Expression::Kind::text;
-            const Operand value = text ? Operand{true, double(argument.index), 0} : compile(argument);
-            program_.results.push_back(reg(value));
-        }
+        for (const Expression& argument : module.arguments) all.push_back(&argument);
+    }
+    return values(all);
+}
+
+Program ProgramCompiler::values(const std::vector<const Expression*>& expressions) {
+    begin();
+    for (const Expression* const each : expressions) {
+        const bool text = each->kind == Expression::Kind::text;
+        const Operand value = text ? Operand{true, double(each->index), 0} : compile(*each);
+        program_.results.push_back(reg(value));
     }
     return finish({});
 }

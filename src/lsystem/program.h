@@ -129,6 +129,7 @@ public:
     Program block(const Block& block);
     Program value(const Expression& expression);
     Program arguments(const std::vector<ModuleTemplate>& modules);
+    Program values(const std::vector<const Expression*>& expressions);
 
     /// The value of an expression of constants alone.
     std::optional<double> fold(const Expression& expression) const;

@@ -80,7 +80,10 @@ private:
     template <bool Valued, bool Choosing>
     void write_round(std::size_t count);
     bool write_module();
+    void run(const Program& program, const Plan& plan, const Cursor& at);
+    void write_rest(const Plan& plan, const Cursor& at, Faults& faults);
     void write_values(const Plan& plan, const Cursor& at);
+    [[noreturn]] void report(const EvaluationError& error, const Cursor& at) const;
     const Plan& plan_at(const LetterId* in) const;
     void end_stretch();
 
@@ -156,16 +159,20 @@ void Writer::write_round(std::size_t count) {
             }
         }
         if constexpr (Valued) {
-            if (plan->kind == Plan::Kind::lanes) {
-                write_lanes(*plan, at.values, at.out_values, faults);
-            } else {
+            if (plan->kind == Plan::Kind::simple) {
                 copy_values(at.values, at.out_values);
-                if (plan->kind == Plan::Kind::copy) {
-                    for (std::size_t k = value_block; k < plan->arity; k += value_block) {
-                        copy_values(at.values + k, at.out_values + k);
-                    }
-                } else if (plan->kind == Plan::Kind::program) {
-                    if (faults.any()) break;
+            } else if (plan->kind == Plan::Kind::lanes) {
+                write_lanes(*plan, at.values, at.out_values, faults);
+            } else if (plan->kind == Plan::Kind::copy) {
+                for (std::size_t k = 0; k < plan->arity; k += value_block) {
+                    copy_values(at.values + k, at.out_values + k);
+                }
+            } else {
+                if (faults.any()) break;  // what is wrong before this module is to be reported first
+                if (plan->kind == Plan::Kind::mixed) {
+                    write_lanes(*plan, at.values, at.out_values, faults);
+                    write_rest(*plan, at, faults);
+                } else {
                     write_values(*plan, at);
                 }
             }
@@ -201,7 +208,7 @@ bool Writer::write_module() {
         return false;
     }
     std::copy_n(plan.production ? plan.letters : plan.block.data(), plan.length, at_.out);
-    if (plan.kind == Plan::Kind::program ||
+    if (plan.kind == Plan::Kind::program || plan.kind == Plan::Kind::mixed ||
         (plan.kind == Plan::Kind::lanes && !write_lanes_exactly(plan, at_.values, at_.out_values))) {
         write_values(plan, at_);
     } else if (plan.kind != Plan::Kind::lanes) {
@@ -211,22 +218,51 @@ bool Writer::write_module() {
     return true;
 }
 
-void Writer::write_values(const Plan& plan, const Cursor& at) {
+/// Runs a program for the successor of a module, with its formals bound.
+void Writer::run(const Program& program, const Plan& plan, const Cursor& at) {
     const CompiledProduction& production = *plan.production;
-    const auto module = static_cast<std::size_t>(at.in - input_.from.letters.data());
-    try {
-        const Site site = site_of(input_, module, at.values);
+    const CompiledPattern& strict = production.strict[0];
+    if (production.reads_context || production.writes_draw) {
+        const Site site = site_of(input_, static_cast<std::size_t>(at.in - input_.from.letters.data()), at.values);
         matcher_.bind(production, site);
         matcher_.begin_successor(production, site);
-        if (!production.after.empty()) machine_.run(production.after);
-        machine_.run(production.successor);
+    } else {
+        std::copy_n(at.values, strict.arity, machine_.formals() + strict.first_formal);
+    }
+    if (!production.after.empty()) machine_.run(production.after);
+    machine_.run(program);
+}
+
+/// Writes over the lanes what a program has to compute.
+void Writer::write_rest(const Plan& plan, const Cursor& at, Faults& faults) {
+    const CompiledProduction& production = *plan.production;
+    try {
+        run(production.rest, plan, at);
+    } catch (const EvaluationError& error) {
+        report(error, at);
+    }
+    for (std::size_t k = 0; k < production.rest_places.size(); ++k) {
+        const double value = machine_.value(production.rest.results[k]);
+        at.out_values[production.rest_places[k]] = value;
+        faults.sums[0] += value - value;
+    }
+}
+
+void Writer::write_values(const Plan& plan, const Cursor& at) {
+    const CompiledProduction& production = *plan.production;
+    try {
+        run(production.successor, plan, at);
         for (std::size_t k = 0; k < production.parameters; ++k) {
             at.out_values[k] = machine_.value(production.successor.results[k]);
         }
         require_finite(production, at.out_values);
     } catch (const EvaluationError& error) {
-        throw RunError(describe(error, input_.model.source->alphabet, *at.in, at.values, input_.step));
+        report(error, at);
     }
+}
+
+void Writer::report(const EvaluationError& error, const Cursor& at) const {
+    throw RunError(describe(error, input_.model.source->alphabet, *at.in, at.values, input_.step));
 }
 
 void Writer::end_stretch() {
