@@ -5,43 +5,111 @@
 #include "table.h"
 #include "temporary_folder.h"
 
+#include <tbb/global_control.h>
+
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <filesystem>
 
 namespace espalier::bench {
 namespace {
 
-/// Seconds of recording over seconds of everything else.
-void recording_two_trees(benchmark::State& state) {
-    const Scene scene = read_scene(ESPALIER_SOURCE_DIR "/environments/two-trees.toml");
-    double recorded = 0, grown = 0;
-    const auto timed = [](double& sum, const auto& work) {
-        const auto begin = std::chrono::steady_clock::now();
-        work();
-        sum += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
-    for (auto _ : state) {
-        const TemporaryFolder folder;
-        World world(scene);
-        Timeline timeline(folder.path() / "run", scene.timeline, scene.steps);
-        timed(grown, [&] { world.start(); });
-        timed(recorded, [&] { timeline.record(world.frame()); });
-        while (world.steps_done() < scene.steps) {
-            timed(grown, [&] { world.step(); });
-            timed(recorded, [&] { timeline.record(world.frame()); });
+namespace fs = std::filesystem;
+
+double seconds_of(const auto& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+struct Recorded {
+    double waited = 0;     ///< seconds in the timeline's functions
+    double grown = 0;      ///< seconds of everything else
+    double shapes = 0;     ///< internodes, organs and polygons of all frames
+    double megabytes = 0;  ///< of the frames' files
+};
+
+Recorded record(const Scene& scene) {
+    const TemporaryFolder folder;
+    const fs::path run = folder.path() / "run";
+    Recorded recorded;
+    World world(scene);
+    Timeline timeline(run, scene.timeline, scene.steps);
+    const auto record_frame = [&] {
+        recorded.waited += seconds_of([&] { timeline.record(world.frame()); });
+        for (std::size_t plant = 0; plant < world.size(); ++plant) {
+            const PlantGeometry& geometry = world.interpretation(plant).geometry;
+            recorded.shapes += double(geometry.internodes.size() + geometry.organs.size() + geometry.polygons.size());
         }
-        timed(recorded, [&] { timeline.finish(); });
+    };
+    recorded.grown += seconds_of([&] { world.start(); });
+    record_frame();
+    while (world.steps_done() < scene.steps) {
+        recorded.grown += seconds_of([&] { world.step(); });
+        record_frame();
     }
-    state.counters["value"] = recorded / grown;
+    recorded.waited += seconds_of([&] { timeline.finish(); });
+    for (const fs::directory_entry& file : fs::directory_iterator(run / "plants")) {
+        recorded.megabytes += double(file.file_size()) / 1e6;
+    }
+    return recorded;
+}
+
+double grow(const Scene& scene) {
+    World world(scene);
+    return seconds_of([&] {
+        world.start();
+        while (world.steps_done() < scene.steps) world.step();
+    });
+}
+
+Scene two_trees() {
+    return read_scene(ESPALIER_SOURCE_DIR "/environments/two-trees.toml");
+}
+
+/// What the run waits for its timeline, with as many threads as the machine has.
+void recording_two_trees(benchmark::State& state) {
+    const Scene scene = two_trees();
+    for (auto _ : state) {
+        const Recorded recorded = record(scene);
+        state.counters["work"] = recorded.waited;
+        state.counters["yardstick"] = recorded.grown;
+    }
 }
 BENCHMARK(recording_two_trees)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
+
+/// The wall time of a whole run with its timeline, and of the growth alone.
+void recorded_run_two_trees(benchmark::State& state) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(state.range(0)));
+    const Scene scene = two_trees();
+    for (auto _ : state) {
+        const double alone = grow(scene);
+        const Recorded recorded = record(scene);
+        state.counters["work"] = recorded.waited + recorded.grown;
+        state.counters["yardstick"] = alone;
+        state.counters["value"] = 1e6 * recorded.megabytes / recorded.shapes;
+    }
+}
+BENCHMARK(recorded_run_two_trees)->Arg(2)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 
 const Row recording{"recording two-trees, against growing it",
                     "recording_two_trees/iterations:1/real_time",
                     "",
-                    Row::Measure::value,
+                    Row::Measure::counters,
                     Row::Goal::at_most,
                     0.2};
+const Row recorded_run{"two-trees with its timeline, against without [2 threads]",
+                       "recorded_run_two_trees/2/iterations:1/real_time",
+                       "",
+                       Row::Measure::counters,
+                       Row::Goal::at_most,
+                       1.2};
+const Row size{"two-trees: MB per 10^6 organs and internodes of a frame",
+               "recorded_run_two_trees/2/iterations:1/real_time",
+               "",
+               Row::Measure::value,
+               Row::Goal::at_most,
+               250};
 
 }  // namespace
 }  // namespace espalier::bench

@@ -67,11 +67,15 @@ std::string read_text(const fs::path& path) {
 }
 
 void write_text(const fs::path& path, std::string_view text) {
+    write_text(path, std::span(&text, 1));
+}
+
+void write_text(const fs::path& path, std::span<const std::string_view> parts) {
     write_file(path, [&](const fs::path& temporary) {
         const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor < 0) throw std::system_error(errno, std::generic_category());
         try {
-            write_all(descriptor, text);
+            for (const std::string_view part : parts) write_all(descriptor, part);
         } catch (...) {
             ::close(descriptor);
             throw;

@@ -1,37 +1,21 @@
 #include "timeline/attribute_arrays.h"
 
-#include <tbb/parallel_for.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeUInt16Array.h>
-#include <vtkTypeUInt32Array.h>
-#include <vtkTypeUInt64Array.h>
-#include <vtkTypeUInt8Array.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace espalier {
-namespace {
 
-// One value per owner, filled in parallel: each is a function of its owner alone.
-template <class Array, class Value>
-void add_array(vtkFieldData& data, const char* name, const Column<Owner>& owners, const Value& value) {
-    vtkNew<Array> array;
-    array->SetName(name);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(owners.size()));
-    auto* values = array->GetPointer(0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, owners.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) values[i] = value(owners[i]);
-    });
-    data.AddArray(array);
+bool OwnerArrays::same_values(const OwnerArrays& other) const {
+    if (count_ != other.count_) return false;
+    return std::equal(arrays_.begin(), arrays_.begin() + static_cast<std::ptrdiff_t>(count_), other.arrays_.begin(),
+                      [](const Array& a, const Array& b) {
+                          return a.data.name == b.data.name && std::strcmp(a.data.type, b.data.type) == 0 &&
+                                 same_bytes(a.values, b.values);
+                      });
 }
-
-}  // namespace
 
 AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std::span<const ChosenParameter> chosen)
     : chosen_(chosen) {
@@ -44,30 +28,27 @@ AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std
     }
 }
 
-void AttributeArrays::add_attributes(vtkFieldData& data, const Column<Owner>& owners) const {
+void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) const {
     const auto string = [&](const Owner& owner) -> const ModuleString& { return *plants_[owner.plant].frame->string; };
     const auto lineage = [&](const Owner& owner) { return plants_[owner.plant].lineage; };
-    add_array<vtkTypeUInt64Array>(data, "identity", owners, [&](const Owner& owner) {
+    arrays.add<std::uint64_t>("identity", owners, [&](const Owner& owner) {
         return lineage(owner) ? string(owner).identities[owner.module] : 0;
     });
-    add_array<vtkTypeUInt64Array>(data, "parent", owners, [&](const Owner& owner) {
-        return lineage(owner) ? string(owner).parents[owner.module] : 0;
-    });
-    add_array<vtkTypeUInt32Array>(data, "plant", owners,
-                                  [&](const Owner& owner) { return plants_[owner.plant].frame->plant; });
-    add_array<vtkTypeUInt16Array>(data, "symbol", owners, [&](const Owner& owner) {
+    arrays.add<std::uint64_t>(
+        "parent", owners, [&](const Owner& owner) { return lineage(owner) ? string(owner).parents[owner.module] : 0; });
+    arrays.add<std::uint32_t>("plant", owners, [&](const Owner& owner) { return plants_[owner.plant].frame->plant; });
+    arrays.add<std::uint16_t>("symbol", owners, [&](const Owner& owner) {
         return (*plants_[owner.plant].symbols)[string(owner).letters[owner.module]];
     });
-    add_array<vtkTypeInt32Array>(data, "birth", owners, [&](const Owner& owner) {
+    arrays.add<std::int32_t>("birth", owners, [&](const Owner& owner) {
         return lineage(owner) ? static_cast<std::int32_t>(string(owner).births[owner.module]) : 0;
     });
-    add_array<vtkTypeUInt16Array>(data, "order", owners, [](const Owner& owner) { return owner.order; });
-    add_array<vtkTypeUInt16Array>(data, "colour", owners, [](const Owner& owner) { return owner.colour; });
-    add_array<vtkTypeUInt8Array>(data, "kind", owners,
-                                 [](const Owner& owner) { return static_cast<std::uint8_t>(owner.kind); });
+    arrays.add<std::uint16_t>("order", owners, [](const Owner& owner) { return owner.order; });
+    arrays.add<std::uint16_t>("colour", owners, [](const Owner& owner) { return owner.colour; });
+    arrays.add<std::uint8_t>("kind", owners, [](const Owner& owner) { return static_cast<std::uint8_t>(owner.kind); });
 }
 
-void AttributeArrays::add_looks(vtkFieldData& data, const Column<Owner>& owners,
+void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
                                 std::vector<std::string>& texture_files) const {
     // Texture k of a plant is file numbers[k] of the run, whose file 0 is none.
     if (texture_files.empty()) texture_files.emplace_back();
@@ -82,19 +63,18 @@ void AttributeArrays::add_looks(vtkFieldData& data, const Column<Owner>& owners,
             if (known == texture_files.end()) texture_files.push_back(texture.file.string());
         }
     }
-    add_array<vtkTypeUInt16Array>(data, "texture", owners, [&](const Owner& owner) {
+    arrays.add<std::uint16_t>("texture", owners, [&](const Owner& owner) {
         const std::vector<std::uint16_t>& known = numbers[owner.plant];
         return owner.look.texture < known.size() ? known[owner.look.texture] : std::uint16_t{0};
     });
-    add_array<vtkTypeUInt16Array>(data, "back_colour", owners,
-                                  [](const Owner& owner) { return owner.look.back_colour; });
+    arrays.add<std::uint16_t>("back_colour", owners, [](const Owner& owner) { return owner.look.back_colour; });
 }
 
-void AttributeArrays::add_colours(vtkFieldData& data, const Column<Owner>& owners) const {
+void AttributeArrays::add_colours(OwnerArrays& arrays, const Owners& owners) const {
     using Colour = std::array<std::uint8_t, 3>;
     if (std::none_of(plants_.begin(), plants_.end(), [](const Plant& plant) { return plant.frame->palette; })) return;
     std::size_t colours = 0;
-    for (const Owner& owner : owners) colours = std::max(colours, std::size_t{owner.colour} + 1);
+    for (const Owner& owner : owners.values) colours = std::max(colours, std::size_t{owner.colour} + 1);
     std::vector<std::vector<Colour>> tables;
     for (const Plant& plant : plants_) {
         std::vector<Colour>& table = tables.emplace_back(colours, Colour{255, 255, 255});
@@ -107,18 +87,15 @@ void AttributeArrays::add_colours(vtkFieldData& data, const Column<Owner>& owner
             }
         }
     }
-    vtkNew<vtkTypeUInt8Array> array;
-    array->SetName("rgb");
-    array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(owners.size()));
-    std::uint8_t* values = array->GetPointer(0);
-    for (const Owner& owner : owners) values = std::copy_n(tables[owner.plant][owner.colour].begin(), 3, values);
-    data.AddArray(array);
+    std::uint8_t* values = arrays.append<std::uint8_t>("rgb", owners, 3);
+    for (const Owner& owner : owners.values) {
+        values = std::copy_n(tables[owner.plant][owner.colour].begin(), 3, values);
+    }
 }
 
-void AttributeArrays::add_parameters(vtkFieldData& data, const Column<Owner>& owners) const {
+void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) const {
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        add_array<vtkDoubleArray>(data, chosen_[k].name.c_str(), owners, [&](const Owner& owner) {
+        arrays.add<double>(chosen_[k].name, owners, [&](const Owner& owner) {
             const Plant& plant = plants_[owner.plant];
             const ModuleString& string = *plant.frame->string;
             const int slot = plant.slots[k].find(string, owner.module);

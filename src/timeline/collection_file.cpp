@@ -4,6 +4,8 @@
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
 
+#include "timeline/xml_text.h"
+
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -22,34 +24,11 @@ constexpr std::string_view opening =
     "  <Collection>\n";
 constexpr std::string_view closing = "  </Collection>\n</VTKFile>\n";
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
-
 }  // namespace
 
 void CollectionFile::add(double time, int part, const std::string& name, const std::string& file) {
     entries_ += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
-                            format_exact(time), part, escaped(name), escaped(file));
+                            format_exact(time), part, xml_text(name), xml_text(file));
 }
 
 // Writing the index anew after every frame costs the square of the frames, so what fits is put over the file's end. The

@@ -2,18 +2,15 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/base/text.h"
 #include "espalier/environment/openvdb_grid.h"
 
 #include "timeline/vtk_file.h"
+#include "timeline/xml_text.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>
 #include <openvdb/tools/Dense.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 
 #include <sstream>
 #include <string_view>
@@ -60,7 +57,34 @@ bool too_large(const openvdb::Coord& size) {
     return false;
 }
 
+std::string numbers(const openvdb::Vec3d& vector) {
+    return fmt::format("{} {} {}", format_exact(vector.x()), format_exact(vector.y()), format_exact(vector.z()));
+}
+
+bool same_values(const openvdb::FloatTree& a, const openvdb::FloatTree& b) {
+    auto leaf = b.cbeginLeaf();
+    for (auto it = a.cbeginLeaf(); it; ++it, ++leaf) {
+        if (!leaf || it->origin() != leaf->origin() || *it != *leaf) return false;
+    }
+    auto tile = b.cbeginValueAll();
+    auto it = a.cbeginValueAll();
+    constexpr int above_leaves = openvdb::FloatTree::DEPTH - 2;
+    it.setMaxDepth(above_leaves);
+    tile.setMaxDepth(above_leaves);
+    for (; it; ++it, ++tile) {
+        if (!tile || *it != *tile) return false;
+    }
+    return true;
+}
+
 }  // namespace
+
+bool same_field(const FieldGrid& a, const FieldGrid& b) {
+    if (&a == &b) return true;
+    if (!a.grid || !b.grid || a.box != b.box || a.grid->transform() != b.grid->transform()) return false;
+    return a.grid->background() == b.grid->background() && a.grid->tree().hasSameTopology(b.grid->tree()) &&
+           same_values(a.grid->tree(), b.grid->tree());
+}
 
 void write_vdb(const std::filesystem::path& path, const Field& field) {
     initialize_openvdb();
@@ -90,23 +114,26 @@ void write_vti(const std::filesystem::path& path, const Field& field, double tim
                         "as field_files = [\"vdb\"] only",
                         field.name, size.x(), size.y(), size.z(), most_vti_voxels));
     }
-    vtkNew<vtkFloatArray> values;
-    values->SetName(field.name.c_str());
-    values->SetNumberOfTuples(static_cast<vtkIdType>(box.volume()));
-    openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, values->GetPointer(0));
+    Column<float> values(box.volume());
+    openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, values.data());
     openvdb::tools::copyToDense(*source.grid, dense);
 
-    vtkNew<vtkImageData> image;
     const openvdb::Vec3d origin = source.grid->indexToWorld(box.min());
     const openvdb::Vec3d spacing = source.grid->voxelSize();
-    image->SetDimensions(size.x(), size.y(), size.z());
-    image->SetOrigin(origin.x(), origin.y(), origin.z());
-    image->SetSpacing(spacing.x(), spacing.y(), spacing.z());
-    image->GetPointData()->SetScalars(values);
-    add_time(*image->GetFieldData(), time, step);
-    add_texts(*image->GetFieldData(), "unit", {field.unit});
-    add_texts(*image->GetFieldData(), "meaning", {field.meaning});
-    write_vtk(path, *image);
+    const std::string extent = fmt::format("0 {} 0 {} 0 {}", size.x() - 1, size.y() - 1, size.z() - 1);
+    VtkFile file;
+    file.begin("ImageData");
+    file.open("ImageData", fmt::format(R"(WholeExtent="{}" Origin="{}" Spacing="{}" Direction="1 0 0 0 1 0 0 0 1")",
+                                       extent, numbers(origin), numbers(spacing)));
+    file.open("FieldData");
+    file.add_time(time, step);
+    file.add_texts("unit", {field.unit});
+    file.add_texts("meaning", {field.meaning});
+    file.close();
+    file.open("Piece", fmt::format(R"(Extent="{}")", extent));
+    file.open("PointData", fmt::format(R"(Scalars="{}")", xml_text(field.name)));
+    file.add(data_array<float>(field.name, values));
+    file.write(path);
 }
 
 }  // namespace espalier

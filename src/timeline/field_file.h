@@ -7,6 +7,9 @@
 
 namespace espalier {
 
+/// True if both would give the same files but for the time.
+bool same_field(const FieldGrid& a, const FieldGrid& b);
+
 /// Complete or not at all; Blosc and active masks. Throws RunError.
 void write_vdb(const std::filesystem::path& path, const Field& field);
 

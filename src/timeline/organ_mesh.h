@@ -3,40 +3,69 @@
 
 #include "espalier/geometry/plant_geometry.h"
 
+#include <glm/vec4.hpp>
+
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace espalier {
 
-/// Vertices, and faces (or one closed outline) as runs of indices into them.
-struct OrganMesh {
-    std::vector<SurfaceVertex> vertices;
-    std::vector<std::vector<std::uint32_t>> faces;
-    std::vector<std::vector<std::uint32_t>> outlines;
+/// Runs of indices into vertices: the faces of a mesh, or its outlines.
+struct IndexRuns {
+    std::vector<std::uint32_t> counts;
+    std::vector<std::uint32_t> indices;
+
+    void add(const std::vector<std::uint32_t>& run);
 };
 
+struct OrganMesh {
+    std::vector<SurfaceVertex> vertices;
+    IndexRuns faces, outlines;
+};
+
+/// Meshes of organs that no view file describes; the angles and faces of a shape are worked out once.
 /// Discs and circles have 16 sides, or as many as a sphere if those are more, and lie across `up`, in the plane of
 /// heading and left; spheres have the organ's sides as meridians, and three quarters as many bands from pole to pole
-/// along the heading; a surface that nobody described shows as the rhombus it would span.
-OrganMesh mesh_of(const Organ& organ);
+/// along the heading; a surface shows as the rhombus it would span.
+class OrganMeshes {
+public:
+    /// Valid until the next.
+    const OrganMesh& of(const Organ& organ);
+
+private:
+    struct Round {
+        OrganMesh mesh;
+        std::vector<glm::dvec4> angles;  ///< of the vertices: cosines and sines
+    };
+
+    const OrganMesh& disc(const Organ& organ);
+    const OrganMesh& circle(const Organ& organ);
+    const OrganMesh& sphere(const Organ& organ);
+    const OrganMesh& rhombus(const Organ& organ);
+
+    std::map<std::uint32_t, Round> discs_, circles_, spheres_;  ///< by sides
+    OrganMesh rhombus_;
+};
 
 /// The surfaces of a plant's view file, each meshed once.
 class SurfaceMeshes {
 public:
-    explicit SurfaceMeshes(const Shapes& shapes) : shapes_(shapes) {}
+    explicit SurfaceMeshes(std::shared_ptr<const Shapes> shapes) : shapes_(std::move(shapes)) {}
 
     struct Entry {
         const Surface* surface;
         SurfaceMesh mesh;
-        std::vector<glm::dvec2> whole;  ///< texture coordinates for one picture over the whole surface
+        std::vector<glm::dvec2> whole;             ///< texture coordinates for one picture over the whole surface
+        std::vector<const BicubicPatch*> patches;  ///< of the vertices: that of the last face with it; null: none
     };
     /// Null if there is no such surface.
     const Entry* find(std::uint32_t id);
     bool textured_as_whole(const Organ& organ) const;
 
 private:
-    const Shapes& shapes_;
+    std::shared_ptr<const Shapes> shapes_;
     std::map<std::uint32_t, Entry> entries_;
 };
 

@@ -2,7 +2,6 @@
 
 #include "espalier/base/error.h"
 
-#include "timeline/organ_mesh.h"
 #include "timeline/polygon_triangles.h"
 
 #include <glm/geometric.hpp>
@@ -10,13 +9,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace espalier {
 namespace {
 
 // The internodes' numbers, axis after axis, in the turtle's order within each.
-std::vector<std::uint32_t> by_axis(const std::vector<Internode>& internodes) {
+std::vector<std::uint32_t> by_axis(std::span<const Internode> internodes) {
     std::uint32_t axes = 0;
     for (const Internode& internode : internodes) axes = std::max(axes, internode.axis + 1);
     std::vector<std::uint32_t> next(std::size_t{axes} + 1, 0);
@@ -60,7 +58,38 @@ glm::dvec3 normal_of(const glm::dvec3* vertices, std::uint32_t count) {
     return length > 0 ? sum / length : glm::dvec3(0, 0, 1);
 }
 
+constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max() / 8;
+
 }  // namespace
+
+bool operator==(const Owner& a, const Owner& b) {
+    return a.module == b.module && a.plant == b.plant && a.order == b.order && a.colour == b.colour &&
+           a.kind == b.kind && a.look.back_colour == b.look.back_colour && a.look.texture == b.look.texture;
+}
+
+void Owners::clear() {
+    values.clear();
+    ends.clear();
+}
+
+void Owners::add(const Owner& owner, std::size_t count) {
+    if (count == 0) return;
+    const auto end = static_cast<std::uint32_t>(size() + count);
+    if (!values.empty() && values.back() == owner) {
+        ends.back() = end;
+    } else {
+        values.push_back(owner);
+        ends.push_back(end);
+    }
+}
+
+void Owners::add(const Owners& owners) {
+    std::uint32_t begin = 0;
+    for (std::size_t run = 0; run < owners.ends.size(); ++run) {
+        add(owners.values[run], owners.ends[run] - begin);
+        begin = owners.ends[run];
+    }
+}
 
 void Cells::clear() {
     offsets.assign(1, 0);
@@ -70,7 +99,13 @@ void Cells::clear() {
 
 void Cells::close(const Owner& owner) {
     offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-    owners.push_back(owner);
+    owners.add(owner);
+}
+
+void Cells::add(const IndexRuns& runs, std::int32_t origin, const Owner& owner) {
+    for (const std::uint32_t index : runs.indices) connectivity.push_back(origin + static_cast<std::int32_t>(index));
+    for (const std::uint32_t count : runs.counts) offsets.push_back(offsets.back() + static_cast<std::int32_t>(count));
+    owners.add(owner, runs.counts.size());
 }
 
 void PlantMesh::clear() {
@@ -85,17 +120,45 @@ void PlantMesh::clear() {
     polygons.clear();
 }
 
-std::int32_t PlantMesh::add_point(const SurfaceVertex& vertex, double radius, const Owner& owner) {
+std::int32_t PlantMesh::add_points(std::size_t count, const Owner& owner) {
+    const std::size_t first = radii.size();
     // A sphere's connectivity is several times its points; keep that within 31 bits too.
-    if (owners.size() >= std::numeric_limits<std::int32_t>::max() / 8) {
-        throw RunError("a frame of the timeline would have more than 268 million points");
-    }
-    for (int k = 0; k < 3; ++k) points.push_back(static_cast<float>(vertex.position[k]));
-    for (int k = 0; k < 3; ++k) normals.push_back(static_cast<float>(vertex.normal[k]));
-    for (int k = 0; k < 2; ++k) uvs.push_back(static_cast<float>(vertex.uv[k]));
-    radii.push_back(static_cast<float>(radius));
-    owners.push_back(owner);
-    return static_cast<std::int32_t>(owners.size() - 1);
+    if (count > most_points - first) throw RunError("a frame of the timeline would have more than 268 million points");
+    points.resize(3 * (first + count));
+    normals.resize(3 * (first + count));
+    uvs.resize(2 * (first + count));
+    radii.resize(first + count);
+    owners.add(owner, count);
+    return static_cast<std::int32_t>(first);
+}
+
+void PlantMesh::set_point(std::size_t point, const SurfaceVertex& vertex, double radius) {
+    for (int k = 0; k < 3; ++k) points[3 * point + std::size_t(k)] = static_cast<float>(vertex.position[k]);
+    for (int k = 0; k < 3; ++k) normals[3 * point + std::size_t(k)] = static_cast<float>(vertex.normal[k]);
+    for (int k = 0; k < 2; ++k) uvs[2 * point + std::size_t(k)] = static_cast<float>(vertex.uv[k]);
+    radii[point] = static_cast<float>(radius);
+}
+
+std::int32_t PlantMesh::add_point(const SurfaceVertex& vertex, double radius, const Owner& owner) {
+    const std::int32_t point = add_points(1, owner);
+    set_point(static_cast<std::size_t>(point), vertex, radius);
+    return point;
+}
+
+bool PlantMesh::same_shape(const PlantMesh& other) const {
+    const auto same_cells = [](const Cells& a, const Cells& b) {
+        return same_bytes(a.offsets, b.offsets) && same_bytes(a.connectivity, b.connectivity) &&
+               same_bytes(a.owners.ends, b.owners.ends);
+    };
+    return same_bytes(points, other.points) && same_bytes(normals, other.normals) && same_bytes(uvs, other.uvs) &&
+           same_bytes(radii, other.radii) && same_bytes(owners.ends, other.owners.ends) &&
+           same_cells(vertices, other.vertices) && same_cells(lines, other.lines) &&
+           same_cells(polygons, other.polygons) && labels == other.labels;
+}
+
+SurfaceMeshes* OrganSource::surfaces(const std::shared_ptr<const Shapes>& shapes) {
+    if (!shapes) return nullptr;
+    return &surfaces_.try_emplace(shapes, shapes).first->second;
 }
 
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant) {
@@ -127,8 +190,10 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
         const Owner owner{plant, polygon.module, polygon.order, polygon.colour, Kind::polygon, polygon.look};
         const glm::dvec3* vertices = &geometry.vertices[polygon.first];
         const glm::dvec3 normal = normal_of(vertices, polygon.count);
-        const auto origin = static_cast<std::int32_t>(mesh.owners.size());
-        for (std::uint32_t i = 0; i < polygon.count; ++i) mesh.add_point({vertices[i], normal, {}}, 0, owner);
+        const std::int32_t origin = mesh.add_points(polygon.count, owner);
+        for (std::uint32_t i = 0; i < polygon.count; ++i) {
+            mesh.set_point(static_cast<std::size_t>(origin) + i, {vertices[i], normal, {}}, 0);
+        }
         const std::vector<std::uint32_t> triangles = triangles_of({vertices, polygon.count}, normal);
         const std::size_t corners = triangles.empty() ? polygon.count : triangles.size();
         for (std::uint32_t i = 0; i < corners; ++i) {
@@ -142,54 +207,45 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
 namespace {
 
 void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner) {
-    const auto origin = static_cast<std::int32_t>(mesh.owners.size());
-    for (const SurfaceVertex& vertex : shape.vertices) mesh.add_point(vertex, 0, owner);
-    const auto add_cells = [&](Cells& cells, const std::vector<std::vector<std::uint32_t>>& runs) {
-        for (const auto& run : runs) {
-            for (const std::uint32_t i : run) cells.connectivity.push_back(origin + static_cast<std::int32_t>(i));
-            cells.close(owner);
-        }
-    };
-    add_cells(mesh.lines, shape.outlines);
-    add_cells(mesh.polygons, shape.faces);
+    const std::int32_t origin = mesh.add_points(shape.vertices.size(), owner);
+    auto point = static_cast<std::size_t>(origin);
+    for (const SurfaceVertex& vertex : shape.vertices) mesh.set_point(point++, vertex, 0);
+    mesh.lines.add(shape.outlines, origin, owner);
+    mesh.polygons.add(shape.faces, origin, owner);
 }
 
 /// Patches may have colours of their own, on both sides.
-Owner owner_of_patch(Owner owner, const Surface& surface, const SurfaceMesh& shape, std::size_t face) {
-    if (face >= shape.patches.size()) return owner;
-    const BicubicPatch& patch = surface.patches[shape.patches[face]];
-    if (patch.top_colour > 0) owner.colour = static_cast<std::uint16_t>(patch.top_colour);
-    if (patch.bottom_colour > 0) owner.look.back_colour = static_cast<std::uint16_t>(patch.bottom_colour);
+Owner owner_of_patch(Owner owner, const BicubicPatch* patch) {
+    if (!patch) return owner;
+    if (patch->top_colour > 0) owner.colour = static_cast<std::uint16_t>(patch->top_colour);
+    if (patch->bottom_colour > 0) owner.look.back_colour = static_cast<std::uint16_t>(patch->bottom_colour);
     return owner;
 }
 
-void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ& organ, bool as_whole, Owner owner) {
+void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ& organ, bool as_whole,
+                 const Owner& owner) {
     const SurfaceMesh& shape = entry.mesh;
-    const auto origin = static_cast<std::int32_t>(mesh.owners.size());
+    const auto origin = static_cast<std::int32_t>(mesh.radii.size());
     for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
         SurfaceVertex vertex = placed(shape.vertices[i], organ);
         if (as_whole) vertex.uv = entry.whole[i];
-        mesh.add_point(vertex, 0, owner);
+        mesh.add_point(vertex, 0, owner_of_patch(owner, entry.patches[i]));
     }
     std::size_t at = 0;
     for (std::size_t face = 0; face < shape.faces.size(); ++face) {
-        const Owner of_face = owner_of_patch(owner, *entry.surface, shape, face);
-        const std::size_t count = shape.faces[face];
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto point = origin + static_cast<std::int32_t>(shape.indices[at + k]);
-            mesh.polygons.connectivity.push_back(point);
-            mesh.owners[static_cast<std::size_t>(point)] = of_face;
+        for (std::size_t k = 0; k < shape.faces[face]; ++k) {
+            mesh.polygons.connectivity.push_back(origin + static_cast<std::int32_t>(shape.indices[at++]));
         }
-        mesh.polygons.close(of_face);
-        at += count;
+        const BicubicPatch* patch =
+            face < shape.patches.size() ? &entry.surface->patches[shape.patches[face]] : nullptr;
+        mesh.polygons.close(owner_of_patch(owner, patch));
     }
 }
 
 }  // namespace
 
-void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant) {
-    std::optional<SurfaceMeshes> surfaces;
-    if (geometry.shapes) surfaces.emplace(*geometry.shapes);
+void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant) {
+    SurfaceMeshes* const surfaces = source.surfaces(geometry.shapes);
     for (const Organ& organ : geometry.organs) {
         const Owner owner{plant, organ.module, organ.order, organ.colour, Kind::organ, organ.look};
         const SurfaceMeshes::Entry* surface =
@@ -197,7 +253,7 @@ void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
         if (surface) {
             add_surface(mesh, *surface, organ, surfaces->textured_as_whole(organ), owner);
         } else {
-            add_organ(mesh, mesh_of(organ), owner);
+            add_organ(mesh, source.plain.of(organ), owner);
         }
     }
 }
@@ -226,7 +282,7 @@ void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
     }
 }
 
-void add_queries(PlantMesh& mesh, const std::vector<Query>& queries, const std::function<bool(const Query&)>& wanted,
+void add_queries(PlantMesh& mesh, std::span<const Query> queries, const std::function<bool(const Query&)>& wanted,
                  std::uint32_t plant) {
     for (const Query& query : queries) {
         if (!wanted(query)) continue;

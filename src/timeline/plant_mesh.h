@@ -5,12 +5,23 @@
 #include "espalier/timeline/frame.h"
 #include "espalier/timeline/kind.h"
 
+#include "timeline/organ_mesh.h"
+
 #include <cstdint>
+#include <cstring>
 #include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace espalier {
+
+/// Also of numbers that are none.
+template <class T>
+bool same_bytes(const Column<T>& a, const Column<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
 
 /// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
 struct Owner {
@@ -22,15 +33,30 @@ struct Owner {
     Look look = {};
 };
 
+bool operator==(const Owner& a, const Owner& b);
+
+/// The owners of points or cells in their order; neighbours mostly have the same one, so they are kept as runs.
+struct Owners {
+    Column<Owner> values;
+    Column<std::uint32_t> ends;  ///< of the runs
+
+    std::size_t size() const { return ends.empty() ? 0 : ends.back(); }
+    void clear();
+    void add(const Owner& owner, std::size_t count = 1);
+    void add(const Owners& owners);
+};
+
 /// Cells of one kind of VTK's: cell i has the points connectivity[offsets[i]] .. connectivity[offsets[i + 1] - 1].
 struct Cells {
     Column<std::int32_t> offsets{0};
     Column<std::int32_t> connectivity;
-    Column<Owner> owners;
+    Owners owners;
 
     void clear();
     /// Ends the cell whose points were appended to `connectivity`.
     void close(const Owner& owner);
+    /// Cells of points counted from `origin`.
+    void add(const IndexRuns& runs, std::int32_t origin, const Owner& owner);
 };
 
 /// Reused from frame to frame: clear() keeps the memory.
@@ -39,13 +65,29 @@ struct PlantMesh {
     Column<float> normals;  ///< across the axis on axes
     Column<float> uvs;      ///< two a point
     Column<float> radii;
-    Column<Owner> owners;  ///< of the points
+    Owners owners;  ///< of the points
     Cells vertices, lines, polygons;
     std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
 
     void clear();
-    /// Returns the point's number. Throws RunError beyond 2^28 points.
+    /// Makes room for points of one owner, returns the first one's number. Throws RunError beyond 2^28 points.
+    std::int32_t add_points(std::size_t count, const Owner& owner);
+    void set_point(std::size_t point, const SurfaceVertex& vertex, double radius);
+    /// Returns the point's number.
     std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner);
+    /// True if both would be shown the same but for what their owners are.
+    bool same_shape(const PlantMesh& other) const;
+};
+
+/// Meshes of organs as they are needed, kept from frame to frame.
+class OrganSource {
+public:
+    OrganMeshes plain;
+    /// Null if nobody described surfaces.
+    SurfaceMeshes* surfaces(const std::shared_ptr<const Shapes>& shapes);
+
+private:
+    std::map<std::shared_ptr<const Shapes>, SurfaceMeshes> surfaces_;
 };
 
 /// One line per axis, broken where the next internode does not begin where the last ended.
@@ -53,12 +95,12 @@ struct PlantMesh {
 /// begins there.
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
-void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant);
 /// Generalized cylinders and patches. A ring between two pieces belongs to the first.
 void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 /// The queries that are `wanted`, as vertices.
-void add_queries(PlantMesh& mesh, const std::vector<Query>& queries, const std::function<bool(const Query&)>& wanted,
+void add_queries(PlantMesh& mesh, std::span<const Query> queries, const std::function<bool(const Query&)>& wanted,
                  std::uint32_t plant);
 
 }  // namespace espalier

@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "timeline/frame_writer.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,6 +72,17 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
         if (auto recorder = entry.make(table, context)) recorders_.push_back(std::move(recorder));
     }
     table.reject_unread();
+    std::vector<std::string> fields;
+    for (const auto& recorder : recorders_) {
+        sees_every_step_ = sees_every_step_ || recorder->sees_every_step();
+        const std::vector<std::string> wanted = recorder->fields();
+        fields.insert(fields.end(), wanted.begin(), wanted.end());
+    }
+    writer_ = std::make_unique<FrameWriter>(std::move(fields), [this](const Frame& frame, bool due) {
+        for (const auto& recorder : recorders_) {
+            if (due || recorder->sees_every_step()) recorder->record(frame);
+        }
+    });
     if (overwrite) remove_timeline(folder);
 }
 
@@ -86,21 +99,26 @@ void Timeline::record(const Frame& frame, bool is_last) {
     if (chosen) next_ = frames_.after(frame.step);
     const bool ends = is_last || (!exactly_ && frame.step == last_step_);
     const bool due = chosen || (ends && !(exactly_ && recorded_));
+    if (due || sees_every_step_) writer_->add(frame, due);
+    if (due && !recorded_) writer_->wait();
     recorded_ = recorded_ || due;
-    for (const auto& recorder : recorders_) {
-        if (due || recorder->sees_every_step()) recorder->record(frame);
-    }
+}
+
+void Timeline::wait() {
+    writer_->wait();
 }
 
 void Timeline::finish() {
     std::exception_ptr first;
-    for (const auto& recorder : recorders_) {
+    const auto attempt = [&first](const auto& action) {
         try {
-            recorder->finish();
+            action();
         } catch (...) {
             if (!first) first = std::current_exception();
         }
-    }
+    };
+    attempt([this] { writer_->wait(); });
+    for (const auto& recorder : recorders_) attempt([&recorder] { recorder->finish(); });
     if (first) std::rethrow_exception(first);
 }
 

@@ -1,78 +1,103 @@
 #include "timeline/vtk_file.h"
 
-#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "timeline/xml_text.h"
+
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkIntArray.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkXMLImageDataWriter.h>
-#include <vtkXMLPolyDataWriter.h>
+#include <tbb/parallel_for.h>
+
+#include <bit>
 
 namespace espalier {
 namespace {
 
-// The file is made in memory and written by us, so that a full disk is told from every other trouble.
-template <class Writer, class Data>
-void write(const std::filesystem::path& path, Data& data) {
-    std::string errors;  // VTK prints them unless somebody listens
-    vtkNew<vtkCallbackCommand> listener;
-    listener->SetClientData(&errors);
-    listener->SetCallback([](vtkObject*, unsigned long, void* client, void* message) {
-        if (message) static_cast<std::string*>(client)->append(static_cast<const char*>(message));
-    });
-    vtkNew<Writer> writer;
-    writer->AddObserver(vtkCommand::ErrorEvent, listener);
-    writer->AddObserver(vtkCommand::WarningEvent, listener);
-    writer->SetInputDataObject(&data);
-    // Inline, not appended: readers older than VTK 9.3 mistake appended data for XML where the system's expat (2.5 of
-    // Debian 12 as updated, 2.6) defers its parsing; Debian's ParaView 5.11 is one of them.
-    writer->SetDataModeToBinary();
-    writer->SetHeaderTypeToUInt64();
-    writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(1);
-    writer->WriteToOutputStringOn();
-    const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
-    if (!written || !errors.empty()) {
-        throw RunError(fmt::format("cannot write {}: {}{}", path.string(), errors.empty() ? "VTK says: " : errors,
-                                   vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
-    }
-    write_text(path, writer->GetOutputString());
+/// Less than this is encoded before another thread is awake.
+constexpr std::size_t worth_sharing = std::size_t{1} << 20;
+
+std::string_view view(const Column<char>& text) {
+    return {text.data(), text.size()};
 }
 
 }  // namespace
 
-void write_vtk(const std::filesystem::path& path, vtkPolyData& data) {
-    write<vtkXMLPolyDataWriter>(path, data);
+void VtkFile::begin(std::string_view type) {
+    count_ = 0;
+    open_.clear();
+    markup_ = "<?xml version=\"1.0\"?>\n";
+    // Inline, not appended: readers older than VTK 9.3 mistake appended data for XML where the system's expat (2.5 of
+    // Debian 12 as updated, 2.6) defers its parsing; Debian's ParaView 5.11 is one of them.
+    open("VTKFile", fmt::format(R"(type="{}" version="1.0" byte_order="{}" header_type="UInt64" compressor="{}")", type,
+                                std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
+                                "vtkLZ4DataCompressor"));
 }
 
-void write_vtk(const std::filesystem::path& path, vtkImageData& data) {
-    write<vtkXMLImageDataWriter>(path, data);
+void VtkFile::open(std::string_view element, std::string_view attributes) {
+    markup_ += fmt::format("<{}{}{}>\n", element, attributes.empty() ? "" : " ", attributes);
+    open_.emplace_back(element);
 }
 
-void add_texts(vtkFieldData& data, const char* name, const std::vector<std::string>& texts) {
-    vtkNew<vtkStringArray> array;
-    array->SetName(name);
-    for (const std::string& text : texts) array->InsertNextValue(text);
-    data.AddArray(array);
+void VtkFile::close() {
+    markup_ += fmt::format("</{}>\n", open_.back());
+    open_.pop_back();
 }
 
-void add_time(vtkFieldData& data, double time, int step) {
-    vtkNew<vtkDoubleArray> times;
-    times->SetName("TimeValue");
-    times->InsertNextValue(time);
-    data.AddArray(times);
-    vtkNew<vtkIntArray> steps;
-    steps->SetName("step");
-    steps->InsertNextValue(step);
-    data.AddArray(steps);
+void VtkFile::add(const DataArray& array) {
+    add("DataArray", array, array.tuples);
+}
+
+void VtkFile::add_texts(const std::string& name, const std::vector<std::string>& texts) {
+    std::string bytes;
+    for (const std::string& text : texts) bytes.append(text).push_back('\0');
+    DataArray array = data_array<char>(name, bytes);
+    add("Array", array, texts.size()).own(std::move(bytes));
+}
+
+void VtkFile::add_time(double time, int step) {
+    const auto bytes = [](const auto& value) {
+        return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    const std::int32_t number = step;
+    add("DataArray", data_array<double>("TimeValue", {&time, 1}), 1).own(bytes(time));
+    add("DataArray", data_array<std::int32_t>("step", {&number, 1}), 1).own(bytes(number));
+}
+
+VtkFile::Part& VtkFile::add(std::string_view element, const DataArray& array, std::size_t tuples) {
+    if (count_ == parts_.size()) parts_.emplace_back();
+    Part& part = parts_[count_++];
+    part.markup = std::exchange(markup_, fmt::format("\n</{}>\n", element));
+    part.markup +=
+        fmt::format(R"(<{} type="{}" Name="{}" NumberOfComponents="{}" NumberOfTuples="{}" format="binary">)", element,
+                    array.type, xml_text(array.name), array.components, tuples);
+    part.markup += '\n';
+    part.array = array;
+    return part;
+}
+
+void VtkFile::encode_all() {
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < count_; ++i) bytes += parts_[i].array.bytes();
+    const auto encode_part = [this](std::size_t i) {
+        parts_[i].text.clear();
+        encode(parts_[i].array, parts_[i].text);
+    };
+    if (bytes < worth_sharing) {
+        for (std::size_t i = 0; i < count_; ++i) encode_part(i);
+    } else {
+        tbb::parallel_for(std::size_t{0}, count_, encode_part);
+    }
+}
+
+void VtkFile::write(const std::filesystem::path& path) {
+    while (!open_.empty()) close();
+    encode_all();
+    std::vector<std::string_view> pieces;
+    for (std::size_t i = 0; i < count_; ++i) {
+        pieces.push_back(parts_[i].markup);
+        pieces.push_back(view(parts_[i].text));
+    }
+    pieces.push_back(markup_);
+    write_text(path, pieces);
 }
 
 }  // namespace espalier

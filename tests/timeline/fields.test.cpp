@@ -108,7 +108,8 @@ TEST_CASE("fields.pvd lists every field at every time; what does not change is w
     const RunFolder folder;
     Timeline timeline(folder.path, timeline_table("fields = ['all']\nfield_files = ['vti']"), 2);
     for (int step = 0; step < 3; ++step) {
-        record_fields(timeline, step, {make_field("light", 0.5f), make_field("pot.distance", 0.5f, false)});
+        const auto changing = float(step + 1);
+        record_fields(timeline, step, {make_field("light", changing), make_field("pot.distance", changing, false)});
         const std::vector<DataSetEntry> entries = read_collection(folder.path / "fields.pvd");
         REQUIRE(entries.size() == 2 * (static_cast<std::size_t>(step) + 1));
         for (const DataSetEntry& entry : entries) CHECK(std::filesystem::exists(folder.path / entry.file));

@@ -1,6 +1,7 @@
 #include "espalier/timeline/frame_selection.h"
 
 #include "catch.h"
+#include "timeline/collections.h"
 #include "timeline/frames.h"
 
 #include <limits>
@@ -60,9 +61,8 @@ TEST_CASE("a timeline sees exactly the frames chosen, or the last if it would se
         }
         timeline.finish();
         Frames frames;
-        for (int step = 0; step <= last; ++step) {
-            const std::string name = "000" + std::to_string(step) + ".vtp";
-            if (std::filesystem::exists(folder.path / "plants" / name)) frames.push_back(step);
+        for (const DataSetEntry& entry : read_collection(folder.path / "plants.pvd")) {
+            frames.push_back(static_cast<int>(entry.time));
         }
         return frames;
     };

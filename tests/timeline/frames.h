@@ -115,12 +115,13 @@ inline HandmadePlant branched_plant() {
     return plant;
 }
 
-/// Records one frame of these plants.
+/// Records one frame of these plants and waits until it is written: plants and fields may be gone afterwards.
 inline void record(Timeline& timeline, int step, const std::vector<const HandmadePlant*>& plants,
                    const Fields& fields = {}) {
     std::vector<PlantFrame> frames;
     for (const HandmadePlant* plant : plants) frames.push_back(plant->frame());
     timeline.record({step, 0.5 * step, frames, &fields});
+    timeline.wait();
 }
 
 inline vtkSmartPointer<vtkPolyData> read_vtp(const std::filesystem::path& path) {

@@ -82,7 +82,7 @@ TEST_CASE("a plant that dies leaves its internodes with their death, in a file t
         CHECK(row[2] == 1);
         CHECK(row[3] == 0);
     }
-    CHECK(read_vtp(folder.path / "plants/0002.vtp")->GetNumberOfPoints() == 0);
+    CHECK(read_vtp(folder.path / "plants/0001.vtp")->GetNumberOfPoints() == 0);
 }
 
 TEST_CASE("a module that draws several internodes has as many lifespans", "[timeline]") {

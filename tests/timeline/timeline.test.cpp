@@ -9,6 +9,7 @@
 #include "timeline/frames.h"
 
 #include <cstdlib>
+#include <random>
 #include <set>
 #include <sys/wait.h>
 #include <thread>
@@ -195,20 +196,76 @@ TEST_CASE("every recorder finishes although another fails", "[timeline]") {
     CHECK(read_collection(folder.path / "plants.pvd").size() == 1);
 }
 
+TEST_CASE("frames are written beside the run, each as the plant was at its step", "[timeline]") {
+    const RunFolder folder;
+    {
+        Timeline timeline(folder.path, timeline_table("every = 2"), 99);
+        HandmadePlant plant = branched_plant();
+        const Fields fields;
+        for (int step = 0; step < 100; ++step) {
+            const PlantFrame frame = plant.frame();
+            timeline.record({step, double(step), {&frame, 1}, &fields});
+            plant.add_triangle(Identity(100 + step));
+        }
+    }
+    const std::vector<DataSetEntry> entries = read_collection(folder.path / "plants.pvd");
+    REQUIRE(entries.size() == 51);
+    for (const DataSetEntry& entry : entries) {
+        CHECK(read_vtp(folder.path / entry.file)->GetNumberOfPolys() == static_cast<vtkIdType>(entry.time));
+    }
+    const std::string rows = bytes_of(folder.path / "statistics.csv");
+    CHECK(std::count(rows.begin(), rows.end(), '\n') == 101);
+}
+
+TEST_CASE("a folder that disappears in the middle ends the run with the reason, and finish says it again",
+          "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table("lifespans = false"), 1000000);
+    HandmadePlant plant = branched_plant();
+    const Fields fields;
+    int step = 0;
+    const auto record_one = [&] {
+        plant.add_triangle(Identity(100 + step));
+        const PlantFrame frame = plant.frame();
+        timeline.record({step, double(step), {&frame, 1}, &fields});
+        ++step;
+    };
+    while (step < 5) record_one();
+    timeline.wait();
+    fs::rename(folder.path / "plants", folder.path / "elsewhere");
+    write_file_at(folder.path / "plants", "a file where a folder should be");
+    const std::string message = error_text([&] {
+        while (step < 100) record_one();
+    });
+    CHECK(message.find("cannot make the folder") == 0);
+    CHECK(step < 100);
+    CHECK(error_text([&] { timeline.finish(); }) == message);
+    CHECK(read_collection(folder.path / "plants.pvd").size() == 5);
+    CHECK(read_vtp(folder.path / "elsewhere/0004.vtp")->GetNumberOfPolys() == 5);
+}
+
 // Run by the next test in a process of its own.
 TEST_CASE("record until killed", "[.killed]") {
     const char* folder = std::getenv("ESPALIER_TEST_FOLDER");
     REQUIRE(folder);
-    Timeline timeline(folder, timeline_table(), 1000000);
+    initialize_openvdb();
+    Timeline timeline(folder, timeline_table("fields = ['light']"), 1000000);
     HandmadePlant plant = branched_plant();
     for (int step = 0;; ++step) {
         plant.add_triangle(Identity(100 + step));
-        record(timeline, step, {&plant, &plant});
+        auto made = std::make_shared<FieldGrid>();
+        made->grid = openvdb::FloatGrid::create(0);
+        made->grid->getAccessor().setValue({step % 50, 1, 2}, 1);
+        Fields fields;
+        fields.provide({"light", "1", "light", made, true});
+        const std::vector<PlantFrame> plants{plant.frame(), plant.frame()};
+        timeline.record({step, double(step), plants, &fields});
     }
 }
 
 TEST_CASE("a run that is killed leaves a timeline that is whole", "[timeline]") {
-    for (const int milliseconds : {60, 83, 101}) {
+    std::mt19937 random(7);
+    for (int run = 0; run < 10; ++run) {
         const RunFolder folder;
         setenv("ESPALIER_TEST_FOLDER", folder.path.c_str(), 1);
         const pid_t child = fork();
@@ -216,15 +273,22 @@ TEST_CASE("a run that is killed leaves a timeline that is whole", "[timeline]") 
             execl("/proc/self/exe", "test_timeline", "record until killed", static_cast<char*>(nullptr));
             _exit(1);
         }
-        while (!fs::exists(folder.path / "plants.pvd")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        while (!fs::exists(folder.path / "statistics.csv")) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 60000));
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
 
         const std::vector<DataSetEntry> entries = read_collection(folder.path / "plants.pvd");
         REQUIRE(!entries.empty());
         for (std::size_t i = 0; i < entries.size(); ++i) {
+            CHECK(entries[i].time == double(i));
             CHECK(read_vtp(folder.path / entries[i].file)->GetNumberOfPolys() == 2 * (static_cast<int>(i) + 1));
+        }
+        const std::vector<DataSetEntry> fields = read_collection(folder.path / "fields.pvd");
+        CHECK(fields.size() >= entries.size());
+        for (const DataSetEntry& entry : fields) {
+            const std::string text = bytes_of(folder.path / entry.file);
+            CHECK(text.find("</VTKFile>") != std::string::npos);
         }
         const std::string rows = bytes_of(folder.path / "statistics.csv");
         CHECK(rows.back() == '\n');

@@ -1,35 +1,202 @@
-// ParaView 5.11 of Debian 12, with the system's expat as updated since, cannot read appended data: it opened no frame.
+// What VTK's own readers make of the files that are written without VTK's writers.
 #include "timeline/vtk_file.h"
 
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
 #include "catch.h"
+#include "small_disk.h"
 #include "temporary_folder.h"
 
-#include <vtkImageData.h>
+#include <tbb/global_control.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPoints.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkXMLPolyDataReader.h>
 
-#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <random>
 
 using namespace espalier;
 
+namespace {
+
+/// A file of points without cells, with these arrays on them.
+void write_points(const std::filesystem::path& path, std::size_t count, const std::vector<DataArray>& arrays,
+                  const std::vector<std::string>& texts = {}) {
+    const std::vector<float> points(3 * count, 0.5f);
+    VtkFile file;
+    file.begin("PolyData");
+    file.open("PolyData");
+    file.open("FieldData");
+    file.add_time(2.5, 7);
+    file.add_texts("a <b> & \"c\"", texts);
+    file.close();
+    file.open("Piece", "NumberOfPoints=\"" + std::to_string(count) + "\"");
+    file.open("PointData");
+    for (const DataArray& array : arrays) file.add(array);
+    file.close();
+    file.open("Points");
+    file.add(data_array<float>("points", points, 3));
+    file.write(path);
+}
+
+vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& path) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    REQUIRE(reader->GetErrorCode() == 0);
+    return reader->GetOutput();
+}
+
+/// The bytes of an array of points as VTK read them.
+std::string bytes_read(vtkPolyData* data, const char* name) {
+    vtkDataArray* array = data->GetPointData()->GetArray(name);
+    REQUIRE(array);
+    const auto size = std::size_t(array->GetDataTypeSize()) * std::size_t(array->GetNumberOfValues());
+    return {static_cast<const char*>(array->GetVoidPointer(0)), size};
+}
+
+template <class T>
+std::string bytes_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+/// Values with long runs, short runs and noise in turns.
+template <class T>
+std::vector<T> mixed_values(std::size_t count, std::mt19937& random) {
+    std::vector<T> values;
+    while (values.size() < count) {
+        const std::size_t run = std::array<std::size_t, 3>{1, 3, 5000}[random() % 3];
+        for (std::size_t i = 0; i < run && values.size() < count; ++i) {
+            values.push_back(i == 0 || random() % 1000 == 0 ? static_cast<T>(random()) : values.back());
+        }
+    }
+    return values;
+}
+
+template <class T>
+void check_plain_and_runs(std::size_t count, std::mt19937& random) {
+    INFO(vtk_type<T>() << " x " << count);
+    const std::vector<T> values = mixed_values<T>(count, random);
+    std::vector<T> of_runs;
+    std::vector<std::uint32_t> ends;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i == 0 || values[i] != values[i - 1] || random() % 7 == 0) {
+            of_runs.push_back(values[i]);
+            ends.push_back(0);
+        }
+        ends.back() = static_cast<std::uint32_t>(i + 1);
+    }
+    DataArray runs = data_array<T>("runs", std::span<const T>(of_runs));
+    runs.tuples = count;
+    runs.ends = ends;
+    const TemporaryFolder folder;
+    write_points(folder.path() / "a.vtp", count, {data_array<T>("plain", std::span<const T>(values)), runs});
+    const auto data = read(folder.path() / "a.vtp");
+    REQUIRE(data->GetNumberOfPoints() == vtkIdType(count));
+    CHECK((bytes_read(data, "plain") == bytes_of(values)));
+    CHECK((bytes_read(data, "runs") == bytes_of(values)));
+}
+
+}  // namespace
+
+TEST_CASE("arrays of any type and length read back as they were, whether given as values or as runs", "[timeline]") {
+    std::mt19937 random(1);
+    // One value less and more than whole blocks of 256 KiB, of every width.
+    for (const std::size_t count :
+         {1, 2, 3, 32767, 32768, 32769, 65536, 65537, 131071, 131073, 262143, 262144, 262145, 600000}) {
+        check_plain_and_runs<std::uint8_t>(count, random);
+        check_plain_and_runs<std::uint16_t>(count, random);
+        check_plain_and_runs<float>(count, random);
+        check_plain_and_runs<std::uint64_t>(count, random);
+    }
+}
+
+TEST_CASE("arrays of several components read back, also where they do not fill blocks evenly", "[timeline]") {
+    const std::size_t count = 200001;
+    std::vector<float> vectors(3 * count);
+    std::iota(vectors.begin(), vectors.end(), 0.25f);
+    std::vector<std::uint8_t> colours;
+    std::vector<std::uint32_t> ends;
+    for (std::uint32_t i = 0; i < count; i += 3) {
+        for (const std::uint32_t k : {i, 2 * i, 7 * i}) colours.push_back(static_cast<std::uint8_t>(k));
+        ends.push_back(std::min<std::uint32_t>(i + 3, count));
+    }
+    DataArray rgb = data_array<std::uint8_t>("rgb", std::span<const std::uint8_t>(colours), 3);
+    rgb.tuples = count;
+    rgb.ends = ends;
+    const TemporaryFolder folder;
+    write_points(folder.path() / "a.vtp", count,
+                 {data_array<float>("vectors", std::span<const float>(vectors), 3), rgb});
+    const auto data = read(folder.path() / "a.vtp");
+    CHECK((bytes_read(data, "vectors") == bytes_of(vectors)));
+    vtkDataArray* array = data->GetPointData()->GetArray("rgb");
+    REQUIRE(array);
+    REQUIRE(array->GetNumberOfComponents() == 3);
+    for (const vtkIdType i : {0, 1, 2, 3, 87380, 87381, 87382, 200000}) {
+        CHECK(array->GetComponent(i, 2) == static_cast<std::uint8_t>(7 * (i / 3 * 3)));
+    }
+}
+
+TEST_CASE("a file without points, with texts of any content, opens", "[timeline]") {
+    const TemporaryFolder folder;
+    const std::vector<std::string> texts{"", "plain", "<&\">", "ä", ""};
+    write_points(folder.path() / "a.vtp", 0, {data_array<float>("empty", {})}, texts);
+    const auto data = read(folder.path() / "a.vtp");
+    CHECK(data->GetNumberOfPoints() == 0);
+    CHECK(data->GetPointData()->GetArray("empty"));
+    CHECK(data->GetFieldData()->GetArray("TimeValue")->GetTuple1(0) == 2.5);
+    CHECK(data->GetFieldData()->GetArray("step")->GetTuple1(0) == 7);
+    auto* array = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("a <b> & \"c\""));
+    REQUIRE(array);
+    REQUIRE(array->GetNumberOfValues() == vtkIdType(texts.size()));
+    for (std::size_t i = 0; i < texts.size(); ++i) CHECK(array->GetValue(vtkIdType(i)) == texts[i]);
+}
+
+// ParaView 5.11 of Debian 12, with the system's expat as updated since, cannot read appended data: it opened no frame.
 TEST_CASE("files for viewers keep their data inline, which every reader understands", "[timeline]") {
     const TemporaryFolder folder;
-    vtkNew<vtkPoints> points;
-    for (int i = 0; i < 10000; ++i) points->InsertNextPoint(i, 0.5 * i, 0);
-    vtkNew<vtkPolyData> plants;
-    plants->SetPoints(points);
-    vtkNew<vtkImageData> field;
-    field->SetDimensions(30, 30, 30);
-    field->AllocateScalars(VTK_FLOAT, 1);
-    std::fill_n(static_cast<float*>(field->GetScalarPointer()), 30 * 30 * 30, 0.5f);
-    write_vtk(folder.path() / "plants.vtp", *plants);
-    write_vtk(folder.path() / "field.vti", *field);
-    for (const char* name : {"plants.vtp", "field.vti"}) {
-        const std::string text = read_text(folder.path() / name);
-        CHECK(text.find("<AppendedData") == std::string::npos);
-        CHECK(text.find("format=\"binary\"") != std::string::npos);
+    const std::vector<double> values(10000, 0.1);
+    write_points(folder.path() / "a.vtp", values.size(), {data_array<double>("values", std::span(values))});
+    const std::string text = read_text(folder.path() / "a.vtp");
+    CHECK(text.find("<AppendedData") == std::string::npos);
+    CHECK(text.find("format=\"binary\"") != std::string::npos);
+    CHECK(text.find("compressor=\"vtkLZ4DataCompressor\"") != std::string::npos);
+    CHECK(text.size() < 10000);
+}
+
+TEST_CASE("a large file has the same bytes with any number of threads", "[timeline]") {
+    std::mt19937 random(2);
+    const std::vector<std::uint64_t> numbers = mixed_values<std::uint64_t>(300000, random);
+    const std::vector<float> floats = mixed_values<float>(300000, random);
+    const TemporaryFolder folder;
+    std::string first;
+    for (const std::size_t threads : {1, 2, 8}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        write_points(
+            folder.path() / "a.vtp", 300000,
+            {data_array<std::uint64_t>("numbers", std::span(numbers)), data_array<float>("floats", std::span(floats))});
+        const std::string text = read_text(folder.path() / "a.vtp");
+        if (first.empty()) first = text;
+        CHECK((text == first));
     }
+}
+
+TEST_CASE("a file that finds no room is not there, and says why", "[timeline]") {
+    std::mt19937 random(3);
+    std::vector<std::uint64_t> noise(100000);
+    for (std::uint64_t& value : noise) value = random();
+    const TemporaryFolder folder;
+    const SmallDisk disk(100000);
+    CHECK_THROWS_AS(
+        write_points(folder.path() / "a.vtp", noise.size(), {data_array<std::uint64_t>("n", std::span(noise))}),
+        RunError);
+    CHECK(std::filesystem::is_empty(folder.path()));
 }

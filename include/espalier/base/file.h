@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,8 @@ std::string read_text(const std::filesystem::path& path);
 /// Writes beside `path` and renames, so that `path` is either the old file or the whole new one.
 /// Throws RunError with the system's reason (disk full, read-only, ...) and removes what it wrote.
 void write_text(const std::filesystem::path& path, std::string_view text);
+/// The same for a text that lies in memory piece by piece.
+void write_text(const std::filesystem::path& path, std::span<const std::string_view> parts);
 
 /// For writers that want a file name of their own: calls `write(temporary)` and renames the result to `path`.
 /// The temporary name keeps the extension. `write` returns false or throws on failure. Throws RunError.

@@ -35,14 +35,21 @@ public:
         vdb_ = std::find(files.begin(), files.end(), "vdb") != files.end();
     }
 
+    std::vector<std::string> fields() const override { return names_; }
     bool wanted() const { return !names_.empty() && (vti_ || vdb_); }
 
     void record(const Frame& frame) override {
         if (written_.empty()) find_fields(*frame.fields);
         for (std::size_t i = 0; i < names_.size(); ++i) {
             const Field& field = *frame.fields->find(names_[i]);
-            if (field.changes || written_[i].empty()) written_[i] = write(field, frame);
-            collection_.add(frame.time, static_cast<int>(i), names_[i], written_[i] + (vti_ ? ".vti" : ".vdb"));
+            Written& last = written_[i];
+            const bool same = last.grid && (!field.changes || (field.grid && same_field(*field.grid, *last.grid)));
+            if (!same) {
+                last.grid.reset();  // in case the next line throws
+                last.name = write(field, frame);
+                last.grid = field.grid;
+            }
+            collection_.add(frame.time, static_cast<int>(i), names_[i], last.name + (vti_ ? ".vti" : ".vdb"));
         }
         collection_.write();
     }
@@ -84,7 +91,12 @@ private:
     std::vector<std::string> names_;
     Place place_;
     bool vti_ = true, vdb_ = true;
-    std::vector<std::string> written_;  ///< per field, the last files' name
+    /// The last files of a field.
+    struct Written {
+        std::string name;  ///< without extension
+        std::shared_ptr<const FieldGrid> grid;
+    };
+    std::vector<Written> written_;  ///< per field
 };
 
 const RegisteredRecorder entry{{"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",

@@ -11,20 +11,11 @@
 #include "timeline/symbol_numbers.h"
 #include "timeline/vtk_file.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeUInt16Array.h>
-#include <vtkTypeUInt32Array.h>
-#include <vtkTypeUInt64Array.h>
-#include <vtkTypeUInt8Array.h>
+#include <fmt/format.h>
 
+#include <deque>
 #include <map>
+#include <type_traits>
 
 namespace espalier {
 namespace {
@@ -45,21 +36,35 @@ public:
 
     void finish() override {
         gather();
-        auto data = geometry();
-        vtkFieldData& cells = *data->GetCellData();
-        add_array<vtkTypeUInt64Array>(cells, "identity", [](const Row& row) { return row.life->identity; });
-        add_array<vtkTypeUInt64Array>(cells, "parent", [](const Row& row) { return row.life->parent; });
-        add_array<vtkTypeUInt32Array>(cells, "plant", [](const Row& row) { return row.plant; });
-        add_array<vtkTypeUInt16Array>(cells, "symbol", [](const Row& row) { return row.life->symbol; });
-        add_array<vtkTypeInt32Array>(cells, "birth", [](const Row& row) { return row.life->birth; });
-        add_array<vtkTypeInt32Array>(
-            cells, "death", [this](const Row& row) { return row.life->alive ? last_step_ + 1 : row.life->death; });
-        add_array<vtkTypeUInt8Array>(cells, "alive", [](const Row& row) { return row.life->alive; });
-        add_array<vtkTypeUInt16Array>(cells, "order", [](const Row& row) { return row.life->order; });
-        add_array<vtkTypeUInt16Array>(cells, "colour", [](const Row& row) { return row.life->colour; });
-        add_time(*data->GetFieldData(), time_, last_step_);
-        add_texts(*data->GetFieldData(), "symbol_names", symbols_.names());
-        write_vtk(path_, *data);
+        fill_geometry();
+        file_.begin("PolyData");
+        file_.open("PolyData");
+        file_.open("FieldData");
+        file_.add_time(time_, last_step_);
+        file_.add_texts("symbol_names", symbols_.names());
+        file_.close();
+        file_.open("Piece", fmt::format(R"(NumberOfPoints="{}" NumberOfLines="{}")", radii_.size(), offsets_.size()));
+        file_.open("PointData");
+        file_.add(data_array<float>("radius", radii_));
+        file_.close();
+        file_.open("CellData");
+        add_array("identity", [](const Row& row) { return row.life->identity; });
+        add_array("parent", [](const Row& row) { return row.life->parent; });
+        add_array("plant", [](const Row& row) { return row.plant; });
+        add_array("symbol", [](const Row& row) { return row.life->symbol; });
+        add_array("birth", [](const Row& row) { return row.life->birth; });
+        add_array("death", [this](const Row& row) { return row.life->alive ? last_step_ + 1 : row.life->death; });
+        add_array("alive", [](const Row& row) { return static_cast<std::uint8_t>(row.life->alive); });
+        add_array("order", [](const Row& row) { return row.life->order; });
+        add_array("colour", [](const Row& row) { return row.life->colour; });
+        file_.close();
+        file_.open("Points");
+        file_.add(data_array<float>("points", coordinates_, 3));
+        file_.close();
+        file_.open("Lines");
+        file_.add(data_array<std::int32_t>("connectivity", connectivity_));
+        file_.add(data_array<std::int32_t>("offsets", offsets_));
+        file_.write(path_);
     }
 
 private:
@@ -69,49 +74,42 @@ private:
     };
 
     void gather() {
-        rows_.clear();
         for (const auto& [plant, lives] : plants_) {
             for (const InternodeLife& life : lives.all()) rows_.push_back({plant, &life});
         }
     }
 
     // Two points an internode: neighbours may have been seen last at different steps.
-    vtkSmartPointer<vtkPolyData> geometry() const {
-        vtkNew<vtkFloatArray> coordinates, radii;
-        coordinates->SetNumberOfComponents(3);
-        radii->SetName("radius");
-        vtkNew<vtkCellArray> lines;
-        lines->Use32BitStorage();
+    void fill_geometry() {
         for (const Row& row : rows_) {
             const InternodeLife& life = *row.life;
-            const vtkIdType ends[] = {radii->InsertNextValue(life.base_radius),
-                                      radii->InsertNextValue(life.tip_radius)};
-            coordinates->InsertNextTypedTuple(&life.base.x);
-            coordinates->InsertNextTypedTuple(&life.tip.x);
-            lines->InsertNextCell(2, ends);
+            for (const glm::vec3& point : {life.base, life.tip}) {
+                connectivity_.push_back(static_cast<std::int32_t>(connectivity_.size()));
+                for (int k = 0; k < 3; ++k) coordinates_.push_back(point[k]);
+            }
+            radii_.push_back(life.base_radius);
+            radii_.push_back(life.tip_radius);
+            offsets_.push_back(static_cast<std::int32_t>(connectivity_.size()));
         }
-        vtkNew<vtkPoints> points;
-        points->SetData(coordinates);
-        auto data = vtkSmartPointer<vtkPolyData>::New();
-        data->SetPoints(points);
-        data->SetLines(lines);
-        data->GetPointData()->AddArray(radii);
-        return data;
     }
 
-    template <class Array, class Value>
-    void add_array(vtkFieldData& data, const char* name, const Value& value) const {
-        vtkNew<Array> array;
-        array->SetName(name);
-        array->SetNumberOfTuples(static_cast<vtkIdType>(rows_.size()));
-        for (std::size_t i = 0; i < rows_.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), value(rows_[i]));
-        data.AddArray(array);
+    template <class Value>
+    void add_array(const char* name, const Value& value) {
+        using T = std::decay_t<decltype(value(rows_.front()))>;
+        Column<std::byte>& bytes = columns_.emplace_back(rows_.size() * sizeof(T));
+        T* values = reinterpret_cast<T*>(bytes.data());
+        for (std::size_t i = 0; i < rows_.size(); ++i) values[i] = value(rows_[i]);
+        file_.add(data_array<T>(name, std::span<const T>(values, rows_.size())));
     }
 
     std::filesystem::path path_;
     SymbolNumbers symbols_;
     std::map<std::uint32_t, InternodeLives> plants_;
     std::vector<Row> rows_;
+    Column<float> coordinates_, radii_;
+    Column<std::int32_t> connectivity_, offsets_;
+    std::deque<Column<std::byte>> columns_;  ///< of the cells, until the file is written
+    VtkFile file_;
     int last_step_ = 0;
     double time_ = 0;
 };

@@ -17,25 +17,43 @@
 #include "timeline/vtk_file.h"
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkTypeInt32Array.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace espalier {
 namespace {
 
-vtkSmartPointer<vtkCellArray> cell_array(Cells& cells) {
-    auto array = vtkSmartPointer<vtkCellArray>::New();
-    array->SetData(array_over<vtkTypeInt32Array>("", cells.offsets.data(), cells.offsets.size()),
-                   array_over<vtkTypeInt32Array>("", cells.connectivity.data(), cells.connectivity.size()));
-    return array;
+/// All that a file of plants holds but its time.
+struct PlantData {
+    PlantMesh mesh;
+    Owners cell_owners;  ///< VTK counts a data set's cells so: vertices, lines, polygons
+    OwnerArrays of_points, of_cells;
+    std::vector<std::string> texture_files;  ///< of the run so far, the first ""
+    std::vector<std::string> symbol_names;
+
+    void clear() {
+        mesh.clear();
+        cell_owners.clear();
+        of_points.clear();
+        of_cells.clear();
+    }
+    bool operator==(const PlantData& other) const {
+        return mesh.same_shape(other.mesh) && of_points.same_values(other.of_points) &&
+               of_cells.same_values(other.of_cells) && texture_files == other.texture_files &&
+               symbol_names == other.symbol_names;
+    }
+};
+
+void add_cells(VtkFile& file, const char* element, const Cells& cells) {
+    file.open(element);
+    file.add(data_array<std::int32_t>("connectivity", cells.connectivity));
+    file.add(data_array<std::int32_t>("offsets", std::span(cells.offsets).subspan(1)));
+    file.close();
+}
+
+void add_arrays(VtkFile& file, const OwnerArrays& arrays) {
+    for (std::size_t i = 0; i < arrays.size(); ++i) file.add(arrays[i]);
 }
 
 class Skeleton final : public Recorder {
@@ -46,13 +64,18 @@ public:
           chosen_(read_chosen_parameters(settings.table("parameters"))) {}
 
     void record(const Frame& frame) override {
-        if (!checked_) require_known(chosen_, frame.plants);
-        checked_ = true;
+        if (written_.empty()) require_known(chosen_, frame.plants);
+        std::swap(now_, before_);
+        now_.clear();
         fill_mesh(frame);
-        const std::string file = fmt::format("plants/{:04}.vtp", frame.step);
-        make_folder(folder_ / "plants");
-        write_vtk(folder_ / file, *poly_data(frame));
-        collection_.add(frame.time, 0, "plants", file);
+        fill_arrays(frame);
+        if (written_.empty() || !(now_ == before_)) {
+            const std::string file = fmt::format("plants/{:04}.vtp", frame.step);
+            written_.clear();  // in case the next line throws
+            write(frame, folder_ / file);
+            written_ = file;
+        }
+        collection_.add(frame.time, 0, "plants", written_);
         collection_.write();
     }
 
@@ -60,16 +83,17 @@ public:
 
 private:
     void fill_mesh(const Frame& frame) {
-        mesh_.clear();
+        PlantMesh& mesh = now_.mesh;
         for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
             const PlantFrame& plant = frame.plants[i];
             add_asked_queries(plant, i);
-            add_axes(mesh_, plant.interpretation->geometry, i);
-            add_polygons(mesh_, plant.interpretation->geometry, i);
-            add_organs(mesh_, plant.interpretation->geometry, i);
-            add_pieces(mesh_, plant.interpretation->geometry, i);
-            add_labels(mesh_, plant.interpretation->geometry, i);
+            add_axes(mesh, plant.interpretation->geometry, i);
+            add_polygons(mesh, plant.interpretation->geometry, i);
+            add_organs(mesh, plant.interpretation->geometry, organs_, i);
+            add_pieces(mesh, plant.interpretation->geometry, i);
+            add_labels(mesh, plant.interpretation->geometry, i);
         }
+        for (const Cells* cells : {&mesh.vertices, &mesh.lines, &mesh.polygons}) now_.cell_owners.add(cells->owners);
     }
 
     void add_asked_queries(const PlantFrame& plant, std::uint32_t index) {
@@ -81,54 +105,64 @@ private:
             return std::any_of(slots.begin(), slots.end(),
                                [&](const ParameterSlots& slot) { return slot.find(*plant.string, query.module) >= 0; });
         };
-        if (!slots.empty()) add_queries(mesh_, plant.interpretation->queries, wanted, index);
+        if (!slots.empty()) add_queries(now_.mesh, plant.interpretation->queries, wanted, index);
     }
 
-    vtkSmartPointer<vtkPolyData> poly_data(const Frame& frame) {
-        auto data = vtkSmartPointer<vtkPolyData>::New();
-        vtkNew<vtkPoints> points;
-        points->SetData(array_over<vtkFloatArray>("points", mesh_.points.data(), mesh_.points.size(), 3));
-        data->SetPoints(points);
-        data->SetVerts(cell_array(mesh_.vertices));
-        data->SetLines(cell_array(mesh_.lines));
-        data->SetPolys(cell_array(mesh_.polygons));
-
+    void fill_arrays(const Frame& frame) {
         const AttributeArrays arrays(frame, symbols_, chosen_);
-        vtkPointData& of_points = *data->GetPointData();
-        of_points.AddArray(array_over<vtkFloatArray>("radius", mesh_.radii.data(), mesh_.radii.size()));
-        of_points.SetNormals(array_over<vtkFloatArray>("Normals", mesh_.normals.data(), mesh_.normals.size(), 3));
-        of_points.SetTCoords(array_over<vtkFloatArray>("TCoords", mesh_.uvs.data(), mesh_.uvs.size(), 2));
-        arrays.add_attributes(of_points, mesh_.owners);
-        arrays.add_colours(of_points, mesh_.owners);
-        arrays.add_parameters(of_points, mesh_.owners);
-        vtkCellData& of_cells = *data->GetCellData();
-        arrays.add_attributes(of_cells, cell_owners());
-        arrays.add_looks(of_cells, cell_owners_, texture_files_);
-        arrays.add_colours(of_cells, cell_owners_);
-        add_texts(*data->GetFieldData(), "texture_files", texture_files_);
-        add_texts(*data->GetFieldData(), "label_texts", mesh_.labels);
-        add_time(*data->GetFieldData(), frame.time, frame.step);
-        add_texts(*data->GetFieldData(), "symbol_names", symbols_.names());
-        return data;
+        const Owners& of_points = now_.mesh.owners;
+        arrays.add_attributes(now_.of_points, of_points);
+        arrays.add_colours(now_.of_points, of_points);
+        arrays.add_parameters(now_.of_points, of_points);
+        arrays.add_attributes(now_.of_cells, now_.cell_owners);
+        arrays.add_looks(now_.of_cells, now_.cell_owners, texture_files_);
+        arrays.add_colours(now_.of_cells, now_.cell_owners);
+        now_.texture_files = texture_files_;
+        now_.symbol_names = symbols_.names();
     }
 
-    // VTK counts a data set's cells so: vertices, lines, polygons.
-    const Column<Owner>& cell_owners() {
-        cell_owners_.clear();
-        for (const Cells* cells : {&mesh_.vertices, &mesh_.lines, &mesh_.polygons}) {
-            cell_owners_.insert(cell_owners_.end(), cells->owners.begin(), cells->owners.end());
-        }
-        return cell_owners_;
+    void write(const Frame& frame, const std::filesystem::path& path) {
+        make_folder(path.parent_path());
+        const PlantMesh& mesh = now_.mesh;
+        file_.begin("PolyData");
+        file_.open("PolyData");
+        file_.open("FieldData");
+        file_.add_texts("texture_files", now_.texture_files);
+        file_.add_texts("label_texts", mesh.labels);
+        file_.add_time(frame.time, frame.step);
+        file_.add_texts("symbol_names", now_.symbol_names);
+        file_.close();
+        const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size() - 1; };
+        file_.open("Piece",
+                   fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
+                               mesh.radii.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
+        file_.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
+        file_.add(data_array<float>("radius", mesh.radii));
+        file_.add(data_array<float>("Normals", mesh.normals, 3));
+        file_.add(data_array<float>("TCoords", mesh.uvs, 2));
+        add_arrays(file_, now_.of_points);
+        file_.close();
+        file_.open("CellData");
+        add_arrays(file_, now_.of_cells);
+        file_.close();
+        file_.open("Points");
+        file_.add(data_array<float>("points", mesh.points, 3));
+        file_.close();
+        add_cells(file_, "Verts", mesh.vertices);
+        add_cells(file_, "Lines", mesh.lines);
+        add_cells(file_, "Polys", mesh.polygons);
+        file_.write(path);
     }
 
     std::filesystem::path folder_;
     CollectionFile collection_;
     std::vector<ChosenParameter> chosen_;
-    bool checked_ = false;  ///< the chosen parameters against the models
     SymbolNumbers symbols_;
-    std::vector<std::string> texture_files_;  ///< of the run so far, the first ""
-    PlantMesh mesh_;
-    Column<Owner> cell_owners_;
+    std::vector<std::string> texture_files_;
+    OrganSource organs_;
+    PlantData now_, before_;
+    std::string written_;  ///< the last file, relative to the folder; empty before the first
+    VtkFile file_;
 };
 
 const RegisteredRecorder entry{

@@ -1,0 +1,64 @@
+// Writes frames beside the run: a thread of its own works through a short queue of copies.
+#pragma once
+
+#include "timeline/frame_copy.h"
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace espalier {
+
+class FrameWriter {
+public:
+    /// Called by the writing thread, frame after frame; `due`: as it was added.
+    using Write = std::function<void(const Frame&, bool due)>;
+
+    /// `fields`: those that frames which are due are copied with.
+    FrameWriter(std::vector<std::string> fields, Write write) : fields_(std::move(fields)), write_(std::move(write)) {}
+    /// Waits until everything is written.
+    ~FrameWriter();
+    FrameWriter(const FrameWriter&) = delete;
+    FrameWriter& operator=(const FrameWriter&) = delete;
+
+    /// Copies the frame and returns; waits before that while the queue is full. After a failure nothing more is
+    /// written: throws it, here and in wait().
+    void add(const Frame& frame, bool due);
+    /// Returns when every frame is written.
+    void wait();
+
+    /// As many frames may be on their way, if together they take no more than so many bytes; one always may.
+    static constexpr std::size_t most_frames = 4;
+    static constexpr std::size_t most_bytes = std::size_t{256} << 20;
+
+private:
+    struct Job {
+        FrameCopy frame;
+        bool due = false;
+        std::size_t bytes = 0;
+    };
+
+    std::unique_ptr<Job> make_room(std::size_t bytes);
+    bool has_room(std::size_t bytes) const;
+    void work();
+    std::exception_ptr attempt(const Job& job) const;
+
+    const std::vector<std::string> fields_;
+    const Write write_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::unique_ptr<Job>> waiting_;  ///< in order; the first is being written
+    std::vector<std::unique_ptr<Job>> unused_;  ///< their memory serves again
+    std::size_t bytes_ = 0;                     ///< of those that wait
+    std::exception_ptr failure_;
+    bool ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace espalier

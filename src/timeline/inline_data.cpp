@@ -1,0 +1,163 @@
+#include "timeline/inline_data.h"
+
+#include "espalier/base/error.h"
+
+#include <vtkLZ4DataCompressor.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+namespace espalier {
+namespace {
+
+// Blocks stay in the cache; within 64 KiB LZ4 would take tables so small that it misses most repetitions of organs.
+constexpr std::size_t block_bytes = std::size_t{1} << 18;
+/// Coordinates hardly repeat: looking less hard for it halves the time and costs a thousandth of the size.
+constexpr int acceleration = 4;
+
+constexpr std::size_t base64_length(std::size_t bytes) {
+    return (bytes + 2) / 3 * 4;
+}
+
+// The two characters of every twelve bits.
+constexpr std::array<char, 8192> base64_pairs = [] {
+    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::array<char, 8192> pairs{};
+    for (std::size_t i = 0; i < 4096; ++i) {
+        pairs[2 * i] = digits[i >> 6];
+        pairs[2 * i + 1] = digits[i & 63];
+    }
+    return pairs;
+}();
+
+// Whole triplets.
+char* write_base64(const unsigned char* bytes, std::size_t count, char* out) {
+    for (std::size_t i = 0; i < count; i += 3, out += 4) {
+        const std::uint32_t bits =
+            std::uint32_t{bytes[i]} << 16 | std::uint32_t{bytes[i + 1]} << 8 | std::uint32_t{bytes[i + 2]};
+        std::memcpy(out, &base64_pairs[2 * std::size_t{bits >> 12}], 2);
+        std::memcpy(out + 2, &base64_pairs[2 * std::size_t{bits & 4095}], 2);
+    }
+    return out;
+}
+
+// The last one or two bytes, if any.
+char* write_base64_end(const unsigned char* bytes, std::size_t count, char* out) {
+    if (count == 0) return out;
+    const unsigned char triplet[3] = {bytes[0], count > 1 ? bytes[1] : static_cast<unsigned char>(0), 0};
+    out = write_base64(triplet, 3, out);
+    std::fill(out - (count > 1 ? 1 : 2), out, '=');
+    return out;
+}
+
+template <std::size_t Width>
+struct Tuple {
+    std::array<unsigned char, Width> bytes;
+};
+
+// Tuples [first, last) of an array of runs; `run` is that of the first and moves on.
+template <std::size_t Width>
+void expand(const DataArray& array, std::size_t first, std::size_t last, std::size_t& run, unsigned char* out) {
+    const auto* values = static_cast<const Tuple<Width>*>(array.values);
+    auto* tuples = reinterpret_cast<Tuple<Width>*>(out);
+    while (first < last) {
+        const std::size_t end = std::min<std::size_t>(array.ends[run], last);
+        const Tuple<Width> value = values[run];
+        for (; first < end; ++first) *tuples++ = value;
+        if (end == array.ends[run]) ++run;
+    }
+}
+
+using Expand = void (*)(const DataArray&, std::size_t, std::size_t, std::size_t&, unsigned char*);
+
+Expand expander(std::size_t width) {
+    switch (width) {
+        case 1:
+            return expand<1>;
+        case 2:
+            return expand<2>;
+        case 3:
+            return expand<3>;
+        case 4:
+            return expand<4>;
+        case 8:
+            return expand<8>;
+        default:
+            throw RunError("an array of runs with tuples of a width that nobody writes");
+    }
+}
+
+/// The blocks of an array one after the other, as bytes in memory.
+class Blocks {
+public:
+    explicit Blocks(const DataArray& array)
+        : array_(array), tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {
+        if (!array.ends.empty()) {
+            expand_ = expander(array.tuple_bytes);
+            expanded_.resize(full());
+        }
+    }
+
+    std::size_t full() const { return tuples_ * array_.tuple_bytes; }
+    std::size_t count() const { return (array_.tuples + tuples_ - 1) / tuples_; }
+
+    std::span<const unsigned char> next() {
+        const std::size_t first = done_, last = std::min(array_.tuples, done_ + tuples_);
+        done_ = last;
+        const std::size_t bytes = (last - first) * array_.tuple_bytes;
+        if (!expand_) return {static_cast<const unsigned char*>(array_.values) + first * array_.tuple_bytes, bytes};
+        expand_(array_, first, last, run_, expanded_.data());
+        return {expanded_.data(), bytes};
+    }
+
+private:
+    const DataArray& array_;
+    std::size_t tuples_;  ///< in a block
+    std::size_t done_ = 0, run_ = 0;
+    Expand expand_ = nullptr;
+    Column<unsigned char> expanded_;
+};
+
+}  // namespace
+
+void encode(const DataArray& array, Column<char>& text) {
+    Blocks blocks(array);
+    const std::size_t count = blocks.count();
+    // What VTK calls a partial block is a last one that is not full; 0 where there is none.
+    std::vector<std::uint64_t> header(3 + count);
+    header[0] = count;
+    header[1] = blocks.full();
+    header[2] = array.bytes() % blocks.full();
+    const std::size_t header_at = text.size(), header_bytes = header.size() * sizeof(std::uint64_t);
+    text.resize(header_at + base64_length(header_bytes));
+
+    vtkNew<vtkLZ4DataCompressor> compressor;
+    compressor->SetAccelerationLevel(acceleration);
+    const std::size_t space = compressor->GetMaximumCompressionSpace(blocks.full());
+    Column<unsigned char> packed(2 + space);  // behind what the block before left of a triplet
+    std::size_t left = 0;
+    for (std::size_t block = 0; block < count; ++block) {
+        const std::span<const unsigned char> bytes = blocks.next();
+        const std::size_t size = compressor->Compress(bytes.data(), bytes.size(), packed.data() + left, space);
+        if (size == 0) throw RunError("the LZ4 compressor failed");
+        header[3 + block] = size;
+        const std::size_t ready = left + size, whole = ready / 3 * 3;
+        const std::size_t at = text.size();
+        text.resize(at + base64_length(whole));
+        write_base64(packed.data(), whole, text.data() + at);
+        left = ready - whole;
+        std::copy_n(packed.data() + whole, left, packed.data());
+    }
+    const std::size_t at = text.size();
+    text.resize(at + base64_length(left));
+    write_base64_end(packed.data(), left, text.data() + at);
+
+    const auto* words = reinterpret_cast<const unsigned char*>(header.data());
+    const std::size_t whole = header_bytes / 3 * 3;
+    write_base64_end(words + whole, header_bytes - whole, write_base64(words, whole, text.data() + header_at));
+}
+
+}  // namespace espalier
