@@ -50,6 +50,34 @@ void two_sided_context(benchmark::State& state) {
 }
 BENCHMARK(two_sided_context)->Arg(1)->Arg(2)->UseRealTime();
 
+/// A signal that climbs a shoot of 20,000 internodes with side branches, a condition on each side (ABOP section 3.2).
+void signals_with_parameters(benchmark::State& state) {
+    using namespace test;
+    constexpr int internodes = 20'000;
+    ModelBuilder model;
+    LSystem& system = model.system();
+    system.filter = LSystem::Filter::consider;
+    for (const char* symbol : {"I", "[", "]"}) system.filtered.push_back(model.model().alphabet.symbol(symbol));
+    for (int k = 0; k < internodes; ++k) {
+        system.axiom.push_back(model.module("I", {number(k), number(k == 0 ? 1 : 0)}));
+        if (k % 3 == 0) {
+            system.axiom.push_back(model.module("[", {}));
+            system.axiom.push_back(model.module("I", {number(-1), number(0)}));
+            system.axiom.push_back(model.module("]", {}));
+        }
+        system.axiom.push_back(model.module("/", {number(137.5)}));
+    }
+    Production climbs = model.make({{"I", 2}}, {{"I", 2}}, {}, {model.module("I", {formal(2), number(1)})});
+    climbs.condition = number(0) < formal(1);
+    model.add(std::move(climbs));
+    Production falls =
+        model.make({}, {{"I", 2}}, {{"I", 2}}, {model.module("I", {formal(0), formal(3) * number(0.5)})});
+    falls.condition = number(0) < formal(3);
+    model.add(std::move(falls));
+    derive(state, model, {.steps = 50, .counts = Counts::visits});
+}
+BENCHMARK(signals_with_parameters)->Arg(1)->UseRealTime();
+
 const Row across{"right context across 8,000 nested branches, against none",
                  "right_context_across_branches/1/real_time",
                  "nested_branches_without_context/1/real_time",
@@ -62,6 +90,12 @@ const Row hogeweg{"two-sided context (visits), against the parametric tree",
                   Row::Measure::rate,
                   Row::Goal::at_least,
                   0.5};
+const Row hogeweg_2{"two-sided context with 2 threads, against one",
+                    "two_sided_context/2/real_time",
+                    "two_sided_context/1/real_time",
+                    Row::Measure::rate,
+                    Row::Goal::at_least,
+                    1.7};
 
 }  // namespace
 }  // namespace espalier::bench
