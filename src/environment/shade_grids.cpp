@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <bit>
+#include <cstring>
 
 namespace espalier {
 namespace {
@@ -39,14 +39,26 @@ bool find_shaded(const Shade* sums, std::uint64_t* words) {
     return all < std::uint64_t(1) << 52;
 }
 
+// In as many parts as the machine's vectors need.
+using WholeEight = std::uint64_t __attribute__((vector_size(64)));
+using RealEight = double __attribute__((vector_size(64)));
+using FloatEight = float __attribute__((vector_size(32)));
+
 ESPALIER_VECTOR_CLONES
 void write_added(const Shade* sums, double full_light, float* light, float* shade) {
-    for (std::size_t i = 0; i < ShadeBricks::voxels; ++i) {
-        const double sum = std::bit_cast<double>(static_cast<std::uint64_t>(sums[i]) | exponent_52) - two_52;
-        const double amount = sum * (1 / shade_steps_per_unit);
-        const double left = full_light - amount;
-        shade[i] = static_cast<float>(amount);
-        light[i] = static_cast<float>(left < 0.0 ? 0.0 : left);
+    for (std::size_t i = 0; i < ShadeBricks::voxels; i += 8) {
+        WholeEight bits;
+        std::memcpy(&bits, sums + i, sizeof bits);
+        bits |= exponent_52;
+        RealEight amount;
+        std::memcpy(&amount, &bits, sizeof bits);
+        amount = (amount - two_52) * (1 / shade_steps_per_unit);
+        RealEight left = full_light - amount;
+        left = left < 0.0 ? RealEight{} : left;
+        const FloatEight shades = __builtin_convertvector(amount, FloatEight);
+        const FloatEight lights = __builtin_convertvector(left, FloatEight);
+        std::memcpy(shade + i, &shades, sizeof shades);
+        std::memcpy(light + i, &lights, sizeof lights);
     }
 }
 

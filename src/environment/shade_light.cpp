@@ -123,10 +123,13 @@ void ShadeLight::fetch(const glm::dvec3& point) const {
     const glm::dvec3 at = point / lattice_.voxel;
     if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest_voxel - 1)) return;
     const glm::ivec3 voxel(floored(at.x), floored(at.y), floored(at.z));
-    const Shade* sums = sums_around(voxel);
-    if (sums == nullptr) return;
-    for (const glm::ivec3 other : {glm::ivec3(0), glm::ivec3(1, 0, 0), glm::ivec3(0, 1, 0), glm::ivec3(1, 1, 0)}) {
-        prefetch(sums + ShadeBricks::offset(voxel + other));
+    const Shade* around = sums_around(voxel);
+    for (int corner = 0; corner < (around == nullptr ? 8 : 4); ++corner) {
+        const glm::ivec3 other = voxel + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+        const std::int32_t brick = around == nullptr ? field_.bricks().find(ShadeBricks::brick_of(other)) : 0;
+        if (brick == ShadeBricks::none) continue;
+        const Shade* sums = around == nullptr ? field_.bricks().sums(static_cast<std::size_t>(brick)) : around;
+        prefetch(sums + ShadeBricks::offset(other));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "espalier/environment/environment.h"
 #include "espalier/lsystem/lsystem.h"
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <initializer_list>
@@ -61,6 +62,13 @@ public:
             strings.push_back(&strings_[i]);
         }
         environment.exchange({step, double(step), 1, views}, strings);
+    }
+
+    /// Writes every parameter anew over the answers, as a model does that asks again.
+    void ask_again_with(double parameter) {
+        for (ModuleString& string : strings_) {
+            std::fill(string.parameters.begin(), string.parameters.end(), parameter);
+        }
     }
 
     /// After an exchange: all parameters of a plant's modules, one after the other.

@@ -44,15 +44,15 @@ public:
             const std::optional<std::uint64_t> voxel = voxel_of(queries[i].pose.position);
             answers[i][0] = voxel ? amounts_[*voxel] += queries[i].parameters[0] : 0;
         }
+        total_ = 0;
+        for (const auto& voxel : amounts_) total_ += voxel.second;
         if (amounts_.size() > memory_ / 64) throw RunError("so many voxels are occupied that memory would run out");
         statistics_.sum_up(queries, answers);
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
         std::vector<Quantity> all = statistics_.quantities(plant);
-        double total = 0;
-        for (const auto& voxel : amounts_) total += voxel.second;
-        all.push_back({"total", total});
+        all.push_back({"total", total_});
         return all;
     }
 
@@ -67,11 +67,13 @@ public:
 
     void restore(std::istream& in) override {
         amounts_.clear();
+        total_ = 0;
         std::uint64_t voxel = 0;
         double amount = 0;
         while (in.read(reinterpret_cast<char*>(&voxel), sizeof voxel)) {
             if (!in.read(reinterpret_cast<char*>(&amount), sizeof amount)) throw UserError("the checkpoint is damaged");
             amounts_[voxel] = amount;
+            total_ += amount;
         }
     }
 
@@ -90,6 +92,7 @@ private:
     glm::dvec3 lower_{0}, range_{1}, size_{1};
     std::size_t memory_;
     std::map<std::uint64_t, double> amounts_;  ///< of the voxels that were ever asked
+    double total_ = 0;                         ///< of all of them
     AnswerStatistics statistics_;
 };
 

@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <vector>
 
 namespace espalier {
 namespace {
@@ -88,22 +90,51 @@ private:
         light_ = openvdb::FloatGrid::create(1.0F);
         light_->setTransform(cell_centred_transform(voxel_, glm::dvec3(-0.5 * voxel_)));
         auto accessor = light_->getAccessor();
+        if (pyramid_.empty() && !casters.empty()) pyramid_ = pyramid();
         for (const Coord& caster : casters) {
-            for (int layer = 0; layer < depth_; ++layer) cast_layer(accessor, caster, layer);
+            const float* left = pyramid_.data();
+            for (int layer = 0; layer < depth_ && caster.y() - layer >= -farthest_; ++layer) {
+                cast_layer(accessor, caster, layer, left);
+                left += std::size_t(reach(layer) + 1) * std::size_t(reach(layer) + 1);
+            }
         }
         fields.provide({name_, "1", "part of the light that the shadows leave",
                         std::make_shared<FieldGrid>(FieldGrid{light_, light_->evalActiveVoxelBoundingBox()}), true});
     }
 
-    void cast_layer(openvdb::FloatGrid::Accessor& accessor, const Coord& caster, int layer) const {
-        if (caster.y() - layer < -farthest_) return;
-        const int half = static_cast<int>(spread_ * layer);
-        for (int x = std::max(-half, -farthest_ - caster.x()); x <= std::min(half, farthest_ - caster.x()); ++x) {
-            for (int z = std::max(-half, -farthest_ - caster.z()); z <= std::min(half, farthest_ - caster.z()); ++z) {
-                const double away = std::sqrt(double(x) * x + double(layer) * layer + double(z) * z);
-                const double left = 1 - std::min(1.0, weight_ * std::pow(dissipation_, -away));
-                const Coord voxel = caster.offsetBy(x, -layer, z);
-                accessor.setValue(voxel, accessor.getValue(voxel) * static_cast<float>(left));
+    /// What each voxel of a pyramid leaves, layer after layer; of every layer the quarter with x and z of 0 or more,
+    /// and no more than can lie in the grid.
+    std::vector<float> pyramid() const {
+        std::vector<float> left;
+        for (int layer = 0; layer < std::min(depth_, 2 * farthest_ + 1); ++layer) {
+            for (int x = 0; x <= reach(layer); ++x) {
+                for (int z = 0; z <= reach(layer); ++z) {
+                    const double away = std::sqrt(double(x) * x + double(layer) * layer + double(z) * z);
+                    left.push_back(static_cast<float>(1 - std::min(1.0, weight_ * std::pow(dissipation_, -away))));
+                }
+            }
+        }
+        return left;
+    }
+
+    int reach(int layer) const { return std::min(static_cast<int>(spread_ * layer), 2 * farthest_); }
+
+    // Row by row and leaf by leaf. `left` stands at the layer's quarter.
+    void cast_layer(openvdb::FloatGrid::Accessor& accessor, const Coord& caster, int layer, const float* left) const {
+        using Leaf = openvdb::FloatTree::LeafNodeType;
+        const int half = reach(layer), y = caster.y() - layer;
+        const int last = std::min(caster.z() + half, farthest_);
+        for (int x = std::max(caster.x() - half, -farthest_); x <= std::min(caster.x() + half, farthest_); ++x) {
+            const float* row = left + std::size_t(std::abs(x - caster.x())) * std::size_t(half + 1);
+            for (int z = std::max(caster.z() - half, -farthest_); z <= last;) {
+                Leaf& leaf = *accessor.touchLeaf(Coord(x, y, z));
+                float* values = leaf.buffer().data();
+                openvdb::Index at = Leaf::coordToOffset(Coord(x, y, z));
+                const int end = std::min(last, z | static_cast<int>(Leaf::DIM - 1));
+                for (; z <= end; ++z, ++at) {
+                    values[at] *= row[std::abs(z - caster.z())];
+                    leaf.setValueOn(at);
+                }
             }
         }
     }
@@ -133,6 +164,7 @@ private:
     double voxel_, spread_, weight_, dissipation_, randomness_, bias_, radius_;
     int farthest_, depth_;
     RandomKey draws_;
+    std::vector<float> pyramid_;
     openvdb::FloatGrid::Ptr light_;
     AnswerStatistics statistics_;
 };
