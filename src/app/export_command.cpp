@@ -43,6 +43,7 @@ public:
         app()
             .add_option("--format", formats_, fmt::format("one or several of {}", fmt::join(known_formats(), ", ")))
             ->delimiter(',')
+            ->allow_extra_args(false)  // or it would take the run's folder for a format
             ->required();
         app().add_option("--step", step_, frame_option_help)->capture_default_str();
         app().add_option("--output", output_, "folder; default: RUN/export");

@@ -24,7 +24,7 @@ bool exists(const Workplace& place, const std::string& file) {
 
 TEST_CASE("export writes the last frame beside the run unless told otherwise", "[export]") {
     const RunPlace place;
-    const Outcome outcome = place.run("export run --format obj,mtg");
+    const Outcome outcome = place.run("export --format obj,mtg run");
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("triangles") != std::string::npos);
     CHECK(exists(place, "run/export/bush-0005.obj"));
