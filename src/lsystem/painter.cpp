@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace espalier {
 namespace {
 
@@ -13,6 +16,18 @@ bool changes(const CompiledRules& rules) {
 }
 
 }  // namespace
+
+Brush::Brush(const CompiledSystem& system)
+    : rules(system.homomorphism),
+      machine(system.machine()),
+      matcher(system, machine),
+      expansion(system.homomorphism, matcher, machine) {
+    for (const CompiledProduction& production : rules.productions) {
+        const auto end = production.letters.begin() + static_cast<std::ptrdiff_t>(production.length);
+        final.push_back(rules.maximum_depth <= 1 || std::none_of(production.letters.begin(), end,
+                                                                 [&](LetterId letter) { return rules.has(letter); }));
+    }
+}
 
 Painter::Painter(const CompiledModel& model) : model_(model) {
     for (const auto& system : model_.systems) {
@@ -33,6 +48,7 @@ void Painter::prepare(const CompiledSystem& system, Variables& variables, const 
     Brush& used = brush(system);
     used.machine.attach(&variables, &services_, Stream::homomorphism);
     used.matcher.view(view);
+    if (!system.picture_draws()) return;
     used.matcher.set_draws(RandomKey(state_->settings.seed, state_->settings.plant, Stream::homomorphism,
                                      system.homomorphism.salt.value_or(state_->services.salt)),
                            state_->step);
@@ -67,7 +83,10 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
     }
     Brush& used = brush(*system);
     const CompiledProduction* production = used.matcher.choose(system->homomorphism, subject.site);
-    if (production) {
+    if (production && !model_.nested && used.is_final(*production)) {
+        used.matcher.begin_successor(*production, subject.site);
+        lay_out(used, *production, picture);
+    } else if (production) {
         strict_.assign(production->strict.size(), {subject.site.drawer, 0, 0});
         used.matcher.begin_successor(*production, subject.site);
         stack_.clear();
@@ -81,6 +100,22 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
     }
     if (model_.nested && changes_) forget_variables();
     return production ? production->strict.size() : 0;
+}
+
+void Painter::lay_out(Brush& used, const CompiledProduction& production, ModuleString& picture) const {
+    if (!production.after.empty()) used.machine.run(production.after);
+    used.machine.run(production.successor);
+    const std::size_t first = picture.parameters.size();
+    picture.parameters.resize(first + production.parameters);
+    double* const values = picture.parameters.data() + first;
+    bool finite = true;
+    for (std::size_t k = 0; k < production.parameters; ++k) {
+        values[k] = used.machine.value(production.successor.results[k]);
+        finite = finite && std::isfinite(values[k]);
+    }
+    if (!finite) require_finite(production, values);
+    const LetterId* const letters = production.letters.data();
+    picture.letters.insert(picture.letters.end(), letters, letters + production.length);
 }
 
 void Painter::expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {

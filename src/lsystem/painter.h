@@ -11,10 +11,16 @@ namespace espalier {
 
 /// What one L-system's homomorphism needs.
 struct Brush {
-    explicit Brush(const CompiledSystem& system)
-        : machine(system.machine()), matcher(system, machine), expansion(system.homomorphism, matcher, machine) {}
+    explicit Brush(const CompiledSystem& system);
     Brush(const Brush&) = delete;
 
+    /// The production's successor has no picture in turn: it is laid out as it is.
+    bool is_final(const CompiledProduction& production) const {
+        return final[static_cast<std::size_t>(&production - rules.productions.data())];
+    }
+
+    const CompiledRules& rules;
+    std::vector<bool> final;  ///< by production
     Machine machine;
     Matcher matcher;
     Expansion expansion;
@@ -48,6 +54,8 @@ private:
     Brush& brush(const CompiledSystem& system) { return *brushes_[system.index]; }
     void prepare(const CompiledSystem& system, Variables& variables, const StringView& view);
     void require_bounds(const ModuleString& picture, const CompiledProduction& production) const;
+    /// Lays out the successor of a final production.
+    void lay_out(Brush& used, const CompiledProduction& production, ModuleString& picture) const;
     /// Lays out what is on the stack.
     void expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture);
     void expand_nested(const Subject& subject, const CompiledProduction& production, ModuleString& picture);

@@ -79,9 +79,8 @@ std::deque<Stretch> cut(const WalkInput& input, std::size_t chunk) {
     using tbb::global_control;
     const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
     const std::size_t size = input.string.size();
+    const std::size_t count = threads < 2 ? 1 : std::min(size / chunk, threads * chunks_per_thread);
     std::deque<Stretch> stretches;
-    if (threads < 2 || size < 2 * chunk) return stretches;
-    const std::size_t count = std::min(size / chunk, threads * chunks_per_thread);
     for (std::size_t begin = 0, k = 1; begin < size; ++k) {
         const std::size_t end = k < count ? border(input, std::max(begin + 1, size / count * k)) : size;
         stretches.emplace_back(WalkPlan(begin, end));
@@ -158,12 +157,12 @@ void append(PlantGeometry& geometry, PlantGeometry& more, std::size_t internodes
 
 bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation& result) {
     // What a picture draws is not known before.
-    if (chunk == 0 || input.derivation || input.symbols.unpredictable) return false;
+    if (chunk == 0 || input.string.size() < 2 * chunk || input.derivation || input.symbols.unpredictable) return false;
     std::deque<Stretch> stretches = cut(input, chunk);
     if (stretches.size() < 2) return false;
     const auto for_all = [&](const auto& action) {
         tbb::parallel_for(
-            std::size_t(0), stretches.size(), [&](std::size_t k) { action(stretches[k]); }, tbb::static_partitioner());
+            std::size_t(0), stretches.size(), [&](std::size_t k) { action(stretches[k]); }, tbb::auto_partitioner());
     };
     bool as_foreseen = false;
     // The caller may work on other plants side by side: this thread is not to take up one of those in between.

@@ -62,8 +62,8 @@ private:
             if (i + 1 < end) next = &meanings[letters[i + 1]];
             if constexpr (with_pictures) {
                 if (const std::size_t replaced = pictured_[letters[i]] ? draw_picture(i, at) : 0) {
+                    for (std::size_t k = 0; k < replaced; ++k) at += meanings[letters[i + k]].arity;
                     i += replaced - 1;
-                    at = offsets_[i + 1];
                     if (i + 1 < end) next = &meanings[letters[i + 1]];
                     continue;
                 }
@@ -93,13 +93,14 @@ private:
     /// Returns how many modules the picture stands for, 0 if there is none.
     std::size_t draw_picture(std::size_t module, std::size_t at) {
         const ModuleString& string = input_.string;
-        if (!linked_) {
+        const bool looks_around = input_.symbols.pictures_look_around;
+        if (looks_around && offsets_.empty()) {
             link_branches(string, links_);
             offsets_ = parameter_offsets(string, input_.model.alphabet);
-            linked_ = true;
         }
         picture_.clear();
-        const std::size_t replaced = input_.derivation->picture(string, &offsets_, links_, module, at, picture_);
+        const std::size_t replaced =
+            input_.derivation->picture(string, looks_around ? &offsets_ : nullptr, links_, module, at, picture_);
         if (replaced == 0) return 0;
 
         walk_.module_ = std::uint32_t(module);
@@ -120,7 +121,6 @@ private:
     WalkInput input_;
     Walk walk_;
     std::vector<char> pictured_;  // by letter
-    bool linked_ = false;
     BranchLinks links_;
     std::vector<std::size_t> offsets_;
     ModuleString picture_;

@@ -47,6 +47,12 @@ const std::map<std::string, const Symbol*>& symbols() {
 SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), -1) {
     add_level(model.alphabet, "");
 
+    for (const LSystem& system : model.systems) {
+        for (const Production& production : system.homomorphism.productions) {
+            pictures_look_around |= !production.left.empty() || !production.right.empty();
+        }
+    }
+
     // ?light is a letter of its own; it asks the process of that name as ?E asks the default one.
     const Symbol* communication = find_symbol("?E");
     for (std::size_t letter = 0; letter < model.alphabet.size(); ++letter) {
