@@ -180,23 +180,20 @@ void Walk::ask(QueryKind kind) {
     const std::size_t arity = model_.alphabet.arity(letter_);
     if (in_picture_ || arity == 0) return;
     const std::size_t next = std::size_t(module_) + 1;
-    Query& query = queries_.add();
-    query = Query();
+    const bool last = next >= string_.size(), known = string_.has_lineage();
+    const double* const values = string_.parameters.data() + parameters_at_;
+    Query& query = queries_.add();  // unwritten: every member is set
     query.kind = kind;
-    if (kind == QueryKind::communication && processes_) query.process = (*processes_)[letter_];
+    query.process = kind == QueryKind::communication && processes_ ? (*processes_)[letter_] : std::int16_t(-1);
+    query.following = last ? no_letter : string_.letters[next];
     query.plant = plant_;
     query.module = module_;
     query.parameters_at = parameters_at_;
-    query.parameters = {string_.parameters.data() + parameters_at_, arity};
-    if (next < string_.size()) {
-        query.following = string_.letters[next];
-        query.following_parameters = {query.parameters.data() + arity,
-                                      std::size_t(model_.alphabet.arity(query.following))};
-    }
-    if (string_.has_lineage()) {
-        query.identity = string_.identities[module_];
-        if (next < string_.size()) query.following_identity = string_.identities[next];
-    }
+    query.parameters = {values, arity};
+    query.following_parameters = {};
+    if (!last) query.following_parameters = {values + arity, std::size_t(model_.alphabet.arity(query.following))};
+    query.identity = known ? string_.identities[module_] : 0;
+    query.following_identity = known && !last ? string_.identities[next] : 0;
     query.pose = turtle.pose;
     query.width = turtle.width;
     query.scale = turtle.scale;
