@@ -115,7 +115,9 @@ void ShadeGrids::Grids::One::require_own() {
         std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
         return;
     }
-    field = std::make_shared<FieldGrid>(FieldGrid{field->grid->deepCopy(), field->box});
+    const openvdb::FloatGrid::Ptr copy = field->grid->deepCopy();
+    copy->setTransform(field->grid->transformPtr());  // a copied one is written in other bytes
+    field = std::make_shared<FieldGrid>(FieldGrid{copy, field->box});
     for (Leaf*& leaf : leaves) {
         if (leaf != nullptr) leaf = field->grid->tree().probeLeaf(leaf->origin());
     }

@@ -71,6 +71,7 @@ std::string difference(const FieldGrid& a, const FieldGrid& b) {
     const openvdb::FloatTree &one = a.grid->tree(), &other = b.grid->tree();
     if (a.box != b.box) return "box";
     if (one.background() != other.background()) return "background";
+    if (a.grid->transform().mapType() != b.grid->transform().mapType()) return "transform";
     if (one.nodeCount() != other.nodeCount()) return "nodes";
     if (!one.hasSameTopology(other)) return "topology";
     for (auto leaf = one.cbeginLeaf(); leaf; ++leaf) {
