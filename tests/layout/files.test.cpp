@@ -40,14 +40,17 @@ TEST_CASE("no source file is longer than 600 lines", "[layout]") {
     }
 }
 
-TEST_CASE("the command line parser stays in one file", "[layout]") {
-    std::vector<fs::path> files;
+TEST_CASE("the command line parser stays with the commands", "[layout]") {
+    std::size_t files = 0;
     for (const fs::path& file : sources_below("src")) {
         for (const std::string& include : includes_of(file)) {
-            if (include.starts_with("CLI/")) files.push_back(file);
+            if (!include.starts_with("CLI/")) continue;
+            INFO(file);
+            CHECK(file.parent_path() == fs::path("src/app"));
+            ++files;
         }
     }
-    CHECK(files == std::vector<fs::path>{"src/app/main.cpp"});
+    CHECK(files > 0);
 }
 
 TEST_CASE("the build description reads on two screens", "[layout]") {
