@@ -20,7 +20,7 @@ namespace {
 
 Plan::Kind kind_of(const CompiledProduction& production) {
     if (!production.after.empty()) return Plan::Kind::program;
-    if (production.parameters == 0) return Plan::Kind::simple;
+    if (production.parameters == 0) return Plan::Kind::bare;
     if (production.affine) return Plan::Kind::lanes;
     return production.rest_places.empty() ? Plan::Kind::program : Plan::Kind::mixed;
 }
@@ -44,16 +44,8 @@ Plan copy_of(LetterId letter, std::uint16_t arity) {
     copy.length = 1;
     copy.arity = arity;
     copy.parameters = arity;
-    copy.kind = arity <= value_block ? Plan::Kind::simple : Plan::Kind::copy;
+    copy.kind = arity <= value_block ? Plan::Kind::copy : Plan::Kind::wide_copy;
     return copy;
-}
-
-/// What the production of a module before it has consumed.
-Plan consumed_of(std::uint16_t arity) {
-    Plan consumed;
-    consumed.letters = consumed.block.data();
-    consumed.arity = arity;
-    return consumed;
 }
 
 void measure(Plans& plans) {
@@ -92,7 +84,7 @@ Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
     const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
     Plans plans;
-    plans.choices.reserve(rules.productions.size() + 2 * arities.size());  // never moved, since plans point to it
+    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
     for (std::size_t l = 0; l < arities.size(); ++l) {
         const auto letter = static_cast<LetterId>(l);
         const bool known = rules.always[l] >= 0;
@@ -107,8 +99,6 @@ Plans make_plans(const CompiledSystem& model) {
                 plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
             }
         }
-        plans.choices.push_back(consumed_of(arities[l]));
-        plans.consumed.push_back(static_cast<LetterId>(&plans.choices.back() - plan.choices));
         plans.of_letter.push_back(plan);
     }
     measure(plans);

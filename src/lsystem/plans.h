@@ -43,26 +43,26 @@ struct Lanes {
 
 struct alignas(64) Plan {
     enum class Kind : std::uint8_t {
-        simple,   ///< letters, and at most `value_block` parameters that are copied
-        copy,     ///< the module itself, with more parameters
-        lanes,    ///< `lanes` say all parameters
-        mixed,    ///< `lanes` say some, the production's program `rest` the others
-        program,  ///< the production's programs are run
-        choose,   ///< depends on more than the letter
+        copy,       ///< the module itself, with at most `value_block` parameters
+        wide_copy,  ///< the same with more
+        bare,       ///< letters without parameters
+        lanes,      ///< `lanes` say all parameters
+        mixed,      ///< `lanes` say some, the production's program `rest` the others
+        program,    ///< the production's programs are run
+        choose,     ///< depends on more than the letter
     };
     std::array<LetterId, letter_block> block{};  ///< the first letters of the successor
     std::uint32_t length = 0;
     std::uint32_t parameters = 0;
     std::uint16_t arity = 0;
-    Kind kind = Kind::simple;
+    Kind kind = Kind::bare;
     /// Modules and (from bit 32 on) parameters that will replace what this plan writes, where no letter needs choosing.
     std::uint64_t next = 0;
     const Lanes* lanes = nullptr;
 
     const LetterId* letters = nullptr;               ///< all of them, padded to whole blocks
     const CompiledProduction* production = nullptr;  ///< null: the module is copied
-    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order; last,
-    /// that the production of a module before it has consumed it.
+    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order.
     const Plan* choices = nullptr;
 };
 
@@ -70,7 +70,6 @@ struct Plans {
     std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
     std::vector<Plan> choices;                       ///< of all letters, one after the other
-    std::vector<LetterId> consumed;                  ///< by letter, the last of its choices
     bool all_known = true;                           ///< no letter needs choosing
     bool looks_ahead = false;                        ///< Plan::next is known
     // The most that any plan reads and writes.

@@ -16,26 +16,24 @@ inline void copy_values(const double* from, double* to) {
     std::memcpy(to, from, value_block * sizeof(double));
 }
 
-/// Sums of differences of values to themselves: 0 as long as all are finite.
-struct Faults {
-    double sums[2] = {0, 0};
-
-    bool any() const { return !(sums[0] + sums[1] == 0); }
-};
-
-/// Writes lanes in whole blocks.
-inline void write_lanes(const Plan& plan, const double* values, double* out, Faults& faults) {
+/// Writes lanes in whole blocks; false if a value is not finite.
+inline bool write_lanes(const Plan& plan, const double* values, double* out) {
     const std::uint32_t* const sources = plan.lanes->sources.data();
     const double* const scales = plan.lanes->scales.data();
     const double* const offsets = plan.lanes->offsets.data();
-    for (std::uint32_t k = 0; k < plan.parameters; k += value_block) {
-        double block[value_block];
-        for (std::size_t j = 0; j < value_block; ++j) block[j] = values[sources[k + j]];
-        for (std::size_t j = 0; j < value_block; ++j) block[j] = block[j] * scales[k + j] + offsets[k + j];
-        for (std::size_t j = 0; j < 2; ++j) faults.sums[j] += block[j] - block[j];
-        for (std::size_t j = 0; j < 2; ++j) faults.sums[j] += block[2 + j] - block[2 + j];
-        std::memcpy(out + k, block, sizeof block);
+    const auto lane = [&](std::size_t k) { return values[sources[k]] * scales[k] + offsets[k]; };
+    static_assert(value_block == 4);
+    double even = 0, odd = 0;  // differences of values to themselves: 0 as long as all are finite
+    for (std::size_t k = 0; k < plan.parameters; k += value_block) {
+        const double a = lane(k), b = lane(k + 1), c = lane(k + 2), d = lane(k + 3);
+        out[k] = a;
+        out[k + 1] = b;
+        out[k + 2] = c;
+        out[k + 3] = d;
+        even += (a - a) + (c - c);
+        odd += (b - b) + (d - d);
     }
+    return even + odd == 0;
 }
 
 /// The same for one module's values alone; false if one of them is not finite.
@@ -81,8 +79,9 @@ private:
     void write_round(std::size_t count);
     bool write_module();
     void run(const Program& program, const Plan& plan, const Cursor& at);
-    void write_rest(const Plan& plan, const Cursor& at, Faults& faults);
-    void write_values(const Plan& plan, const Cursor& at);
+    // By value: a cursor whose address is known to others would be kept in memory by the loop that moves it.
+    bool write_rest(const Plan& plan, Cursor at);
+    void write_values(const Plan& plan, Cursor at);
     [[noreturn]] void report(const EvaluationError& error, const Cursor& at) const;
     const Plan& plan_at(const LetterId* in) const;
     void end_stretch();
@@ -146,11 +145,16 @@ void Writer::write_round(std::size_t count) {
     const LetterId* const letters = input_.from.letters.data();
     const LetterId* const choices = scratch_.choices.data();
     Cursor at = at_;
-    Faults faults;
     for (const LetterId* const end = at.in + count; at.in != end;) {
         const Plan* plan = plans + *at.in;
         if constexpr (Choosing) {
             plan = plan->choices + choices[at.in - letters];
+        }
+        if (plan->kind == Plan::Kind::copy) {
+            *at.out = *at.in;
+            if constexpr (Valued) copy_values(at.values, at.out_values);
+            at.pass(*plan);
+            continue;
         }
         copy_letters(plan->block.data(), at.out);
         if (plan->length > letter_block) {
@@ -159,32 +163,24 @@ void Writer::write_round(std::size_t count) {
             }
         }
         if constexpr (Valued) {
-            if (plan->kind == Plan::Kind::simple) {
-                copy_values(at.values, at.out_values);
-            } else if (plan->kind == Plan::Kind::lanes) {
-                write_lanes(*plan, at.values, at.out_values, faults);
-            } else if (plan->kind == Plan::Kind::copy) {
+            if (plan->kind == Plan::Kind::lanes) {
+                if (!write_lanes(*plan, at.values, at.out_values)) break;
+            } else if (plan->kind == Plan::Kind::wide_copy) {
                 for (std::size_t k = 0; k < plan->arity; k += value_block) {
                     copy_values(at.values + k, at.out_values + k);
                 }
-            } else {
-                if (faults.any()) break;  // what is wrong before this module is to be reported first
-                if (plan->kind == Plan::Kind::mixed) {
-                    write_lanes(*plan, at.values, at.out_values, faults);
-                    write_rest(*plan, at, faults);
-                } else {
-                    write_values(*plan, at);
-                }
+            } else if (plan->kind == Plan::Kind::program) {
+                write_values(*plan, at);
+            } else if (plan->kind == Plan::Kind::mixed) {
+                if (!write_lanes(*plan, at.values, at.out_values) || !write_rest(*plan, at)) break;
             }
         }
         at.pass(*plan);
     }
-    if (!faults.any()) {
-        at_ = at;
-    } else {
-        // Somewhere in this round a value is not finite; the first one is to be reported.
-        for (std::size_t k = 0; k < count; ++k) write_module();
-    }
+    const bool whole = at.in == at_.in + count;
+    at_ = at;
+    // A value is not finite: what is wrong is found out module by module.
+    if (!whole) write_module();
 }
 
 void Writer::write_round(std::size_t count) {
@@ -233,8 +229,9 @@ void Writer::run(const Program& program, const Plan& plan, const Cursor& at) {
     machine_.run(program);
 }
 
-/// Writes over the lanes what a program has to compute.
-void Writer::write_rest(const Plan& plan, const Cursor& at, Faults& faults) {
+/// Writes over the lanes what a program has to compute; false if a value is not finite.
+bool Writer::write_rest(const Plan& plan, const Cursor at) {
+    bool finite = true;
     const CompiledProduction& production = *plan.production;
     try {
         run(production.rest, plan, at);
@@ -244,11 +241,12 @@ void Writer::write_rest(const Plan& plan, const Cursor& at, Faults& faults) {
     for (std::size_t k = 0; k < production.rest_places.size(); ++k) {
         const double value = machine_.value(production.rest.results[k]);
         at.out_values[production.rest_places[k]] = value;
-        faults.sums[0] += value - value;
+        finite &= value - value == 0;
     }
+    return finite;
 }
 
-void Writer::write_values(const Plan& plan, const Cursor& at) {
+void Writer::write_values(const Plan& plan, const Cursor at) {
     const CompiledProduction& production = *plan.production;
     try {
         run(production.successor, plan, at);
