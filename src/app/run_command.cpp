@@ -91,6 +91,29 @@ Scene scene_of(const RunArguments& arguments) {
 
 }  // namespace
 
+std::vector<std::string> words_of(const RunArguments& arguments) {
+    const ModelArguments& model = arguments.model;
+    std::vector<std::string> words{model.file.string()};
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) words.insert(words.end(), {option, value});
+    };
+    const auto add_pairs = [&](const char* option, const KeyValues& pairs) {
+        for (const auto& [key, value] : pairs) add(option, key + "=" + value);
+    };
+    add("--view", model.view.string());
+    add("--animate", model.animation.string());
+    add("--environment", model.environment.string());
+    for (const std::string& file : model.colour_maps) add("--colour-map", file);
+    for (const std::string& file : model.materials) add("--materials", file);
+    if (model.without_environment) words.emplace_back("--without-environment");
+    if (model.quirks) words.emplace_back("--cpfg-quirks");
+    add_pairs("--define", model.defines);
+    add_pairs("--set", arguments.overrides);
+    if (arguments.steps) add("--steps", std::to_string(*arguments.steps));
+    if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
+    return words;
+}
+
 int run_command(const RunArguments& arguments) {
     silent = arguments.quiet;
     listen_for_interrupts();
@@ -98,6 +121,7 @@ int run_command(const RunArguments& arguments) {
     if (arguments.threads > 0) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
     }
+    const ReadLog inputs;
     const Scene scene = scene_of(arguments);
     if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
 
@@ -105,6 +129,8 @@ int run_command(const RunArguments& arguments) {
     options.output = arguments.output.empty() ? default_output(scene.name) : arguments.output;
     options.overwrite = arguments.overwrite;
     options.memory = arguments.memory;
+    options.arguments = words_of(arguments);
+    options.inputs = &inputs;
     options.interrupt = &interrupt;
     if (!arguments.quiet) options.warn = print_warnings;
     RunResult result;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace espalier {
 
@@ -21,6 +23,9 @@ struct RunArguments {
     bool quiet = false;
     bool json = false;
 };
+/// The command line without what does not change the timeline: what starts the same run again.
+std::vector<std::string> words_of(const RunArguments& arguments);
+
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);
 

@@ -15,14 +15,16 @@ struct MemoryShares {
 };
 MemoryShares share_memory(std::size_t budget, std::size_t processes);
 
-/// What plants hold: their strings, and what was drawn of them.
+/// What plants hold, in bytes: their strings, and what was drawn of them.
 struct PlantMemory {
-    std::size_t strings = 0, drawn = 0;
+    std::size_t strings = 0, internodes = 0, others = 0;
 
+    void set_drawn(const Interpretation& interpretation);
+    void add(const PlantMemory& plant);
+    /// With so many times as much drawn.
+    PlantMemory grown(double factor) const;
     /// With the copy and the meshes that the timeline makes.
     std::size_t recorded() const;
 };
-
-std::size_t bytes_of(const Interpretation& interpretation);
 
 }  // namespace espalier

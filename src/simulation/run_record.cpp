@@ -1,5 +1,7 @@
 #include "run_record.h"
 
+#include "run_inputs.h"
+
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,11 +44,22 @@ Json overrides_json(const Scene& scene) {
 RunRecord::RunRecord(const Scene& scene, const RunOptions& options)
     : scene_(scene),
       memory_(options.memory),
+      output_(options.output),
+      inputs_(options.inputs),
+      arguments_(options.arguments),
+      folder_(std::filesystem::current_path().string()),
       started_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {}
 
+void RunRecord::begin(const Timeline& timeline) {
+    timings_.emplace(timeline.folder() / "timings.csv", "step,derive,interpret,exchange,record");
+}
+
 void RunRecord::add_step(const StageTimes& times) {
-    timings_ += fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f}\n", steps_++, times.derive, times.interpret, times.exchange,
-                            times.record);
+    if (timings_) {
+        timings_->append(fmt::format("{},{:.6f},{:.6f},{:.6f},{:.6f}\n", steps_, times.derive, times.interpret,
+                                     times.exchange, times.record));
+    }
+    ++steps_;
     total_.derive += times.derive;
     total_.interpret += times.interpret;
     total_.exchange += times.exchange;
@@ -59,6 +72,7 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
     json["version"] = ESPALIER_VERSION;
     json["exit"] = exit;
     json["scene"] = {{"name", scene_.name}, {"path", scene_.path.string()}, {"text", scene_.text}};
+    json["command"] = {{"folder", folder_}, {"arguments", arguments_}};
     json["overrides"] = overrides_json(scene_);
     json["seed"] = scene_.seed;
     json["steps"] = scene_.steps;
@@ -76,13 +90,13 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
                        {"interpret", total_.interpret},
                        {"exchange", total_.exchange},
                        {"record", total_.record}};
+    json["inputs"] = inputs_json(inputs_, output_);
     json["parameters"] = Json::parse(scene_.root.resolved_json());
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void RunRecord::write(const Timeline& timeline, const World& world, const std::string& exit, double seconds) const {
     timeline.write_run(json(world, exit, seconds));
-    write_text(timeline.folder() / "timings.csv", timings_);
 }
 
 }  // namespace espalier

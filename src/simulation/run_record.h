@@ -2,8 +2,10 @@
 #pragma once
 
 #include "espalier/simulation/simulation.h"
+#include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/timeline.h"
 
+#include <optional>
 #include <string>
 
 namespace espalier {
@@ -12,6 +14,8 @@ class RunRecord {
 public:
     RunRecord(const Scene& scene, const RunOptions& options);
 
+    /// Makes timings.csv, which then grows by a row a step.
+    void begin(const Timeline& timeline);
     void add_step(const StageTimes& times);
     /// `exit`: "running", "done", "interrupted", "failed: why".
     void write(const Timeline& timeline, const World& world, const std::string& exit, double seconds) const;
@@ -21,9 +25,13 @@ private:
 
     const Scene& scene_;
     std::size_t memory_;
+    std::filesystem::path output_;
+    const ReadLog* inputs_;
+    std::vector<std::string> arguments_;
+    std::string folder_;  ///< where the run was started
     std::string started_;
     StageTimes total_;
-    std::string timings_ = "step,derive,interpret,exchange,record\n";
+    std::optional<CsvFile> timings_;
     int steps_ = 0;  ///< recorded so far
 };
 

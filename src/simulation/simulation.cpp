@@ -50,6 +50,7 @@ private:
         }
         if (scene_.frames) timeline_->choose(*scene_.frames);
         write_record("running");
+        record_.begin(*timeline_);
     }
 
     static void remove_if_unused(const std::filesystem::path& folder) {

@@ -123,20 +123,19 @@ void World::State::derive(const Rewrite& rewrite) {
 
 void World::State::sum_up() {
     const std::size_t before = modules;
-    memory.strings = 0;
+    memory = {};
     modules = 0;
     longest = 0;
     stopped = false;
     for (const Plant& plant : plants) {
-        memory.strings += plant.memory.strings;
+        memory.add(plant.memory);
         modules += plant.string.size();
         longest = std::max(longest, plant.length);
         stopped = stopped || plant.stopped;
     }
     // Nobody knows what will be drawn of strings before it is: as much of a module as in the step before.
     const double growth = before == 0 ? 1 : static_cast<double>(modules) / static_cast<double>(before);
-    require_memory(
-        {memory.strings, static_cast<std::size_t>(static_cast<double>(memory.drawn) * std::max(growth, 1.0))});
+    require_memory(memory.grown(std::max(growth, 1.0)));
 }
 
 void World::State::require_memory(const PlantMemory& needed) const {
@@ -156,10 +155,10 @@ void World::State::interpret_and_exchange() {
         for_every_plant([&](Plant& plant) {
             interpret(*plant.model, *plant.symbols, plant.string, plant.description->turtle, &plant.derivation,
                       {plant.number}, plant.interpretation);
-            plant.memory.drawn = bytes_of(plant.interpretation);
+            plant.memory.set_drawn(plant.interpretation);
         });
-        memory.drawn = 0;
-        for (const Plant& plant : plants) memory.drawn += plant.memory.drawn;
+        memory = {};
+        for (const Plant& plant : plants) memory.add(plant.memory);
         require_memory(memory);
     }
     const Stopwatch stopwatch(times.exchange);

@@ -1,12 +1,14 @@
 // A run: a world stepped to its end, with its timeline.
 #pragma once
 
+#include "espalier/base/read_log.h"
 #include "espalier/simulation/world.h"
 
 #include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace espalier {
 
@@ -21,6 +23,10 @@ struct RunOptions {
     bool overwrite = false;
     std::size_t memory = 0;                        ///< bytes; 0: half of the machine
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
+    /// What `espalier run` was told, without what does not change the timeline; goes to run.json.
+    std::vector<std::string> arguments;
+    /// What has been read so far and during the run; goes to run.json. Null: unknown.
+    const ReadLog* inputs = nullptr;
     std::function<void(const Progress&)> progress = nullptr;
     /// Told once, before anything grows, what the processes passed over in their parameter files.
     std::function<void(const std::vector<Diagnostic>&)> warn = nullptr;

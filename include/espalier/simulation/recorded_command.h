@@ -1,0 +1,35 @@
+// How a run was started and what it read, as its run.json tells: enough to do it again.
+#pragma once
+
+#include "espalier/base/read_log.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct RecordedCommand {
+    std::string version, exit;
+    std::filesystem::path folder;        ///< where it was started
+    std::vector<std::string> arguments;  ///< of `espalier run`, without --output and what does not change the timeline
+    std::map<std::filesystem::path, ReadLog::File> inputs;
+};
+
+/// Throws UserError if the folder holds no run, or one from before runs could be repeated.
+RecordedCommand read_command(const std::filesystem::path& run);
+
+/// Writes the inputs below `root`, each at its own absolute path, and returns the folder to start the program in.
+/// Inputs too large for run.json are copied from where they were. Throws UserError if one of those is gone or changed,
+/// or if run.json itself was.
+std::filesystem::path lay_out_inputs(const RecordedCommand& command, const std::filesystem::path& root);
+
+/// Paths among the arguments that lie below `root` once laid out there are replaced by those.
+std::vector<std::string> arguments_below(const RecordedCommand& command, const std::filesystem::path& root);
+
+/// Files of two timelines that are not the same bytes: "plants/0003.vtp differs from byte 117 on", "... is missing".
+/// run.json and timings.csv tell of the run, not of the growth, and are passed over.
+std::vector<std::string> timeline_differences(const std::filesystem::path& before, const std::filesystem::path& after);
+
+}  // namespace espalier

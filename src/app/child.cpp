@@ -1,0 +1,95 @@
+#include "child.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string_view>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace espalier {
+namespace {
+
+/// What posix_spawn does before the program begins.
+class SpawnActions {
+public:
+    SpawnActions() { posix_spawn_file_actions_init(&actions_); }
+    ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
+    SpawnActions(const SpawnActions&) = delete;
+    SpawnActions& operator=(const SpawnActions&) = delete;
+
+    void change_folder(const std::filesystem::path& folder) {
+        posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    }
+    void write_to(const std::filesystem::path& log) {
+        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    }
+    const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+private:
+    posix_spawn_file_actions_t actions_;
+};
+
+int code_of(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+int start_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                  const std::filesystem::path& log) {
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    std::vector<char*> words{const_cast<char*>(program.c_str())};
+    for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+    words.push_back(nullptr);
+    SpawnActions actions;
+    if (!log.empty()) actions.write_to(log);
+    actions.change_folder(folder);
+    pid_t child = 0;
+    const int error = posix_spawn(&child, program.c_str(), actions.get(), nullptr, words.data(), environ);
+    if (error != 0) {
+        throw RunError(fmt::format("cannot start {}: {}", program, std::generic_category().message(error)));
+    }
+    return child;
+}
+
+int wait_for_program(int child) {
+    int status = 0;
+    pid_t ended = 0;
+    do {
+        ended = waitpid(child, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    if (ended < 0) throw RunError("cannot wait for a program: " + std::generic_category().message(errno));
+    return code_of(status);
+}
+
+bool poll_program(int& child, int& code) {
+    int status = 0;
+    child = waitpid(-1, &status, WNOHANG);
+    if (child <= 0) return false;
+    code = code_of(status);
+    return true;
+}
+
+std::string quoted(const std::string& word) {
+    const auto plain = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) ||
+               std::string_view("-_./=:,+@%").find(c) != std::string::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+}  // namespace espalier

@@ -1,0 +1,106 @@
+// rerun: does a recorded run again from its run.json alone, and says which bytes differ.
+#include "espalier/base/error.h"
+#include "espalier/simulation/recorded_command.h"
+
+#include "child.h"
+#include "command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_listed = 20;
+
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string pattern = (fs::temp_directory_path() / "espalier-rerun-XXXXXX").string();
+        if (!mkdtemp(pattern.data())) throw RunError("cannot make a temporary folder");
+        path_ = pattern;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+class Rerun final : public Command {
+public:
+    explicit Rerun(CLI::App& program)
+        : Command(program, "rerun", "do a recorded run again and report any byte that differs") {
+        app().add_option("folder", run_, "the output folder of a run that ended")->required();
+        app().add_option("--output", output_, "keep the new timeline in this folder; default: it is thrown away");
+        app()
+            .add_option("--threads", threads_, "default: all; the result is the same with any number")
+            ->check(CLI::Range(1, 4096));
+        app().add_flag("--quiet", quiet_, "print nothing but differences and errors");
+        app().footer(
+            R"(Everything the run read is in its run.json: scene, models, side files, meshes. Files that were too large for it
+must still be where they were, unchanged. Exit code 2 if a file differs.
+Examples:
+  espalier rerun output/two-trees-20260101-120000
+  espalier rerun output/two-trees-20260101-120000 --threads 1 --output output/again)");
+    }
+
+    int run() override {
+        const RecordedCommand command = read_command(run_);
+        require_ended(command);
+        if (command.version != ESPALIER_VERSION) {
+            fmt::print(stderr, "warning: the run was made by espalier {}, this is {}\n", command.version,
+                       ESPALIER_VERSION);
+        }
+        const TemporaryFolder temporary;
+        const fs::path output = output_.empty() ? temporary.path() / "timeline" : fs::absolute(output_);
+        repeat(command, temporary.path() / "inputs", output);
+        return report(timeline_differences(run_, output));
+    }
+
+private:
+    void require_ended(const RecordedCommand& command) const {
+        if (command.exit == "done") return;
+        throw UserError(fmt::format("the run in {} did not end by itself (\"{}\"), so there is nothing to compare with",
+                                    run_.string(), command.exit));
+    }
+
+    void repeat(const RecordedCommand& command, const fs::path& root, const fs::path& output) const {
+        const fs::path folder = lay_out_inputs(command, root);
+        std::vector<std::string> arguments = arguments_below(command, root);
+        arguments.insert(arguments.begin(), "run");
+        arguments.insert(arguments.end(), {"--output", output.string()});
+        if (threads_ > 0) arguments.insert(arguments.end(), {"--threads", std::to_string(threads_)});
+        if (quiet_) arguments.push_back("--quiet");
+        const int code = wait_for_program(start_program(arguments, folder, {}));
+        if (code != 0) throw RunError(fmt::format("the run could not be repeated: it ended with code {}", code));
+    }
+
+    int report(const std::vector<std::string>& differences) const {
+        for (std::size_t i = 0; i < std::min(differences.size(), most_listed); ++i) {
+            fmt::print("{}\n", differences[i]);
+        }
+        if (differences.size() > most_listed) fmt::print("... and {} more\n", differences.size() - most_listed);
+        if (differences.empty() && !quiet_) fmt::print("the same bytes in every file\n");
+        return differences.empty() ? exit_code::done : exit_code::run_failed;
+    }
+
+    fs::path run_, output_;
+    int threads_ = 0;
+    bool quiet_ = false;
+};
+
+const RegisteredCommand<Rerun> entry{14};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,212 @@
+#include "sweep.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+#include "espalier/simulation/recorded_command.h"
+#include "espalier/timeline/csv_file.h"
+#include "espalier/timeline/recorded_run.h"
+
+#include "child.h"
+#include "command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <thread>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::atomic<int> signals{0};
+
+void count_signal(int) {
+    ++signals;
+}
+
+/// While it lives, SIGINT and SIGTERM are counted instead of ending the program.
+class SignalCounter {
+public:
+    SignalCounter() {
+        signals = 0;
+        struct sigaction action = {};
+        action.sa_handler = count_signal;
+        sigaction(SIGINT, &action, &interrupt_);
+        sigaction(SIGTERM, &action, &terminate_);
+    }
+    ~SignalCounter() {
+        sigaction(SIGINT, &interrupt_, nullptr);
+        sigaction(SIGTERM, &terminate_, nullptr);
+    }
+    SignalCounter(const SignalCounter&) = delete;
+    SignalCounter& operator=(const SignalCounter&) = delete;
+
+private:
+    struct sigaction interrupt_ = {}, terminate_ = {};
+};
+
+bool is_still(const fs::path& path, const ReadLog::File& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != file.size) return false;
+    return digest(read_text(path)) == file.digest;
+}
+
+// Ended by itself, told the same, and everything it read is still what it was.
+bool is_done(const SweepRun& run) {
+    try {
+        const RecordedCommand command = read_command(run.folder);
+        return command.exit == "done" && command.arguments == run.words &&
+               std::all_of(command.inputs.begin(), command.inputs.end(),
+                           [](const auto& input) { return is_still(input.first, input.second); });
+    } catch (const UserError&) {
+        return false;  // no run, or half of one
+    }
+}
+
+/// The runs that go on at the moment, by their process numbers.
+class Crew {
+public:
+    Crew(const Sweep& sweep, std::size_t total, bool quiet) : sweep_(sweep), total_(total), quiet_(quiet) {}
+
+    std::size_t size() const { return running_.size(); }
+    std::size_t failed() const { return failed_; }
+
+    void start(const SweepRun& run) {
+        fs::create_directories(run.folder);
+        const std::vector<std::string> command = sweep_.command(run);
+        running_[start_program({command.begin() + 1, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
+    }
+    /// Tells of those that have ended.
+    void reap() {
+        for (int child = 0, code = 0; poll_program(child, code);) {
+            const auto place = running_.find(child);
+            if (place == running_.end()) continue;
+            tell(*place->second, code);
+            running_.erase(place);
+        }
+    }
+    void pass_on(int signal) const {
+        for (const auto& entry : running_) ::kill(entry.first, signal);
+    }
+
+private:
+    void tell(const SweepRun& run, int code) {
+        ++ended_;
+        std::error_code ignored;
+        if (code == 0 && fs::is_empty(sweep_.log(run), ignored)) fs::remove(sweep_.log(run), ignored);
+        if (code != 0 && code != exit_code::interrupted) ++failed_;
+        if (code != 0) {
+            fmt::print(stderr, "{} of {}: {}: ended with code {}, see {}\n", ended_, total_, run.variant.name, code,
+                       sweep_.log(run).string());
+        } else if (!quiet_) {
+            fmt::print(stderr, "{} of {}: {}\n", ended_, total_, run.variant.name);
+        }
+    }
+
+    const Sweep& sweep_;
+    std::map<int, const SweepRun*> running_;
+    std::size_t total_, ended_ = 0, failed_ = 0;
+    bool quiet_;
+};
+
+std::string cell(double value) {
+    return std::isnan(value) ? "" : format_exact(value);
+}
+
+// The rows of the last step, one a plant.
+std::vector<std::vector<double>> last_rows(const RecordedTable& table) {
+    std::vector<std::vector<double>> rows = table.rows;
+    if (rows.empty()) return rows;
+    const double last = rows.back().front();
+    std::erase_if(rows, [&](const auto& row) { return row.front() != last; });
+    return rows;
+}
+
+}  // namespace
+
+Sweep::Sweep(const RunArguments& base, const std::vector<Variation>& variations, const fs::path& folder)
+    : base_(base), variations_(variations), folder_(folder) {
+    const bool alone = base.model.file.extension() != ".toml";
+    for (Variant& variant : combine(variations)) {
+        RunArguments arguments = base;
+        for (const auto& pair : variant.values) {
+            const bool defines = alone && pair.first.find('.') == std::string::npos;
+            (defines ? arguments.model.defines : arguments.overrides).push_back(pair);
+        }
+        const fs::path place = folder_ / (variant.name.empty() ? "run" : variant.name);
+        runs_.push_back({std::move(variant), place, words_of(arguments)});
+    }
+}
+
+std::vector<const SweepRun*> Sweep::to_do() const {
+    std::vector<const SweepRun*> left;
+    for (const SweepRun& run : runs_) {
+        if (!is_done(run)) left.push_back(&run);
+    }
+    return left;
+}
+
+std::vector<std::string> Sweep::command(const SweepRun& run) const {
+    std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "run"};
+    words.insert(words.end(), run.words.begin(), run.words.end());
+    words.insert(words.end(), {"--output", run.folder.string(), "--overwrite", "--quiet"});
+    if (base_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(base_.threads)});
+    if (base_.memory > 0) words.insert(words.end(), {"--memory", std::to_string(base_.memory)});
+    return words;
+}
+
+fs::path Sweep::log(const SweepRun& run) const {
+    return run.folder.string() + ".log";
+}
+
+Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
+    const SignalCounter counter;
+    const std::vector<const SweepRun*> left = to_do();
+    if (!quiet && left.size() < runs_.size()) {
+        fmt::print(stderr, "{} of {} runs are done already\n", runs_.size() - left.size(), runs_.size());
+    }
+    Crew crew(*this, left.size(), quiet);
+    int passed_on = 0;
+    for (std::size_t next = 0; crew.size() > 0 || (next < left.size() && signals == 0);) {
+        while (signals == 0 && next < left.size() && crew.size() < static_cast<std::size_t>(jobs)) {
+            crew.start(*left[next++]);
+        }
+        for (; passed_on < signals; ++passed_on) crew.pass_on(SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        crew.reap();
+    }
+    return {crew.failed(), signals > 0};
+}
+
+fs::path Sweep::write_table() const {
+    std::string header = "run";
+    for (const Variation& variation : variations_) header += "," + csv_text(variation.key);
+    std::vector<std::string> columns;
+    std::string body;
+    for (const SweepRun& run : runs_) {
+        if (!fs::exists(run.folder / "statistics.csv")) continue;
+        const RecordedTable table = RecordedRun(run.folder).statistics();
+        if (columns.empty()) columns = table.columns;
+        if (table.columns != columns) continue;  // other processes, other quantities: not one table
+        std::string values = csv_text(run.variant.name);
+        for (const auto& pair : run.variant.values) values += "," + csv_text(pair.second);
+        for (const std::vector<double>& row : last_rows(table)) {
+            body += values;
+            for (const double value : row) body += "," + cell(value);
+            body += "\n";
+        }
+    }
+    for (const std::string& column : columns) header += "," + csv_text(column);
+    const fs::path path = folder_ / "sweep.csv";
+    write_text(path, header + "\n" + body);
+    return path;
+}
+
+}  // namespace espalier

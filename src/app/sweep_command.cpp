@@ -1,0 +1,111 @@
+// sweep: grows a scene once for every combination of values.
+#include "espalier/base/error.h"
+
+#include "child.h"
+#include "command.h"
+#include "options.h"
+#include "sweep.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SweepCommand final : public Command {
+public:
+    explicit SweepCommand(CLI::App& program)
+        : Command(program, "sweep", "grow a scene for every combination of values, several at a time"),
+          model_(app(), "what", "a scene (.toml), a model (.l), or the folder of an object",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()),
+          growth_(app()) {
+        app()
+            .add_option("--vary", vary_, "KEY=FIRST:LAST:COUNT, KEY=FIRST..LAST or KEY=VALUE,VALUE...; may be repeated")
+            ->required()
+            ->allow_extra_args(false);
+        app().add_option("--output", output_, "folder of folders; default: output/<scene>-sweep");
+        app()
+            .add_option("--jobs", jobs_, "runs at a time; default: as many as the machine has cores")
+            ->check(CLI::Range(1, 4096));
+        app()
+            .add_option("--threads", threads_, "of each run; default: the cores shared among the jobs")
+            ->check(CLI::Range(1, 4096));
+        app().add_flag("--list", list_, "print the commands that are still to do instead of running them");
+        app().add_flag("--quiet", quiet_, "print nothing but errors");
+        app().footer(
+            R"(A sweep that was stopped goes on where it was: runs that are done and whose files have not changed stay.
+At its end sweep.csv holds a row for every run and plant: the values, then the last step of statistics.csv.
+For a model alone a KEY without a dot is one of its #defines.
+Examples:
+  espalier sweep environments/two-trees.toml --vary environment.light.strength=0.2:1:5 --vary simulation.seed=1..4
+  espalier sweep models/course/03-parameters.l --vary simulation.steps=1..6 --jobs 2
+  espalier sweep scene.toml --vary simulation.seed=1..100 --list > commands      for a cluster: docs/sweeps.md)");
+    }
+
+    int run() override {
+        const Sweep sweep(base(), variations(), folder());
+        if (list_) {
+            for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));
+            return exit_code::done;
+        }
+        const Sweep::Outcome outcome = sweep.run(jobs(), quiet_);
+        if (outcome.interrupted) return exit_code::interrupted;
+        const fs::path table = sweep.write_table();
+        if (!quiet_) fmt::print("{}\n", table.string());
+        if (outcome.failed > 0) throw RunError(fmt::format("{} runs failed", outcome.failed));
+        return exit_code::done;
+    }
+
+private:
+    static int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+    int jobs() const { return jobs_ > 0 ? jobs_ : cores(); }
+
+    RunArguments base() const {
+        RunArguments arguments;
+        arguments.model = model_.arguments();
+        arguments.overrides = sets_.overrides();
+        arguments.steps = growth_.steps();
+        arguments.seed = growth_.seed();
+        arguments.memory = growth_.memory();
+        arguments.threads = threads_ > 0 ? threads_ : list_ ? 0 : std::max(1, cores() / jobs());
+        return arguments;
+    }
+
+    std::vector<Variation> variations() const {
+        std::vector<Variation> variations;
+        for (const std::string& text : vary_) variations.push_back(parse_variation(text));
+        return variations;
+    }
+
+    fs::path folder() const {
+        if (!output_.empty()) return output_;
+        const fs::path file = model_.arguments().file;
+        const std::string name = (file.has_filename() ? file : file.parent_path()).stem().string();
+        return fs::path("output") / (name + "-sweep");
+    }
+
+    static void print(const std::vector<std::string>& command) {
+        std::vector<std::string> words;
+        for (const std::string& word : command) words.push_back(quoted(word));
+        fmt::print("{}\n", fmt::join(words, " "));
+    }
+
+    ModelOptions model_;
+    SetOptions sets_;
+    GrowthOptions growth_;
+    std::vector<std::string> vary_;
+    fs::path output_;
+    int jobs_ = 0, threads_ = 0;
+    bool list_ = false, quiet_ = false;
+};
+
+const RegisteredCommand<SweepCommand> entry{16};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,118 @@
+#include "espalier/simulation/recorded_command.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+
+#include "run_inputs.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The bytes of an input that run.json does not hold, from the disk.
+std::string bytes_on_disk(const fs::path& path, const ReadLog::File& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        throw UserError(fmt::format("{} was too large for run.json and is no longer there", path.string()));
+    }
+    std::string bytes = read_text(path);
+    if (bytes.size() != file.size || digest(bytes) != file.digest) {
+        throw UserError(fmt::format("{} was too large for run.json and has changed since", path.string()));
+    }
+    return bytes;
+}
+
+std::string bytes_of(const fs::path& path, const ReadLog::File& file) {
+    if (!file.kept) return bytes_on_disk(path, file);
+    if (file.bytes.size() == file.size && digest(file.bytes) == file.digest) return file.bytes;
+    throw UserError(fmt::format("run.json was changed: {} is not what its digest says", path.string()));
+}
+
+bool tells_of_the_run(const fs::path& file) {
+    return file == "run.json" || file == "timings.csv" || file == ".lock";
+}
+
+std::set<fs::path> files_below(const fs::path& folder) {
+    std::set<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const fs::path name = entry.path().lexically_relative(folder);
+        if (entry.is_regular_file() && !tells_of_the_run(name)) files.insert(name);
+    }
+    return files;
+}
+
+}  // namespace
+
+RecordedCommand read_command(const fs::path& run) {
+    const fs::path file = run / "run.json";
+    if (!fs::exists(file)) {
+        throw UserError(fmt::format("{} holds no run: there is no run.json in it", run.string()));
+    }
+    try {
+        const Json json = Json::parse(read_text(file));
+        RecordedCommand command;
+        command.version = json.at("version").get<std::string>();
+        command.exit = json.at("exit").get<std::string>();
+        command.folder = json.at("command").at("folder").get<std::string>();
+        command.arguments = json.at("command").at("arguments").get<std::vector<std::string>>();
+        if (command.arguments.empty()) throw UserError(file.string() + " does not say how the run was started");
+        for (const Json& input : json.at("inputs")) {
+            const fs::path path = fs::path(input.at("path").get<std::string>()).lexically_normal();
+            if (!path.is_absolute()) throw UserError(fmt::format("{}: input '{}'", file.string(), path.string()));
+            command.inputs.emplace(path, input_of(input));
+        }
+        return command;
+    } catch (const Json::exception&) {
+        throw UserError(fmt::format("{} does not say how to repeat the run", file.string()));
+    }
+}
+
+fs::path lay_out_inputs(const RecordedCommand& command, const fs::path& root) {
+    for (const auto& [path, file] : command.inputs) {
+        const fs::path place = root / path.relative_path();
+        fs::create_directories(place.parent_path());
+        write_text(place, bytes_of(path, file));
+    }
+    const fs::path folder = root / command.folder.lexically_normal().relative_path();
+    fs::create_directories(folder);
+    return folder;
+}
+
+std::vector<std::string> arguments_below(const RecordedCommand& command, const fs::path& root) {
+    std::vector<std::string> arguments = command.arguments;
+    for (std::string& argument : arguments) {
+        const fs::path path = fs::path(argument).lexically_normal();
+        const fs::path there = root / path.relative_path();
+        if (path.is_absolute() && fs::exists(there)) argument = there.string();
+    }
+    return arguments;
+}
+
+std::vector<std::string> timeline_differences(const fs::path& before, const fs::path& after) {
+    const std::set<fs::path> old_files = files_below(before), new_files = files_below(after);
+    std::vector<std::string> differences;
+    for (const fs::path& file : old_files) {
+        if (!new_files.contains(file)) {
+            differences.push_back(file.string() + " is missing");
+            continue;
+        }
+        const std::string old_bytes = read_text(before / file), new_bytes = read_text(after / file);
+        if (old_bytes == new_bytes) continue;
+        const auto at = std::mismatch(old_bytes.begin(), old_bytes.end(), new_bytes.begin(), new_bytes.end()).first;
+        differences.push_back(fmt::format("{} differs from byte {} on", file.string(), at - old_bytes.begin()));
+    }
+    for (const fs::path& file : new_files) {
+        if (!old_files.contains(file)) differences.push_back(file.string() + " is new");
+    }
+    return differences;
+}
+
+}  // namespace espalier

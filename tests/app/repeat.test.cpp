@@ -1,0 +1,106 @@
+// Runs that are done again, and runs that are varied.
+#include "catch.h"
+#include "program.h"
+
+#include <algorithm>
+#include <filesystem>
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const scene = R"([simulation]
+steps = 4
+[[plant]]
+model = "shrub.l"
+[environment.light]
+process = "voxel-shade"
+)";
+
+const char* const shrub =
+    "#define D 1.1\nLsystem: 1\nderivation length: 4\nAxiom: A(1)?E(1)\n"
+    "A(x) --> F(x)[+A(x*0.5)?E(1)]A(x/D)\nF(x) --> F(x*D)\nendlsystem\n";
+
+std::size_t lines_in(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Workplace, "a run is repeated from its run.json alone, byte for byte", "[app]") {
+    write("shrub.l", shrub);
+    write("scene.toml", scene);
+    REQUIRE(run("run scene.toml --quiet --output first").code == 0);
+    fs::remove(path() / "shrub.l");
+    fs::remove(path() / "scene.toml");
+    const Outcome again = run("rerun first --threads 1 --output second --quiet");
+    CHECK(again.err == "");
+    CHECK(again.code == 0);
+    CHECK(fs::exists(path() / "second" / "plants.pvd"));
+    CHECK_THAT(run("rerun first").out, Contains("the same bytes in every file"));
+}
+
+TEST_CASE_METHOD(Workplace, "rerun names the files that differ", "[app]") {
+    write("shrub.l", shrub);
+    REQUIRE(run("run shrub.l --quiet --output first").code == 0);
+    fs::remove(path() / "first" / "plants" / "0002.vtp");
+    std::ofstream(path() / "first" / "statistics.csv", std::ios::app) << "x";
+    const Outcome again = run("rerun first --quiet");
+    CHECK(again.code == 2);
+    CHECK_THAT(again.out, Contains("0002.vtp is new") && Contains("statistics.csv differs from byte"));
+}
+
+TEST_CASE_METHOD(Workplace, "what cannot be repeated is refused in words", "[app]") {
+    CHECK(run("rerun nowhere").code == 1);
+    write("shrub.l", shrub);
+    REQUIRE(run("run shrub.l --quiet --output first").code == 0);
+    std::string json = text_of(path() / "first" / "run.json");
+    const std::string changed = json.replace(json.find("A(x*0.5)"), 8, "A(x*0.6)");
+    write("first/run.json", changed);
+    const Outcome outcome = run("rerun first");
+    CHECK(outcome.code == 1);
+    CHECK_THAT(outcome.err, Contains("is not what its digest says"));
+}
+
+TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one table of them", "[app]") {
+    write("shrub.l", shrub);
+    write("scene.toml", scene);
+    const std::string command = "sweep scene.toml --vary environment.light.voxel=0.5,1 --vary simulation.steps=2..4 ";
+    const Outcome first = run(command + "--output s");
+    CHECK(first.code == 0);
+    CHECK(lines_in(first.err) == 6);
+    const std::string table = text_of(path() / "s" / "sweep.csv");
+    CHECK_THAT(table, Contains("run,environment.light.voxel,simulation.steps,step,plant,modules"));
+    CHECK_THAT(table, Contains("\"voxel=0.5,steps=2\",0.5,2,2,0,"));
+    CHECK(lines_in(table) == 7);
+
+    // What is done stays; what has changed is done again.
+    CHECK_THAT(run(command + "--output s").err, Contains("6 of 6 runs are done already"));
+    fs::remove(path() / "s" / "voxel=1,steps=3" / "run.json");
+    CHECK_THAT(run(command + "--output s").err, Contains("5 of 6 runs are done already"));
+    write("shrub.l", std::string(shrub) + "\n");
+    CHECK(lines_in(run(command + "--output s --list").out) == 6);
+}
+
+TEST_CASE_METHOD(Workplace, "the commands a sweep lists are those it would run", "[app]") {
+    write("shrub.l", shrub);
+    const std::string command = "sweep shrub.l --vary D=1.1,1.2 --output 'a b'";
+    const Outcome list = run(command + " --list");
+    CHECK(lines_in(list.out) == 2);
+    CHECK_THAT(list.out, Contains("--define D=1.2") && Contains("'a b/D=1.2'"));
+    write("commands", list.out);
+    REQUIRE(std::system(("cd '" + path().string() + "' && sh commands").c_str()) == 0);
+    CHECK(run(command + " --list").out == "");
+    CHECK(run(command + " --quiet").code == 0);
+    CHECK(lines_in(text_of(path() / "a b" / "sweep.csv")) == 3);
+}
+
+TEST_CASE_METHOD(Workplace, "a run that fails does not keep the others of its sweep", "[app]") {
+    write("shrub.l", shrub);
+    const Outcome outcome = run("sweep shrub.l --vary D=0,1.1 --output s");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("D=0: ended with code 2, see s/D=0.log") && Contains("1 runs failed"));
+    CHECK_THAT(text_of(path() / "s" / "D=0.log"), Contains("shrub.l:5"));
+    CHECK(fs::exists(path() / "s" / "D=1.1" / "plants.pvd"));
+}
