@@ -40,13 +40,18 @@ constexpr int cycles = 7, steps = cycles * (cycles + 7) / 2;
 Scene forest(std::int64_t trees) {
     const auto columns = std::llround(std::sqrt(double(trees)));
     const auto rows = (trees + columns - 1) / columns;
-    return read_scene(
-        ESPALIER_SOURCE_DIR "/environments/forest.toml",
-        {.overrides = {{"plant.0.grid.columns", std::to_string(columns)}, {"plant.0.grid.rows", std::to_string(rows)}},
-         .steps = steps});
+    SceneOptions options;
+    options.overrides = {{"plant.0.grid.columns", std::to_string(columns)},
+                         {"plant.0.grid.rows", std::to_string(rows)}};
+    options.steps = steps;
+    return read_scene(ESPALIER_SOURCE_DIR "/environments/forest.toml", options);
 }
 
 void forest(benchmark::State& state) {
+    constexpr std::size_t bytes_of_a_tree = 500'000;
+    if (static_cast<std::size_t>(state.range(0)) * bytes_of_a_tree > default_memory()) {
+        return state.SkipWithError("half of this machine's memory does not hold so many trees");
+    }
     const Scene scene = forest(state.range(0));
     Growth growth;
     for (auto _ : state) {

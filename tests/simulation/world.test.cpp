@@ -3,6 +3,10 @@
 #include "catch.h"
 #include "temporary_folder.h"
 
+#include <fmt/format.h>
+
+#include <set>
+
 using namespace espalier;
 using Catch::Matchers::Contains;
 
@@ -121,6 +125,32 @@ TEST_CASE_METHOD(Worlds, "strings that would outgrow the memory end the run and 
     CHECK_THROWS_AS(grow(), RunError);
     CHECK(world.steps_done() > 15);
     CHECK(world.steps_done() < 25);
+}
+
+TEST_CASE_METHOD(Worlds, "plants that share a step's memory, machines and painters grow as each does alone",
+                 "[simulation]") {
+    const std::string model =
+        "lsystem: 1\nseed: 1\nderivation length: 7\nStart: { n = 0; }\nEndEach: { n = n + 1; }\n"
+        "axiom: A(1)\nA(s) --> F(s)[+A(s * 0.9)]B(s) : 2\nA(s) --> F(s)A(s + n) : 1\nB(s) F(t) --> F(s * t)\n"
+        "decomposition\nB(s) : s > 1.5 --> F(s / 2)A(s / 3)\n"
+        "homomorphism\nF(s) --> F(s * ran(1) + n)[-F(s)] : 1\nF(s) --> f(s)F(1) : 1\nendlsystem\n";
+    constexpr std::size_t plants = 5;
+    World stand(scene(model, "", "grid = { columns = 5, spacing = 0.001 }\n"));
+    walk(stand, 7);
+    REQUIRE(stand.size() == plants);
+    std::set<std::string> different;
+    for (std::size_t plant = 0; plant < plants; ++plant) {
+        const double x = 0.001 * (static_cast<double>(plant) - 2);
+        World alone(scene(model, "", fmt::format("stream = {}\nposition = [{}, 0, 0]\n", plant, x)));
+        walk(alone, 7);
+        CHECK(text(stand, plant) == text(alone));
+        const PlantGeometry& drawn = stand.interpretation(plant).geometry;
+        CHECK(drawn.internodes.size() == alone.interpretation(0).geometry.internodes.size());
+        CHECK(total_length(drawn) == total_length(alone.interpretation(0).geometry));
+        CHECK(stand.string(plant).identities == alone.string(0).identities);
+        different.insert(text(alone));
+    }
+    CHECK(different.size() > 1);
 }
 
 TEST_CASE_METHOD(Worlds, "what is drawn of a string counts against the memory, too", "[simulation]") {
