@@ -124,8 +124,8 @@ TEST_CASE_METHOD(Objects, "queries are answered by the turtle as the view file s
 TEST_CASE_METHOD(Objects, "a derivation length that a model changes holds for run and derive alike", "[app]") {
     write("longer.l",
           "lsystem: 1\nderivation length: 2\nEndEach: {if (Q == 2) {SetDerivationLength(4);}}\naxiom: A(0)\n"
-          "A(n) --> A(n+1)\nendlsystem\n");
-    CHECK(run("derive longer.l").out == "A(4)\n");
+          "A(n) --> FA(n+1)\nendlsystem\n");
+    CHECK(run("derive longer.l").out == "FFFFA(4)\n");
     CHECK(run("run longer.l --quiet --output out").code == 0);
     CHECK(frames("out").count("0004") == 1);
     CHECK(frames("out").size() == 5);

@@ -74,6 +74,7 @@ inline const char* const doubling = "lsystem: 1\nderivation length: 100\naxiom: 
 inline const char* const zero_by_zero =
     "lsystem: 1\nderivation length: 4\naxiom: A(2)\nA(n) --> F(1)A(n - 1 + 0 * ((n - 1) / (n - 1)))\nendlsystem\n";
 /// Keeps its size for as many steps as anyone may want.
-inline const char* const patient = "lsystem: 1\nderivation length: 1000000\naxiom: F(1)A\nA --> A\nendlsystem\n";
+inline const char* const patient =
+    "lsystem: 1\nderivation length: 1000000\naxiom: F(1)A\nF(x) --> F(x+0.001)\nendlsystem\n";
 
 }  // namespace models
