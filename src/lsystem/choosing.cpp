@@ -142,6 +142,7 @@ void ChoosingCompiler::fill_table() {
             choosing_.ranks[rules_.candidates[k]] = static_cast<LetterId>(k - rules_.first[l] + 1);
         }
         const bool depends = system_.plans.of_letter[l].kind == Plan::Kind::choose;
+        choosing_.nothing.push_back(static_cast<LetterId>(depends ? rules_.first[l + 1] - rules_.first[l] + 1 : 1));
         for (std::uint32_t place = 0; place < choosing_.places(); ++place) {
             const std::uint32_t left = place / choosing_.right_classes, right = place % choosing_.right_classes;
             tell(letter, depends ? outcome(letter, left, right) : Outcome{});
@@ -169,7 +170,8 @@ bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint3
         const std::uint32_t named = left_class(production.left[0].letter);
         if (named == 0 || named != left) return false;
     }
-    if (told && !production.right.empty() && is_ordinary_right(production.right[0])) {
+    const bool next_to_it = production.strict.size() == 1;
+    if (told && next_to_it && !production.right.empty() && is_ordinary_right(production.right[0])) {
         const std::uint32_t named = right_class(production.right[0].letter);
         if (named == 0 || named != right) return false;
     }
@@ -252,7 +254,7 @@ std::optional<Outcome> ChoosingCompiler::drawn(const Candidates& candidates) {
 
 /// Where classes do not say all: contexts are matched, or their parameters read.
 bool ChoosingCompiler::wants_positions() const {
-    if (system_.decomposition.uses_context || system_.ordered() || rules_.several_strict ||
+    if (system_.decomposition.uses_context || system_.serial() ||
         (rules_.uses_context && !system_.decomposition.empty())) {
         return true;
     }

@@ -53,6 +53,7 @@ struct Choosing {
     std::vector<Trial> trials;
     std::vector<std::uint32_t> tried;  ///< indices of productions
     std::vector<LetterId> ranks;       ///< choice of each production, among its letter's
+    std::vector<LetterId> nothing;     ///< by letter: the choice of modules that are replaced with one before them
     std::vector<Lottery> lotteries;
 };
 

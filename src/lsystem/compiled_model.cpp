@@ -51,8 +51,8 @@ private:
     std::vector<CompiledPattern> patterns(const std::vector<ModulePattern>& source);
     void descend(CompiledProduction& production) const;
     void find_lanes(CompiledProduction& production);
-    std::optional<Lane> lane(const Expression& expression, const CompiledPattern& strict) const;
-    std::optional<Lane> sum_lane(const Expression& expression, const CompiledPattern& strict) const;
+    std::optional<Lane> lane(const Expression& expression, const std::vector<CompiledPattern>& strict) const;
+    std::optional<Lane> sum_lane(const Expression& expression, const std::vector<CompiledPattern>& strict) const;
     void index(CompiledRules& rules) const;
     std::int32_t always(const CompiledRules& rules, LetterId letter) const;
     void place_registers();
@@ -152,7 +152,11 @@ CompiledRules SystemCompiler::compile_rules(const std::vector<Production>& produ
                                std::any_of(compiled.right.begin(), compiled.right.end(), binds);
         rules.several_strict |= compiled.strict.size() > 1;
         rules.widest = std::max(rules.widest, compiled.strict.size());
+        for (std::size_t k = 1; k < compiled.strict.size(); ++k) {
+            rules.joints.emplace_back(compiled.strict[k - 1].letter, compiled.strict[k].letter);
+        }
     }
+    std::sort(rules.joints.begin(), rules.joints.end());
     index(rules);
     return rules;
 }
@@ -263,7 +267,6 @@ bool reads_formals_of(const Block& block, const std::vector<CompiledPattern>& pa
 }
 
 void SystemCompiler::find_lanes(CompiledProduction& production) {
-    const bool single = production.strict.size() == 1;
     for (const auto* context : {&production.left, &production.right}) {
         production.reads_context |= reads_formals_of(production.source->after, *context);
     }
@@ -272,7 +275,7 @@ void SystemCompiler::find_lanes(CompiledProduction& production) {
         for (const Expression& argument : module.arguments) {
             production.reads_context |=
                 reads_formals_of(argument, production.left) || reads_formals_of(argument, production.right);
-            const std::optional<Lane> found = lane(argument, production.strict[0]);
+            const std::optional<Lane> found = lane(argument, production.strict);
             if (!found) {
                 production.rest_places.push_back(static_cast<std::uint32_t>(production.lanes.sources.size()));
                 rest.push_back(&argument);
@@ -281,25 +284,36 @@ void SystemCompiler::find_lanes(CompiledProduction& production) {
         }
     }
     production.lanes.pad();
-    production.affine = single && rest.empty();
+    production.affine = rest.empty();
     // Where only some are lanes, a program of its own computes the others.
-    if (!single || rest.size() == production.parameters) production.rest_places.clear();
+    if (rest.size() == production.parameters) production.rest_places.clear();
     if (!production.rest_places.empty()) production.rest = programs_.values(rest);
+}
+
+/// Where the value of a formal stands among those of the strict predecessor.
+std::optional<std::uint32_t> place_of(std::uint32_t formal, const std::vector<CompiledPattern>& strict) {
+    std::uint32_t before = 0;
+    for (const CompiledPattern& pattern : strict) {
+        if (formal >= pattern.first_formal && formal < pattern.first_formal + pattern.arity) {
+            return before + formal - pattern.first_formal;
+        }
+        before += pattern.arity;
+    }
+    return std::nullopt;
 }
 
 // Only forms that a multiplication followed by an addition computes with the very same rounding.
 // Adding -0.0 changes no number, not even -0.0.
-std::optional<Lane> SystemCompiler::lane(const Expression& expression, const CompiledPattern& strict) const {
+std::optional<Lane> SystemCompiler::lane(const Expression& expression,
+                                         const std::vector<CompiledPattern>& strict) const {
     if (const std::optional<double> constant = programs_.fold(expression)) {
         // 0 times a value, plus -0.0, may be 0.0.
         if (!std::isfinite(*constant) || (*constant == 0 && std::signbit(*constant))) return std::nullopt;
         return Lane{0, 0, *constant};
     }
     if (expression.kind == Expression::Kind::formal) {
-        if (expression.index < strict.first_formal || expression.index >= strict.first_formal + strict.arity) {
-            return std::nullopt;
-        }
-        return Lane{expression.index - strict.first_formal, 1, -0.0};
+        const std::optional<std::uint32_t> source = place_of(expression.index, strict);
+        return source ? std::optional(Lane{*source, 1, -0.0}) : std::nullopt;
     }
     if (expression.kind != Expression::Kind::apply) return std::nullopt;
     if (expression.op == Operator::add || expression.op == Operator::subtract) return sum_lane(expression, strict);
@@ -316,7 +330,8 @@ std::optional<Lane> SystemCompiler::lane(const Expression& expression, const Com
 }
 
 // l * m + c, c + l * m, l * m - c and c - l, where c is not 0.
-std::optional<Lane> SystemCompiler::sum_lane(const Expression& expression, const CompiledPattern& strict) const {
+std::optional<Lane> SystemCompiler::sum_lane(const Expression& expression,
+                                             const std::vector<CompiledPattern>& strict) const {
     const bool subtracts = expression.op == Operator::subtract;
     for (const int side : {0, 1}) {
         const std::optional<double> constant = programs_.fold(expression.operands[side]);

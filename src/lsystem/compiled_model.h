@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace espalier {
@@ -69,6 +70,8 @@ struct CompiledRules {
     bool uses_context = false;
     bool binds_context = false;
     bool several_strict = false;
+    /// Letters that stand side by side in a strict predecessor, sorted.
+    std::vector<std::pair<LetterId, LetterId>> joints;
     std::size_t widest = 1;  ///< modules of the longest strict predecessor
     Effects effects;
     std::size_t maximum_depth = 1;
@@ -78,6 +81,14 @@ struct CompiledRules {
 
     bool empty() const { return productions.empty(); }
     bool has(LetterId letter) const { return first[letter] != first[letter + 1]; }
+    /// A production may replace both of two modules that stand side by side.
+    bool joins(LetterId left, LetterId right) const {
+        return std::binary_search(joints.begin(), joints.end(), std::pair(left, right));
+    }
+    /// A module of the letter may be replaced together with one before it.
+    bool follows(LetterId letter) const {
+        return std::any_of(joints.begin(), joints.end(), [&](const auto& joint) { return joint.second == letter; });
+    }
 };
 
 /// A variable or array that the surrounding L-system lends, by name.
@@ -118,6 +129,8 @@ public:
         return rules.effects.assigns || rules.effects.ordered || decomposition.effects.assigns ||
                decomposition.effects.ordered;
     }
+    /// Modules are replaced one after the other: as ordered() says, or since a predecessor may reach beyond a cut.
+    bool serial() const { return ordered() || (may_cut && rules.follows(Alphabet::cut)); }
     bool draws() const {
         return rules.effects.draws || rules.stochastic || decomposition.effects.draws || decomposition.stochastic;
     }

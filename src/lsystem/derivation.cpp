@@ -241,7 +241,7 @@ void Derivation::State::warn_of_depth() {
 
 void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
     const StepInput input = prepare(from);
-    if (main.ordered() || main.rules.several_strict || !main.decomposition.empty()) {
+    if (main.serial() || !main.decomposition.empty()) {
         rewrite_in_one_pass(input, *scratch, machines, services, to, depth_limit);
         follow_length();
         warn_of_depth();

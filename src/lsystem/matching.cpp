@@ -32,7 +32,7 @@ bool Matcher::applies(const CompiledProduction& production, const Site& site) {
     if (production.strict.size() > 1 && !match_strict(production, site)) return false;
     if (!production.right.empty() && !match_right(production, site)) return false;
     if (!production.left.empty() && !match_left(production, site)) return false;
-    bind_strict(production, site);
+    bind_strict(production, site.values);
     if (!production.before.empty()) machine_.run(production.before);
     return !production.has_condition || machine_.evaluate(production.condition) != 0;
 }
@@ -77,7 +77,7 @@ void Matcher::bind(const CompiledProduction& production, const Site& site) {
         match_right(production, site);
         match_left(production, site);
     }
-    bind_strict(production, site);
+    bind_strict(production, site.values);
 }
 
 void Matcher::begin_successor(const CompiledProduction& production, const Site& site) {
@@ -92,14 +92,6 @@ bool Matcher::match_strict(const CompiledProduction& production, const Site& sit
         if (next[k - 1] != production.strict[k].letter) return false;
     }
     return true;
-}
-
-void Matcher::bind_strict(const CompiledProduction& production, const Site& site) {
-    double* formals = machine_.formals();
-    const double* value = site.values;
-    for (const CompiledPattern& pattern : production.strict) {
-        for (std::uint32_t k = 0; k < pattern.arity; ++k) formals[pattern.first_formal + k] = *value++;
-    }
 }
 
 void Matcher::bind_context(const CompiledPattern& pattern, std::size_t module, const Site& site) {

@@ -65,6 +65,13 @@ public:
                                      const Site& site);
     /// Binds the formals again, as `choose` left them; contexts only if the successor reads them.
     void bind(const CompiledProduction& production, const Site& site);
+    /// The same of the strict predecessor alone, whose parameters begin at `values`.
+    void bind_strict(const CompiledProduction& production, const double* values) {
+        double* const formals = machine_.formals();
+        for (const CompiledPattern& pattern : production.strict) {
+            for (std::uint32_t k = 0; k < pattern.arity; ++k) formals[pattern.first_formal + k] = *values++;
+        }
+    }
     /// Begins the draws of the successor.
     void begin_successor(const CompiledProduction& production, const Site& site);
 
@@ -80,7 +87,6 @@ private:
     std::size_t right_from(std::size_t module, LetterId sought) const;
     std::size_t find_left(std::size_t module, LetterId sought) const;
     std::size_t find_right(std::size_t module, LetterId sought) const;
-    void bind_strict(const CompiledProduction& production, const Site& site);
     void bind_context(const CompiledPattern& pattern, std::size_t module, const Site& site);
     std::size_t parameters_at(std::size_t module, const Site& site) const;
     std::size_t end_of_branch(std::size_t module) const;

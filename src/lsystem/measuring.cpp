@@ -74,6 +74,7 @@ private:
     LetterId* const choices_;
     Matcher matcher_;
     std::size_t modules_ = 0, parameters_ = 0;
+    std::size_t replaced_ = 0;  ///< modules before this one are replaced by productions chosen for others before them
 
     // Modules that wait for their draws.
     static constexpr std::size_t drawn_at_once = 256;
@@ -126,6 +127,13 @@ void Measuring::look_up(std::size_t begin, std::size_t end, const double*& value
     std::uint64_t measure = 0;
     for (std::size_t i = begin; i < end; ++i) {
         const LetterId place = choices_[i];
+        if constexpr (!All) {
+            if (i < replaced_) {
+                choices_[i] = choosing_.nothing[letters_[i]];
+                values += arities[letters_[i]];
+                continue;
+            }
+        }
         choices_[i] = choices[place];
         measure += measures[place];
         if constexpr (!All) {
@@ -152,6 +160,7 @@ void Measuring::match(const Trial& trial, std::size_t module, const double* valu
         const CompiledRules& rules = input_.model.rules;
         const CompiledProduction* const chosen = matcher_.choose(rules, tried, site_of(input_, module, values));
         take(module, chosen ? choosing_.ranks[static_cast<std::size_t>(chosen - rules.productions.data())] : 0);
+        if (chosen) replaced_ = module + chosen->strict.size();
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, input_.model.source->alphabet, letters_[module], values, input_.step));
     }

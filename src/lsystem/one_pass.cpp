@@ -1,5 +1,4 @@
-// One pass over the string, appending: for models whose productions have an order, consume blocks of modules,
-// or decompose what they write.
+// One pass over the string, appending: for models whose productions have an order, or decompose what they write.
 #include "one_pass.h"
 
 #include <algorithm>
@@ -232,7 +231,7 @@ void rewrite_in_one_pass(const StepInput& input, Scratch& scratch, Machines& mac
         make_room(input, to, piece.size(), piece.parameters.size(), input.from.bytes());
         return copy_piece(piece, to, 0, 0);
     }
-    if (input.model.ordered() || input.model.rules.several_strict) {
+    if (input.model.serial()) {
         GrowingString out(to, input, bytes);
         return run_in_order(input, scratch, machines.local(), services, out, limit);
     }

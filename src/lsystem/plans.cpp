@@ -32,6 +32,7 @@ Plan plan_of(const CompiledProduction& production) {
     plan.length = static_cast<std::uint32_t>(production.length);
     plan.parameters = static_cast<std::uint32_t>(production.parameters);
     plan.arity = production.strict[0].arity;
+    for (const CompiledPattern& pattern : production.strict) plan.reads += pattern.arity;
     plan.lanes = &production.lanes;
     plan.production = &production;
     plan.kind = kind_of(production);
@@ -43,16 +44,25 @@ Plan copy_of(LetterId letter, std::uint16_t arity) {
     copy.block[0] = letter;
     copy.length = 1;
     copy.arity = arity;
+    copy.reads = arity;
     copy.parameters = arity;
     copy.kind = arity <= value_block ? Plan::Kind::copy : Plan::Kind::wide_copy;
     return copy;
+}
+
+/// Of a module that is replaced with one before it.
+Plan nothing_of(std::uint16_t arity) {
+    Plan nothing;
+    nothing.arity = arity;
+    nothing.reads = arity;
+    return nothing;
 }
 
 void measure(Plans& plans) {
     const auto include = [&](const Plan& plan) {
         plans.longest = std::max<std::size_t>(plans.longest, plan.length);
         plans.most_parameters = std::max<std::size_t>(plans.most_parameters, plan.parameters);
-        plans.most_read = std::max<std::size_t>(plans.most_read, plan.arity);
+        plans.most_read = std::max<std::size_t>(plans.most_read, plan.reads);
     };
     for (const Plan& plan : plans.of_letter) {
         include(plan);
@@ -84,7 +94,7 @@ Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
     const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
     Plans plans;
-    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
+    plans.choices.reserve(rules.productions.size() + 2 * arities.size());  // never moved, since plans point to it
     for (std::size_t l = 0; l < arities.size(); ++l) {
         const auto letter = static_cast<LetterId>(l);
         const bool known = rules.always[l] >= 0;
@@ -99,6 +109,7 @@ Plans make_plans(const CompiledSystem& model) {
                 plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
             }
         }
+        if (rules.follows(letter)) plans.choices.push_back(nothing_of(arities[l]));
         plans.of_letter.push_back(plan);
     }
     measure(plans);

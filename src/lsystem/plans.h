@@ -56,13 +56,15 @@ struct alignas(64) Plan {
     std::uint32_t parameters = 0;
     std::uint16_t arity = 0;
     Kind kind = Kind::bare;
+    std::uint32_t reads = 0;  ///< parameters of all modules that are replaced
     /// Modules and (from bit 32 on) parameters that will replace what this plan writes, where no letter needs choosing.
     std::uint64_t next = 0;
     const Lanes* lanes = nullptr;
 
     const LetterId* letters = nullptr;               ///< all of them, padded to whole blocks
     const CompiledProduction* production = nullptr;  ///< null: the module is copied
-    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order.
+    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order; if one
+    /// before it may replace it as well, a plan that writes nothing.
     const Plan* choices = nullptr;
 };
 

@@ -47,16 +47,23 @@ void count(const StepInput& input, std::vector<Chunk>& chunks) {
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
 }
 
+/// The first place from `at` on that no production reaches across.
+std::size_t border(const StepInput& input, std::size_t at, std::size_t end) {
+    const LetterId* const letters = input.from.letters.data();
+    while (at < end && input.model.rules.joins(letters[at - 1], letters[at])) ++at;
+    return at;
+}
+
 }  // namespace
 
 void make_chunks(const StepInput& input, Scratch& scratch) {
     // Only the starts of chunks need the place of their parameters, so everything is counted, also what is cut off.
     scratch.chunks.clear();
     const auto split = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t at = begin; at < end; at += grain) {
+        for (std::size_t at = begin; at < end; at = scratch.chunks.back().end) {
             Chunk chunk;
             chunk.begin = at;
-            chunk.end = std::min(end, at + grain);
+            chunk.end = border(input, std::min(end, at + grain), end);
             scratch.chunks.push_back(chunk);
         }
     };

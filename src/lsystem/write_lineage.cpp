@@ -51,7 +51,7 @@ void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& 
         if (!known) plan = plan->choices + scratch.choices[i];
         if (plan->production)
             write_brood(input, *plan->production, i, columns, at);
-        else
+        else if (plan->length > 0)
             copy(input.from, i, columns, at);
         at += plan->length;
     }

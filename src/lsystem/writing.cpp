@@ -39,7 +39,7 @@ inline bool write_lanes(const Plan& plan, const double* values, double* out) {
 /// The same for one module's values alone; false if one of them is not finite.
 bool write_lanes_exactly(const Plan& plan, const double* values, double* out) {
     static constexpr double none = 0;
-    const double* const source = plan.arity > 0 ? values : &none;
+    const double* const source = plan.reads > 0 ? values : &none;
     bool finite = true;
     for (std::uint32_t k = 0; k < plan.parameters; ++k) {
         const double value = source[plan.lanes->sources[k]] * plan.lanes->scales[k] + plan.lanes->offsets[k];
@@ -196,10 +196,10 @@ const Plan& Writer::plan_at(const LetterId* in) const {
     return plan.choices[scratch_.choices[static_cast<std::size_t>(in - input_.from.letters.data())]];
 }
 
-/// Writes a module and nothing beyond it; false if it does not fit the chunk's measure.
+/// Writes what replaces a module and nothing beyond it; false if it does not fit the chunk's measure.
 bool Writer::write_module() {
     const Plan& plan = plan_at(at_.in);
-    if (out_end_ - at_.out < std::ptrdiff_t{plan.length} || values_end_ - at_.values < std::ptrdiff_t{plan.arity} ||
+    if (out_end_ - at_.out < std::ptrdiff_t{plan.length} || values_end_ - at_.values < std::ptrdiff_t{plan.reads} ||
         out_values_end_ - at_.out_values < std::ptrdiff_t{plan.parameters}) {
         return false;
     }
@@ -217,13 +217,12 @@ bool Writer::write_module() {
 /// Runs a program for the successor of a module, with its formals bound.
 void Writer::run(const Program& program, const Plan& plan, const Cursor& at) {
     const CompiledProduction& production = *plan.production;
-    const CompiledPattern& strict = production.strict[0];
     if (production.reads_context || production.writes_draw) {
         const Site site = site_of(input_, static_cast<std::size_t>(at.in - input_.from.letters.data()), at.values);
         matcher_.bind(production, site);
         matcher_.begin_successor(production, site);
     } else {
-        std::copy_n(at.values, strict.arity, machine_.formals() + strict.first_formal);
+        matcher_.bind_strict(production, at.values);
     }
     if (!production.after.empty()) machine_.run(production.after);
     machine_.run(program);

@@ -16,12 +16,13 @@ namespace {
 struct Kind {
     bool parameters = false, conditions = false, several = false;
     std::size_t longest = 20;  ///< successor
+    int letters = 6;
 };
 
 class RandomModel {
 public:
     RandomModel(unsigned seed, const Kind& kind) : random_(seed), kind_(kind) {
-        for (int k = 0; k < 6; ++k) arities_.push_back(kind.parameters ? below(7) : 0);
+        for (int k = 0; k < kind.letters; ++k) arities_.push_back(kind.parameters ? below(7) : 0);
         builder.system().axiom = word(20, 0);
         const int rules = 3 + below(3);
         for (int r = 0; r < rules; ++r) add_rule();
@@ -38,7 +39,7 @@ private:
         int formals = 0;
         const int width = kind_.several && below(2) == 0 ? 2 + below(2) : 1;
         for (int k = 0; k < width; ++k) {
-            const int letter = below(6);
+            const int letter = below(kind_.letters);
             strict.push_back({symbol(letter), arities_[static_cast<std::size_t>(letter)]});
             formals += strict.back().arity;
         }
@@ -51,7 +52,7 @@ private:
     std::vector<ModuleTemplate> word(int length, int formals) {
         std::vector<ModuleTemplate> modules;
         for (int k = 0; k < length; ++k) {
-            const int letter = below(6);
+            const int letter = below(kind_.letters);
             std::vector<Expression> arguments;
             for (int a = 0; a < arities_[static_cast<std::size_t>(letter)]; ++a) arguments.push_back(value(formals));
             modules.push_back(builder.module(symbol(letter), std::move(arguments)));
@@ -144,6 +145,70 @@ TEST_CASE("random models with conditions grow as the plain derivation does", "[l
 
 TEST_CASE("random models with predecessors of several modules grow as the plain derivation does", "[lsystem]") {
     compare_many({.parameters = true, .conditions = true, .several = true});
+}
+
+TEST_CASE("predecessors of several modules replace what stands across any place of the string", "[lsystem]") {
+    compare_many({.parameters = true, .several = true, .letters = 2});
+    compare_many({.several = true, .longest = 300, .letters = 3});
+}
+
+TEST_CASE("the leftmost predecessor of several modules replaces its modules, however long the string", "[lsystem]") {
+    for (const std::size_t threads : {1, 2, 8}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        ModelBuilder model;
+        model.system().axiom = model.word("A");
+        model.rule("AAA", "B");
+        model.rule("A", std::string(50'000, 'A'));
+        CHECK(text_after(model, 2) == std::string(16'666, 'B') + std::string(2 * 50'000, 'A'));
+        CHECK(text_after(model, 3) == std::string(16'666 + 33'333, 'B') + std::string(50'000, 'A'));
+    }
+}
+
+TEST_CASE("the right context of several modules begins behind the last of them", "[lsystem]") {
+    for (const std::size_t times : {1, 9000}) {
+        ModelBuilder model;
+        std::string axiom, expected;
+        for (std::size_t k = 0; k < times; ++k) {
+            axiom += "ABCABD[AB]C";
+            expected += "XYCABD[AB]C";
+        }
+        model.system().axiom = model.word(axiom);
+        model.rule("", "AB", "C", "XY");
+        model.rule("", "A", "C", "Z");
+        CHECK(text_after(model, 1) == expected);
+    }
+}
+
+TEST_CASE("what a cut deletes is no part of a predecessor of several modules", "[lsystem]") {
+    for (const std::size_t times : {1, 9000}) {
+        ModelBuilder model;
+        std::string axiom, expected;
+        for (std::size_t k = 0; k < times; ++k) {
+            axiom += "[AB%AB]A[B]";
+            expected += "[X]A[B]";
+        }
+        model.system().axiom = model.word(axiom);
+        model.rule("AB", "X");
+        CHECK(text_after(model, 1) == expected);
+    }
+}
+
+TEST_CASE("with decomposition, predecessors of several modules replace the same modules", "[lsystem]") {
+    for (const std::size_t threads : {1, 2, 8}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        ModelBuilder plain, decomposed;
+        std::string axiom;
+        std::mt19937 random(5);
+        for (int k = 0; k < 50'000; ++k) axiom += "ABC"[random() % 3];
+        for (ModelBuilder* model : {&plain, &decomposed}) model->system().axiom = model->word(axiom);
+        for (const char* const strict : {"AB", "BC", "ABA", "CC"}) {
+            plain.rule(strict, "EE");
+            decomposed.rule(strict, "D");
+        }
+        Production split = decomposed.make({}, {{"D", 0}}, {}, decomposed.word("EE"));
+        decomposed.system().decomposition.productions.push_back(std::move(split));
+        CHECK(text_after(decomposed, 1) == text_after(plain, 1));
+    }
 }
 
 TEST_CASE("several steps at once end at the string that single steps reach", "[lsystem]") {
