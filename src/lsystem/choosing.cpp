@@ -52,10 +52,11 @@ private:
     void fill_table();
     Outcome outcome(LetterId letter, std::uint32_t left, std::uint32_t right);
     void tell(LetterId letter, const Outcome& outcome);
-    Outcome tried(const Candidates& candidates);
+    Outcome tried(const Candidates& candidates, Outcome::Way way);
     std::optional<Outcome> drawn(const Candidates& candidates);
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
     bool certain(const CompiledProduction& production) const;
+    static bool spelled(const CompiledProduction& production);
     bool wants_positions() const;
 
     std::uint32_t left_class(LetterId letter) const { return choosing_.gazes.left.codes[letter] & 0xFF; }
@@ -188,33 +189,41 @@ bool ChoosingCompiler::certain(const CompiledProduction& production) const {
     return left && right && production.strict.size() == 1 && production.before.empty() && !production.has_condition;
 }
 
+/// True if a production applies wherever the letters of its strict predecessor stand.
+bool ChoosingCompiler::spelled(const CompiledProduction& production) {
+    return production.context_free() && production.before.empty() && !production.has_condition;
+}
+
 Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint32_t right) {
     Candidates candidates;
-    bool all_certain = true;
+    bool all_certain = true, all_spelled = true;
     for (std::uint32_t k = rules_.first[letter]; k < rules_.first[letter + 1]; ++k) {
         const CompiledProduction& production = rules_.productions[rules_.candidates[k]];
         if (!possible(production, left, right)) continue;
         candidates.push_back(rules_.candidates[k]);
         all_certain &= certain(production);
+        all_spelled &= spelled(production);
         if (!rules_.stochastic && certain(production)) break;
     }
     if (candidates.empty()) return {};
     if (rules_.stochastic) {
         const std::optional<Outcome> lottery = all_certain ? drawn(candidates) : std::nullopt;
-        return lottery ? *lottery : tried(candidates);
+        return lottery ? *lottery : tried(candidates, Outcome::Way::matched);
     }
-    if (!certain(rules_.productions[candidates[0]])) return tried(candidates);
+    if (!certain(rules_.productions[candidates[0]])) {
+        return tried(candidates, all_spelled ? Outcome::Way::spelled : Outcome::Way::matched);
+    }
     return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
 }
 
-Outcome ChoosingCompiler::tried(const Candidates& candidates) {
+Outcome ChoosingCompiler::tried(const Candidates& candidates, Outcome::Way way) {
     const auto [at, made] = trials_.try_emplace(candidates, static_cast<std::uint32_t>(choosing_.trials.size()));
     if (made) {
         const auto begin = static_cast<std::uint32_t>(choosing_.tried.size());
         choosing_.tried.insert(choosing_.tried.end(), candidates.begin(), candidates.end());
         choosing_.trials.push_back({begin, static_cast<std::uint32_t>(choosing_.tried.size())});
     }
-    return {Outcome::Way::matched, at->second};
+    return {way, at->second};
 }
 
 /// Nothing if a weight is not a constant, or not one that can be drawn with.

@@ -17,6 +17,7 @@ struct Outcome {
         known,    ///< choice `index`
         drawn,    ///< by lottery `index`
         matched,  ///< by trying the productions of trial `index`
+        spelled,  ///< the first of trial `index` whose strict predecessor's letters stand there
     };
     Way way = Way::known;
     std::uint32_t index = 0;

@@ -63,6 +63,8 @@ public:
     /// The same of some of the letter's candidates, if no other can apply.
     const CompiledProduction* choose(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
                                      const Site& site);
+    /// The letters of the strict predecessor stand at a site.
+    bool match_strict(const CompiledProduction& production, const Site& site) const;
     /// Binds the formals again, as `choose` left them; contexts only if the successor reads them.
     void bind(const CompiledProduction& production, const Site& site);
     /// The same of the strict predecessor alone, whose parameters begin at `values`.
@@ -80,7 +82,6 @@ private:
     const CompiledProduction* choose_by_weight(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
                                                const Site& site);
     double weight(const CompiledProduction& production);
-    bool match_strict(const CompiledProduction& production, const Site& site) const;
     bool match_left(const CompiledProduction& production, const Site& site);
     bool match_right(const CompiledProduction& production, const Site& site);
     std::size_t left_of(std::size_t module, LetterId sought) const;

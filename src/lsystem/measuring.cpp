@@ -64,9 +64,11 @@ private:
     void look_up(std::size_t begin, std::size_t end, const double*& values);
     void find_out(const Outcome& outcome, std::size_t module, const double* values);
     void match(const Trial& trial, std::size_t module, const double* values);
+    void spell(const Trial& trial, std::size_t module, const double* values);
     void draw(std::uint32_t lottery, std::size_t module);
     void hold_lotteries();
     void take(std::size_t module, LetterId choice);
+    void take(std::size_t module, const CompiledProduction* production);
 
     const StepInput& input_;
     const Choosing& choosing_;
@@ -130,7 +132,7 @@ void Measuring::look_up(std::size_t begin, std::size_t end, const double*& value
         if constexpr (!All) {
             if (i < replaced_) {
                 choices_[i] = choosing_.nothing[letters_[i]];
-                values += arities[letters_[i]];
+                if (choosing_.matches) values += arities[letters_[i]];
                 continue;
             }
         }
@@ -150,6 +152,8 @@ void Measuring::find_out(const Outcome& outcome, std::size_t module, const doubl
         draw(outcome.index, module);
     else if (outcome.way == Outcome::Way::matched)
         match(choosing_.trials[outcome.index], module, values);
+    else if (outcome.way == Outcome::Way::spelled)
+        spell(choosing_.trials[outcome.index], module, values);
     else
         take(module, static_cast<LetterId>(outcome.index));
 }
@@ -159,11 +163,20 @@ void Measuring::match(const Trial& trial, std::size_t module, const double* valu
     try {
         const CompiledRules& rules = input_.model.rules;
         const CompiledProduction* const chosen = matcher_.choose(rules, tried, site_of(input_, module, values));
-        take(module, chosen ? choosing_.ranks[static_cast<std::size_t>(chosen - rules.productions.data())] : 0);
-        if (chosen) replaced_ = module + chosen->strict.size();
+        take(module, chosen);
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, input_.model.source->alphabet, letters_[module], values, input_.step));
     }
+}
+
+void Measuring::spell(const Trial& trial, std::size_t module, const double* values) {
+    const Site site = site_of(input_, module, values);
+    const CompiledProduction* spelled = nullptr;
+    for (std::uint32_t k = trial.begin; k < trial.end && !spelled; ++k) {
+        const CompiledProduction& production = input_.model.rules.productions[choosing_.tried[k]];
+        if (matcher_.match_strict(production, site)) spelled = &production;
+    }
+    take(module, spelled);
 }
 
 void Measuring::take(std::size_t module, LetterId choice) {
@@ -171,6 +184,13 @@ void Measuring::take(std::size_t module, LetterId choice) {
     choices_[module] = choice;
     modules_ += plan.length;
     parameters_ += plan.parameters;
+}
+
+void Measuring::take(std::size_t module, const CompiledProduction* production) {
+    if (!production) return take(module, LetterId{0});
+    const CompiledProduction* const productions = input_.model.rules.productions.data();
+    take(module, choosing_.ranks[static_cast<std::size_t>(production - productions)]);
+    replaced_ = module + production->strict.size();
 }
 
 void Measuring::draw(std::uint32_t lottery, std::size_t module) {
