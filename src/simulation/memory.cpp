@@ -2,6 +2,8 @@
 
 #include "espalier/simulation/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <sys/resource.h>
@@ -62,6 +64,28 @@ PlantMemory PlantMemory::grown(double factor) const {
 // internode of 96 bytes costs 700 in all, and a forest, mostly leaves, two and a half times what is drawn of it.
 std::size_t PlantMemory::recorded() const {
     return strings + strings / 2 + internodes * 7 + others * 3;
+}
+
+std::string commonest_module(const Model& model, const ModuleString& string) {
+    if (string.empty()) return "";
+    std::vector<std::size_t> counts(model.alphabet.size());
+    for (const LetterId letter : string.letters) ++counts[letter];
+    const auto letter = static_cast<LetterId>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+    const Production* writer = nullptr;
+    std::ptrdiff_t most = 0;
+    for (const LSystem& system : model.systems) {
+        for (const Production& production : system.productions) {
+            const std::ptrdiff_t written =
+                std::count_if(production.successor.begin(), production.successor.end(),
+                              [&](const ModuleTemplate& module) { return module.letter == letter; });
+            if (written <= most) continue;
+            most = written;
+            writer = &production;
+        }
+    }
+    std::string text = ", most of them " + model.alphabet.name(letter);
+    if (writer) text += fmt::format(", which the production at {} writes most of", to_string(writer->place));
+    return text;
 }
 
 }  // namespace espalier

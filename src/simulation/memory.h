@@ -4,6 +4,7 @@
 #include "espalier/turtle/interpretation.h"
 
 #include <cstddef>
+#include <string>
 
 namespace espalier {
 
@@ -26,5 +27,8 @@ struct PlantMemory {
     /// With the copy and the meshes that the timeline makes.
     std::size_t recorded() const;
 };
+
+/// ", most of them F, which the production at plant.l:4:1 writes most of": what a plant grew too large by.
+std::string commonest_module(const Model& model, const ModuleString& string);
 
 }  // namespace espalier

@@ -144,9 +144,9 @@ void World::State::require_memory(const PlantMemory& needed) const {
         plants.begin(), plants.end(), [](const Plant& a, const Plant& b) { return a.string.size() < b.string.size(); });
     throw RunError(
         fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
-                    "leaves {} MiB for plants; the largest is '{}' with {} modules",
+                    "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
                     step, modules, needed.recorded() >> 20, shares.plants >> 20, largest->description->name,
-                    largest->string.size()));
+                    largest->string.size(), commonest_module(*largest->model, largest->string)));
 }
 
 void World::State::interpret_and_exchange() {
