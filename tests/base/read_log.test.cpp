@@ -1,4 +1,5 @@
 #include "espalier/base/read_log.h"
+
 #include "espalier/base/file.h"
 
 #include "catch.h"
