@@ -128,10 +128,8 @@ bool connect(std::deque<Stretch>& stretches, std::vector<std::uint32_t>& known) 
         Stretch& next = stretches[k + 1];
         if (!stretch.end.stands_like(next.start)) return false;
         next.axes_before = stretch.axes_before + stretch.rest.geometry.axes;
-        learn(stretch, next.start.turtle.axis, stretch.end.turtle.axis);
-        for (std::size_t depth = 0; depth < next.start.stack.size(); ++depth) {
-            learn(stretch, next.start.stack[depth].axis, stretch.end.stack[depth].axis);
-        }
+        const TurtleState* end = stretch.end.turtles.begin();
+        for (const TurtleState& start : next.start.turtles) learn(stretch, start.axis, (end++)->axis);
     }
     return true;
 }

@@ -49,11 +49,16 @@ WalkState spare_state() {
 
 }  // namespace
 
+void TurtleStack::make_room() {
+    const std::size_t at = depth();
+    states_.resize(std::max<std::size_t>(16, states_.size() * 2));
+    stand_at(at);
+}
+
 void WalkState::clear() {
-    turtle = TurtleState();
+    turtles.clear();
     elasticities.clear();
     stopped = false;
-    stack.clear();
     elasticity_stack.clear();
     systems.clear();
     brushes.clear();
@@ -71,9 +76,8 @@ bool WalkState::stands_like(const WalkState& other) const {
     const auto same_scale = [](const SystemScale& a, const SystemScale& b) {
         return std::memcmp(&a, &b, sizeof(SystemScale)) == 0;
     };
-    return same(turtle, other.turtle) && same(elasticities, other.elasticities) &&
-           same(elasticity_stack, other.elasticity_stack) &&
-           std::equal(stack.begin(), stack.end(), other.stack.begin(), other.stack.end(),
+    return same(elasticities, other.elasticities) && same(elasticity_stack, other.elasticity_stack) &&
+           std::equal(turtles.begin(), turtles.end(), other.turtles.begin(), other.turtles.end(),
                       [](const TurtleState& a, const TurtleState& b) { return same(a, b); }) &&
            std::equal(systems.begin(), systems.end(), other.systems.begin(), other.systems.end(), same_scale);
 }
@@ -93,12 +97,12 @@ Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings&
       default_rotation_(settings_.angle),
       older_tropism_(glm::normalize(settings_.tropism_direction)) {
     WalkState::clear();
-    turtle.pose = settings.pose;
-    turtle.width = turtle.node_width = settings.line_width;
-    turtle.scale = settings.scale;
-    turtle.colour = settings.colour;
-    turtle.back_colour = settings.back_colour.value_or(-1);
-    turtle.elasticity = settings.initial_elasticity;
+    turtle().pose = settings.pose;
+    turtle().width = turtle().node_width = settings.line_width;
+    turtle().scale = settings.scale;
+    turtle().colour = settings.colour;
+    turtle().back_colour = settings.back_colour.value_or(-1);
+    turtle().elasticity = settings.initial_elasticity;
     for (const Tropism& tropism : settings.tropisms) elasticities.push_back(tropism.elasticity);
     known_rotations_.fill({0, Rotation()});
     Brush brush;
@@ -114,15 +118,45 @@ Walk::~Walk() {
     if (spare.size() < most_spare) spare.push_back(std::move(*this));
 }
 
+void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
+    TurtleState& turtle = turtles.top();
+    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings.tropisms, elasticities);
+    const glm::dvec3 base = turtle.pose.position;
+    turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
+    if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
+    require_number(turtle.pose.position);
+    if (records_vertex) record_vertex();
+    if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
+    if (!draws) {
+        turtle.on_axis = false;
+        return;
+    }
+    draw_segment(turtle, base, turtle.pose.position);
+    if (turtle.texture != 0) {
+        geometry_.textures.resize(internodes_.size());
+        geometry_.textures.back() = turtle.texture;
+    }
+}
+
 void Walk::jump(const glm::dvec3& position) {
-    turtle.pose.position = position;
-    turtle.on_axis = false;
+    turtle().pose.position = position;
+    turtle().on_axis = false;
     if (!finite(position)) fail("the turtle's position is not a number");
 }
 
 void Walk::set_scale(double scale) {
     if (!std::isfinite(scale)) fail("the turtle's scale is not a number");
-    turtle.scale = scale;
+    turtle().scale = scale;
+}
+
+void Walk::push_elasticities() {
+    elasticity_stack.insert(elasticity_stack.end(), elasticities.begin(), elasticities.end());
+}
+
+void Walk::pop_elasticities() {
+    const auto first = elasticity_stack.end() - std::ptrdiff_t(elasticities.size());
+    std::copy(first, elasticity_stack.end(), elasticities.begin());
+    elasticity_stack.erase(first, elasticity_stack.end());
 }
 
 double* Walk::elasticity(double id) {
@@ -141,7 +175,7 @@ void Walk::close_polygon() {
     const std::size_t count = open_vertices.size() - polygon.first;
     if (polygon.filled && count >= 3) {
         geometry_.polygons.push_back({polygon.module, std::uint32_t(geometry_.vertices.size()), std::uint32_t(count),
-                                      turtle.order, std::uint16_t(turtle.colour), look()});
+                                      turtle().order, std::uint16_t(turtle().colour), look()});
         for (std::size_t i = polygon.first; i < open_vertices.size(); ++i) {
             geometry_.vertices.push_back(open_vertices[i]);
             geometry_.bounds.add(open_vertices[i]);
@@ -152,28 +186,28 @@ void Walk::close_polygon() {
 
 void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
     if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
-    geometry_.organs.push_back({module_, shape, turtle.order, std::uint16_t(turtle.colour), 0, pose,
+    geometry_.organs.push_back({module_, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
                                 glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
     add_ball(pose.position, std::abs(diameter) / 2);
 }
 
 Look Walk::look() const {
-    return {std::uint16_t(turtle.back_colour < 0 ? turtle.colour : turtle.back_colour), turtle.texture};
+    return {std::uint16_t(turtle().back_colour < 0 ? turtle().colour : turtle().back_colour), turtle().texture};
 }
 
 void Walk::enter_system(double scale) {
-    systems.push_back({turtle.scale, turtle.width});
-    turtle.systems = std::uint32_t(systems.size());
-    set_scale(turtle.scale * scale);
-    set_width(turtle.width * scale);
+    systems.push_back({turtle().scale, turtle().width});
+    turtle().systems = std::uint32_t(systems.size());
+    set_scale(turtle().scale * scale);
+    set_width(turtle().width * scale);
 }
 
 void Walk::leave_system() {
     if (systems.empty()) return;
-    turtle.scale = systems.back().scale;
-    turtle.width = systems.back().width;
+    turtle().scale = systems.back().scale;
+    turtle().width = systems.back().width;
     systems.pop_back();
-    turtle.systems = std::uint32_t(systems.size());
+    turtle().systems = std::uint32_t(systems.size());
 }
 
 void Walk::ask(QueryKind kind) {
@@ -194,9 +228,9 @@ void Walk::ask(QueryKind kind) {
     if (!last) query.following_parameters = {values + arity, std::size_t(model_.alphabet.arity(query.following))};
     query.identity = known ? string_.identities[module_] : 0;
     query.following_identity = known && !last ? string_.identities[next] : 0;
-    query.pose = turtle.pose;
-    query.width = turtle.width;
-    query.scale = turtle.scale;
+    query.pose = turtle().pose;
+    query.width = turtle().width;
+    query.scale = turtle().scale;
 }
 
 const std::string& Walk::symbol() const {

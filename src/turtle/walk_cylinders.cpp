@@ -31,24 +31,24 @@ const Contour* Walk::contour() const {
 }
 
 void Walk::begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double> strips) {
-    if (turtle.cylinder >= 0 && !turtle.branches_off) draw_cylinder(turtle.cylinder);
+    if (turtle().cylinder >= 0 && !turtle().branches_off) draw_cylinder(turtle().cylinder);
     OpenCylinder open;
     open.cylinder.curve = curve;
     open.cylinder.sides = brush().sides;
-    if (settings.shapes && turtle.texture >= 1 && turtle.texture <= settings.shapes->textures.size()) {
-        const double ratio = settings.shapes->textures[turtle.texture - 1u].ratio;
+    if (settings.shapes && turtle().texture >= 1 && turtle().texture <= settings.shapes->textures.size()) {
+        const double ratio = settings.shapes->textures[turtle().texture - 1u].ratio;
         if (ratio > 0 && std::isfinite(ratio)) open.cylinder.texture_ratio = ratio;
     }
     open.strips = strips_of(strips, 1);
     open.last_is_marked = false;
-    turtle.cylinder = std::int32_t(cylinders.size());
-    turtle.branches_off = false;
+    turtle().cylinder = std::int32_t(cylinders.size());
+    turtle().branches_off = false;
     cylinders.push_back(std::move(open));
     record_control_point({}, false);
 }
 
 void Walk::branch_cylinder() {
-    const OpenCylinder& parent = cylinders[std::size_t(turtle.cylinder)];
+    const OpenCylinder& parent = cylinders[std::size_t(turtle().cylinder)];
     OpenCylinder open;
     open.cylinder.curve = parent.cylinder.curve;
     // Only the axis itself can come back to its beginning.
@@ -61,21 +61,21 @@ void Walk::branch_cylinder() {
     if (!parent.cylinder.points.empty()) open.cylinder.points = {parent.cylinder.points.back()};
     open.strips = parent.strips;
     open.last_is_marked = true;
-    turtle.cylinder = std::int32_t(cylinders.size());
-    turtle.branches_off = false;
+    turtle().cylinder = std::int32_t(cylinders.size());
+    turtle().branches_off = false;
     cylinders.push_back(std::move(open));
 }
 
 void Walk::record_control_point(std::optional<double> strips, bool marked) {
-    if (turtle.cylinder < 0) return;
+    if (turtle().cylinder < 0) return;
     // What F draws in a branch, or between the vertices of a polygon, is no part of the cylinder around it.
-    if (!marked && (turtle.branches_off || (!open_polygons.empty() && open_polygons.back().filled))) return;
-    if (turtle.branches_off) branch_cylinder();
-    OpenCylinder& open = cylinders[std::size_t(turtle.cylinder)];
+    if (!marked && (turtle().branches_off || (!open_polygons.empty() && open_polygons.back().filled))) return;
+    if (turtle().branches_off) branch_cylinder();
+    OpenCylinder& open = cylinders[std::size_t(turtle().cylinder)];
     std::vector<CylinderPoint>& points = open.cylinder.points;
 
-    CylinderPoint point{module_, turtle.order, std::uint16_t(turtle.colour), look(), turtle.pose};
-    point.width = turtle.width;
+    CylinderPoint point{module_, turtle().order, std::uint16_t(turtle().colour), look(), turtle().pose};
+    point.width = turtle().width;
     point.contour = contour();
     point.strips = strips_of(strips, open.strips);
     point.tangent_before = brush().tangent_before;
@@ -103,10 +103,10 @@ void Walk::control_point(std::optional<double> strips) {
 }
 
 void Walk::end_cylinder(std::optional<double> strips) {
-    if (turtle.cylinder < 0) return;
-    if (!turtle.branches_off) {
+    if (turtle().cylinder < 0) return;
+    if (!turtle().branches_off) {
         using enum GeneralizedCylinder::Curve;
-        OpenCylinder& open = cylinders[std::size_t(turtle.cylinder)];
+        OpenCylinder& open = cylinders[std::size_t(turtle().cylinder)];
         std::vector<CylinderPoint>& points = open.cylinder.points;
         if (open.cylinder.curve == closed_hermite || open.cylinder.curve == closed_spline) {
             if (points.size() > 3 && same_place(points.front(), points.back())) points.pop_back();
@@ -114,9 +114,9 @@ void Walk::end_cylinder(std::optional<double> strips) {
         } else {
             record_control_point({}, false);
         }
-        draw_cylinder(turtle.cylinder);
+        draw_cylinder(turtle().cylinder);
     }
-    turtle.cylinder = -1;
+    turtle().cylinder = -1;
 }
 
 void Walk::draw_cylinder(std::int32_t number) {

@@ -29,8 +29,8 @@ void Walk::write_label(std::span<const double> values) {
     std::string text = filled(model_, *format, values.subspan(1));
     if (text.size() > longest_label) text.resize(longest_label);
     geometry_.labels.push_back(
-        {module_, turtle.order, std::uint16_t(turtle.colour), turtle.pose.position, std::move(text)});
-    geometry_.bounds.add(turtle.pose.position);
+        {module_, turtle().order, std::uint16_t(turtle().colour), turtle().pose.position, std::move(text)});
+    geometry_.bounds.add(turtle().pose.position);
 }
 
 }  // namespace espalier

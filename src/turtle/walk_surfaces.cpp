@@ -23,19 +23,19 @@ int index_of(double number) {
 }  // namespace
 
 void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
-    const glm::dvec3 size = factors * turtle.scale;
+    const glm::dvec3 size = factors * turtle().scale;
     if (!std::isfinite(size.x + size.y + size.z)) fail("the size of a surface is not a number");
-    Organ organ{module_, Organ::Shape::surface, turtle.order, std::uint16_t(turtle.colour),
-                id,      turtle.pose,           size,         look()};
+    Organ organ{module_, Organ::Shape::surface, turtle().order, std::uint16_t(turtle().colour),
+                id,      turtle().pose,         size,           look()};
     if (!settings.shapes) {  // nobody said what surfaces look like: the organ shows where they would be
         geometry_.organs.push_back(organ);
-        geometry_.bounds.add(turtle.pose.position);
+        geometry_.bounds.add(turtle().pose.position);
         return;
     }
     const auto found = settings.shapes->surfaces.find(id);
     if (found == settings.shapes->surfaces.end()) return;
     const Surface& surface = found->second;
-    const Pose pose = turtle.pose;
+    const Pose pose = turtle().pose;
     const auto in_world = [&](const glm::dvec3& point, const glm::dvec3& scale) {
         return pose.position + scale.x * point.x * pose.left + scale.y * point.y * pose.heading +
                scale.z * point.z * pose.up;
@@ -60,14 +60,14 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
 void Walk::begin_patch(double id, BicubicPatch::Basis basis) {
     if (std::isnan(id)) return;
     OpenPatch& patch = patches[std::trunc(id)];
-    patch = {basis, turtle.pose.position, {}};
+    patch = {basis, turtle().pose.position, {}};
 }
 
 void Walk::patch_point(double id, double row, double column) {
     const auto patch = patches.find(std::trunc(id));
     const int i = index_of(row), j = index_of(column);
     if (patch == patches.end() || i < 0 || j < 0) return;
-    patch->second.points[std::size_t(i)][std::size_t(j)] = turtle.pose.position;
+    patch->second.points[std::size_t(i)][std::size_t(j)] = turtle().pose.position;
 }
 
 void Walk::draw_patch(double id, double rows, double columns) {
@@ -105,8 +105,8 @@ void Walk::draw_patch(double id, double rows, double columns) {
         drawn.triangles.insert(drawn.triangles.end(),
                                {corner(0), corner(1), corner(2), corner(0), corner(2), corner(3)});
     }
-    drawn.pieces.push_back({module_, first_index, std::uint32_t(drawn.triangles.size()) - first_index, turtle.order,
-                            std::uint16_t(turtle.colour), look(), MeshPiece::Kind::patch});
+    drawn.pieces.push_back({module_, first_index, std::uint32_t(drawn.triangles.size()) - first_index, turtle().order,
+                            std::uint16_t(turtle().colour), look(), MeshPiece::Kind::patch});
     require_room();
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
@@ -18,6 +19,52 @@
 #include <vector>
 
 namespace espalier {
+
+/// Turtles at the open branches and, last, the one that walks: `[` copies it, `]` goes back to the one below.
+class TurtleStack {
+public:
+    TurtleStack() : states_(1) { stand_at(0); }
+    TurtleStack(const TurtleStack& other) : states_(other.begin(), other.end()) { stand_at(other.depth()); }
+    TurtleStack& operator=(const TurtleStack& other) {
+        states_.assign(other.begin(), other.end());
+        stand_at(other.depth());
+        return *this;
+    }
+    TurtleStack(TurtleStack&&) noexcept = default;  // what was moved from can be assigned to and destroyed
+    TurtleStack& operator=(TurtleStack&&) noexcept = default;
+
+    TurtleState& top() { return *top_; }
+    const TurtleState& top() const { return *top_; }
+    /// Open branches.
+    std::size_t depth() const { return std::size_t(top_ - states_.data()); }
+    const TurtleState* begin() const { return states_.data(); }
+    const TurtleState* end() const { return top_ + 1; }
+
+    /// Begins a branch.
+    void push() {
+        if (top_ == last_) make_room();
+        branch(top_[0], top_[1]);
+        ++top_;
+    }
+    /// Requires an open branch.
+    void pop() { --top_; }
+    /// One turtle as it was made; keeps the memory.
+    void clear() {
+        stand_at(0);
+        *top_ = TurtleState();
+    }
+
+private:
+    static void branch(const TurtleState& from, TurtleState& to);
+    void make_room();
+    void stand_at(std::size_t depth) {
+        top_ = states_.data() + depth;
+        last_ = states_.data() + states_.size() - 1;
+    }
+
+    std::vector<TurtleState> states_;
+    TurtleState *top_, *last_;
+};
 
 /// What a walk carries from one module to the next.
 struct WalkState {
@@ -40,10 +87,9 @@ struct WalkState {
         double scale, width;
     };
 
-    TurtleState turtle;
+    TurtleStack turtles;
     std::vector<double> elasticities;  ///< one per tropism
     bool stopped = false;              ///< nothing that follows is drawn
-    std::vector<TurtleState> stack;    ///< one per open branch
     std::vector<double> elasticity_stack;
     std::vector<SystemScale> systems;  ///< entered sub-L-systems
     std::vector<Brush> brushes;
@@ -78,7 +124,8 @@ public:
     const TurtleSettings& settings;
     using WalkState::elasticities;
     using WalkState::stopped;
-    using WalkState::turtle;
+    TurtleState& turtle() { return turtles.top(); }
+    const TurtleState& turtle() const { return turtles.top(); }
 
     /// Moves by distance * scale along the heading, after the tropisms have acted on it.
     void move(double distance, bool draws, bool records_vertex);
@@ -99,7 +146,7 @@ public:
     void open_polygon(bool filled);
     void close_polygon();
     void record_vertex() {
-        if (!open_polygons.empty()) open_vertices.push_back(turtle.pose.position);
+        if (!open_polygons.empty()) open_vertices.push_back(turtle().pose.position);
     }
 
     /// Puts a disc, sphere or circle at `pose`; `diameter` in metres, the scale already in it.
@@ -127,13 +174,13 @@ public:
     void enter_system(double scale);
     void leave_system();
 
-    const Brush& brush() const { return brushes[turtle.brush]; }
+    const Brush& brush() const { return brushes[turtle().brush]; }
     /// Changes the brush from here on, until the end of the branch.
     template <class Change>
     void change_brush(Change change) {
-        Brush brush = brushes[turtle.brush];
+        Brush brush = brushes[turtle().brush];
         change(brush);
-        turtle.brush = std::uint32_t(brushes.size());
+        turtle().brush = std::uint32_t(brushes.size());
         brushes.push_back(brush);
     }
 
@@ -156,12 +203,16 @@ private:
         Rotation rotation;
     };
 
-    void begin_axis();
+    void push_elasticities();
+    void pop_elasticities();
+    /// move() with all that a tropism, an open polygon or cylinder and a texture ask for.
+    void move_and_mark(double distance, bool draws, bool records_vertex);
+    void draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip);
     void record_control_point(std::optional<double> strips, bool marked);
     void branch_cylinder();
     void draw_cylinder(std::int32_t number);
     void require_room() const;
-    void require_position() const;
+    void require_number(const glm::dvec3& position) const;
     const Contour* contour() const;
     Look look() const;
     double radius(double width) const { return radius_of_width_ * width; }
@@ -191,41 +242,41 @@ private:
 
 // --- what the letters of every tree do ------------------------------------------------------------------------------
 
-inline void Walk::begin_axis() {
-    turtle.axis = geometry_.axes++;
-    turtle.on_axis = true;
-    turtle.node_width = turtle.width;
+inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip) {
+    const bool continues = turtle.on_axis && settings.tapered_lines;
+    const double width = turtle.width;
+    const double base_radius = radius(continues ? turtle.node_width : width), tip_radius = radius(width);
+    if (!turtle.on_axis) {
+        turtle.axis = geometry_.axes++;
+        turtle.on_axis = true;
+    }
+    turtle.node_width = width;
+    Internode& row = internodes_.add();  // unwritten: every member is set
+    row.module = module_;
+    row.axis = turtle.axis;
+    row.order = turtle.order;
+    row.colour = std::uint16_t(turtle.colour);
+    row.base = base;
+    row.tip = tip;
+    row.base_radius = base_radius;
+    row.tip_radius = tip_radius;
+    if (!continues) add_ball(base, base_radius);  // else it is the end of the segment before
+    add_ball(tip, tip_radius);
 }
 
 inline void Walk::move(double distance, bool draws, bool records_vertex) {
-    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings.tropisms, elasticities);
+    TurtleState& turtle = turtles.top();
+    const bool draws_only = draws && settings.tropisms.empty() && turtle.elasticity == 0 && open_polygons.empty() &&
+                            turtle.cylinder < 0 && turtle.texture == 0 && !internodes_.full();
+    if (!draws_only) return move_and_mark(distance, draws, records_vertex);
     const glm::dvec3 base = turtle.pose.position;
-    turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
-    if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
-    require_position();
-    if (records_vertex) record_vertex();
-    if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
-    if (!draws) {
-        turtle.on_axis = false;
-        return;
-    }
-    const bool continues = turtle.on_axis && settings.tapered_lines;
-    if (!turtle.on_axis) begin_axis();
-    if (!settings.tapered_lines) turtle.node_width = turtle.width;
-    const double base_radius = radius(turtle.node_width), tip_radius = radius(turtle.width);
-    internodes_.add() = {module_, turtle.axis,          turtle.order, std::uint16_t(turtle.colour),
-                         base,    turtle.pose.position, base_radius,  tip_radius};
-    turtle.node_width = turtle.width;
-    if (turtle.texture != 0) {
-        geometry_.textures.resize(internodes_.size());
-        geometry_.textures.back() = turtle.texture;
-    }
-    if (!continues) add_ball(base, base_radius);  // else it is the end of the segment before
-    add_ball(turtle.pose.position, tip_radius);
+    const glm::dvec3 tip = base + turtle.pose.heading * (distance * turtle.scale);
+    turtle.pose.position = tip;
+    require_number(tip);
+    draw_segment(turtle, base, tip);
 }
 
-inline void Walk::require_position() const {
-    const glm::dvec3& position = turtle.pose.position;
+inline void Walk::require_number(const glm::dvec3& position) const {
     if (!std::isfinite(position.x + position.y + position.z)) fail("the turtle's position is not a number any more");
 }
 
@@ -238,32 +289,55 @@ inline Rotation Walk::rotation(std::span<const double> parameters) {
     return known.rotation;
 }
 
+// Copied number by number and vector by vector, as they are read and written elsewhere: a load that spans two stores
+// just made waits until both have reached the cache.
+inline void copy_bits(const double& from, double& to) {
+    std::memcpy(&to, &from, sizeof(double));
+}
+
+inline void copy_vector(const glm::dvec3& from, glm::dvec3& to) {
+    std::memcpy(&to.x, &from.x, 2 * sizeof(double));
+    copy_bits(from.z, to.z);
+}
+
+inline void TurtleStack::branch(const TurtleState& from, TurtleState& to) {
+    copy_vector(from.pose.position, to.pose.position);
+    copy_vector(from.pose.heading, to.pose.heading);
+    copy_vector(from.pose.left, to.pose.left);
+    copy_vector(from.pose.up, to.pose.up);
+    to.width = from.width;
+    copy_bits(from.scale, to.scale);
+    to.colour = from.colour;
+    to.back_colour = from.back_colour;
+    to.axis = from.axis;
+    to.order = std::uint16_t(from.order + (from.order < std::numeric_limits<std::uint16_t>::max()));
+    to.on_axis = false;
+    to.branches_off = true;
+    to.texture = from.texture;
+    to.brush = from.brush;
+    to.systems = from.systems;
+    to.cylinder = from.cylinder;
+    to.node_width = from.width;  // the next axis begins with it
+    copy_bits(from.elasticity, to.elasticity);
+}
+
 inline void Walk::push() {
-    stack.push_back(turtle);
-    if (!elasticities.empty()) {
-        elasticity_stack.insert(elasticity_stack.end(), elasticities.begin(), elasticities.end());
-    }
-    turtle.on_axis = false;
-    turtle.branches_off = true;
-    if (turtle.order < std::numeric_limits<std::uint16_t>::max()) ++turtle.order;
+    turtles.push();
+    if (!elasticities.empty()) push_elasticities();
 }
 
 inline void Walk::pop() {
     // Strings of old models may end more branches than they began; `check` warns of the productions.
-    if (stack.empty()) return;
-    turtle = stack.back();
-    stack.pop_back();
-    if (systems.size() > turtle.systems) systems.resize(turtle.systems);
-    if (elasticities.empty()) return;
-    const auto first = elasticity_stack.end() - std::ptrdiff_t(elasticities.size());
-    std::copy(first, elasticity_stack.end(), elasticities.begin());
-    elasticity_stack.erase(first, elasticity_stack.end());
+    if (turtles.depth() == 0) return;
+    turtles.pop();
+    if (systems.size() > turtle().systems) systems.resize(turtle().systems);
+    if (!elasticities.empty()) pop_elasticities();
 }
 
 inline void Walk::set_width(double width) {
     constexpr double thinnest = 1e-7;  // cpfg's
     if (!std::isfinite(width)) fail("the line width is not a number");
-    turtle.width = std::max(width, thinnest);
+    turtle().width = std::max(width, thinnest);
 }
 
 }  // namespace espalier

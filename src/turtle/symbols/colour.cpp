@@ -20,23 +20,23 @@ void change_colour(Walk& walk, int& colour, std::span<const double> parameters, 
 
 /// The back has no colour of its own until it is set; cpfg counts from 128 then.
 void change_back(Walk& walk, std::span<const double> parameters, int increment) {
-    int back = walk.turtle.back_colour < 0 ? 128 : walk.turtle.back_colour;
+    int back = walk.turtle().back_colour < 0 ? 128 : walk.turtle().back_colour;
     change_colour(walk, back, parameters, increment);
-    walk.turtle.back_colour = back;
+    walk.turtle().back_colour = back;
 }
 
 const Symbol next{";",
                   {},
                   ";(index): set the colour index; without parameter, add the increment",
                   [](Walk& walk, std::span<const double> parameters) {
-                      change_colour(walk, walk.turtle.colour, parameters, walk.settings.colour_increment);
+                      change_colour(walk, walk.turtle().colour, parameters, walk.settings.colour_increment);
                   }};
 
 const Symbol previous{",",
                       {},
                       ",(index): set the colour index; without parameter, subtract the increment",
                       [](Walk& walk, std::span<const double> parameters) {
-                          change_colour(walk, walk.turtle.colour, parameters, -walk.settings.colour_increment);
+                          change_colour(walk, walk.turtle().colour, parameters, -walk.settings.colour_increment);
                       }};
 
 const Symbol next_back{
@@ -54,7 +54,7 @@ const Symbol texture{"@Tx",
                      "@Tx(number): the texture of surfaces and cylinders from here on; 0 is none",
                      [](Walk& walk, std::span<const double> parameters) {
                          const bool possible = parameters[0] >= 0 && parameters[0] < 65536;
-                         walk.turtle.texture = possible ? std::uint16_t(parameters[0]) : 0;
+                         walk.turtle().texture = possible ? std::uint16_t(parameters[0]) : 0;
                      }};
 
 }  // namespace

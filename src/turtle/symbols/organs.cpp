@@ -9,12 +9,12 @@ namespace {
 /// Towards the reader of a front view, who looks along -z.
 Pose facing_the_screen(const Walk& walk) {
     Pose pose;
-    pose.position = walk.turtle.pose.position;
+    pose.position = walk.turtle().pose.position;
     return pose;
 }
 
 double diameter(const Walk& walk, std::span<const double> parameters) {
-    return parameters.empty() ? walk.turtle.width : parameters[0] * walk.turtle.scale;
+    return parameters.empty() ? walk.turtle().width : parameters[0] * walk.turtle().scale;
 }
 
 void place_surface(Walk& walk, std::span<const double> parameters) {
@@ -34,11 +34,11 @@ const Symbol disc{"@c",
                   {},
                   "@c(diameter): a disc in the plane of heading and left",
                   [](Walk& walk, std::span<const double> parameters) {
-                      walk.place(Organ::Shape::disc, walk.turtle.pose, diameter(walk, parameters));
+                      walk.place(Organ::Shape::disc, walk.turtle().pose, diameter(walk, parameters));
                   }};
 
 const Symbol sphere{"@O", {}, "@O(diameter): a sphere", [](Walk& walk, std::span<const double> parameters) {
-                        walk.place(Organ::Shape::sphere, walk.turtle.pose, diameter(walk, parameters));
+                        walk.place(Organ::Shape::sphere, walk.turtle().pose, diameter(walk, parameters));
                     }};
 
 const Symbol screen_circle{
@@ -47,7 +47,7 @@ const Symbol screen_circle{
     }};
 
 const Symbol circle{"@bc", {}, "@bc(diameter): the outline of @c", [](Walk& walk, std::span<const double> parameters) {
-                        walk.place(Organ::Shape::circle, walk.turtle.pose, diameter(walk, parameters));
+                        walk.place(Organ::Shape::circle, walk.turtle().pose, diameter(walk, parameters));
                     }};
 
 const Symbol surface{

@@ -14,12 +14,12 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
         if (!std::isfinite(parameter)) walk.fail("a heading that is not a number");
     }
     const glm::dvec3 heading(parameters[0], parameters[1], parameters.size() > 2 ? parameters[2] : 0);
-    head_towards(walk.turtle.pose, heading);
+    head_towards(walk.turtle().pose, heading);
     if (parameters.size() < 6) return;
     // An up vector counts only if it is perpendicular to the heading, as in cpfg.
     const glm::dvec3 up(parameters[3], parameters[4], parameters[5]);
     const double length = glm::length(up);
-    Pose& pose = walk.turtle.pose;
+    Pose& pose = walk.turtle().pose;
     if (length == 0 || std::abs(glm::dot(up / length, pose.heading)) > 1e-9) return;
     pose.up = up / length;
     pose.left = glm::cross(pose.heading, pose.up);
@@ -27,48 +27,48 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
 
 const Symbol left{
     "+", {}, "+(angle): turn left, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
-        turn_left(walk.turtle.pose, walk.rotation(parameters));
+        turn_left(walk.turtle().pose, walk.rotation(parameters));
     }};
 
 const Symbol right{
     "-", {}, "-(angle): turn right, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
-        turn_left(walk.turtle.pose, walk.rotation(parameters).inverse());
+        turn_left(walk.turtle().pose, walk.rotation(parameters).inverse());
     }};
 
 const Symbol down{
     "&",
     {},
     "&(angle): pitch the heading towards up, about left. Degrees",
-    [](Walk& walk, std::span<const double> parameters) { pitch_down(walk.turtle.pose, walk.rotation(parameters)); }};
+    [](Walk& walk, std::span<const double> parameters) { pitch_down(walk.turtle().pose, walk.rotation(parameters)); }};
 
 const Symbol up{"^",
                 {},
                 "^(angle): pitch the heading away from up, about left. Degrees",
                 [](Walk& walk, std::span<const double> parameters) {
-                    pitch_down(walk.turtle.pose, walk.rotation(parameters).inverse());
+                    pitch_down(walk.turtle().pose, walk.rotation(parameters).inverse());
                 }};
 
 const Symbol roll{
     "/",
     {},
     "/(angle): roll left towards up, about the heading. Degrees",
-    [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle.pose, walk.rotation(parameters)); }};
+    [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle().pose, walk.rotation(parameters)); }};
 
 const Symbol roll_back{"\\",
                        {},
                        "\\(angle): roll left away from up, about the heading. Degrees",
                        [](Walk& walk, std::span<const double> parameters) {
-                           roll_left(walk.turtle.pose, walk.rotation(parameters).inverse());
+                           roll_left(walk.turtle().pose, walk.rotation(parameters).inverse());
                        }};
 
 const Symbol turn_around{"|", {0}, "|: turn around, about up", [](Walk& walk, std::span<const double>) {
-                             turn_left(walk.turtle.pose, Rotation(std::numbers::pi));
+                             turn_left(walk.turtle().pose, Rotation(std::numbers::pi));
                          }};
 
 const Symbol horizontal{"@v",
                         {0},
                         "@v: roll until left is horizontal; nothing if the heading is vertical",
-                        [](Walk& walk, std::span<const double>) { level(walk.turtle.pose); }};
+                        [](Walk& walk, std::span<const double>) { level(walk.turtle().pose); }};
 
 const Symbol absolute{
     "@R", {2, 3, 4, 5, 6}, "@R(x, y, z, ux, uy, uz): head to (x, y, z), up (ux, uy, uz) if perpendicular", set_heading};

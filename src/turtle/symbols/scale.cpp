@@ -16,14 +16,14 @@ const Symbol multiply{"@Di",
                       {},
                       "@Di(factor): multiply the scale; by the scene's multiplier without parameter",
                       [](Walk& walk, std::span<const double> parameters) {
-                          walk.set_scale(walk.turtle.scale * factor(walk, parameters));
+                          walk.set_scale(walk.turtle().scale * factor(walk, parameters));
                       }};
 
 const Symbol divide{"@Dd",
                     {},
                     "@Dd(factor): divide the scale; by the scene's multiplier without parameter",
                     [](Walk& walk, std::span<const double> parameters) {
-                        walk.set_scale(walk.turtle.scale / factor(walk, parameters));
+                        walk.set_scale(walk.turtle().scale / factor(walk, parameters));
                     }};
 
 }  // namespace

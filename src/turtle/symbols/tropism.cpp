@@ -35,7 +35,7 @@ const Symbol older{"_",
                    {},
                    "_(elasticity): set the elasticity of the older tropism; without parameter, add its increment",
                    [](Walk& walk, std::span<const double> parameters) {
-                       double& elasticity = walk.turtle.elasticity;
+                       double& elasticity = walk.turtle().elasticity;
                        elasticity =
                            parameters.empty() ? elasticity + walk.settings.elasticity_increment : parameters[0];
                    }};

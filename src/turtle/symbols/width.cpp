@@ -5,7 +5,7 @@ namespace espalier {
 namespace {
 
 void change_width(Walk& walk, std::span<const double> parameters, double increment) {
-    walk.set_width(parameters.empty() ? walk.turtle.width + increment : parameters[0] * walk.turtle.scale);
+    walk.set_width(parameters.empty() ? walk.turtle().width + increment : parameters[0] * walk.turtle().scale);
 }
 
 const Symbol wider{"#",
