@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <set>
 
 namespace espalier {
 namespace {
@@ -39,7 +40,8 @@ std::optional<double> number(const std::string& text) {
 // Twelve digits: 0.3 is written so, whatever the last bit of its sum was.
 std::vector<std::string> evenly(const std::string& text, const std::vector<std::string>& parts) {
     const auto first = number(parts[0]), last = number(parts[1]), count = number(parts[2]);
-    if (!first || !last || !count || *count != std::trunc(*count) || !(*count >= 1 && *count <= most)) {
+    if (!first || !last || !count || !std::isfinite(*last - *first) || *count != std::trunc(*count) ||
+        !(*count >= 1 && *count <= most)) {
         refuse(text, "FIRST:LAST:COUNT are expected, such as 0.1:0.9:9");
     }
     std::vector<std::string> values;
@@ -103,13 +105,17 @@ Variation parse_variation(const std::string& text) {
     const std::vector<std::string> by_colons = split(values, ":"), by_dots = split(values, "..");
     if (by_colons.size() == 3) {
         variation.values = evenly(text, by_colons);
-    } else if (by_dots.size() == 2) {
+    } else if (by_dots.size() == 2 && values.find(',') == std::string::npos) {
         variation.values = one_by_one(text, by_dots);
     } else {
         variation.values = split(values, ",");
     }
     const auto is_empty = [](const std::string& value) { return value.empty(); };
     if (std::any_of(variation.values.begin(), variation.values.end(), is_empty)) refuse(text, "a value is empty");
+    std::set<std::string> seen;  // two of the same would be two runs in one folder
+    for (const std::string& value : variation.values) {
+        if (!seen.insert(value).second) refuse(text, fmt::format("the value {} is there twice", value));
+    }
     return variation;
 }
 

@@ -1,6 +1,8 @@
 #include "espalier/simulation/world.h"
 
+#include "lsystem/bytes.h"
 #include "memory.h"
+#include "string_checkpoint.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -13,6 +15,8 @@
 
 namespace espalier {
 namespace {
+
+constexpr std::uint64_t checkpoint_signature = 0x31'646c'726f'57;  // "World1"
 
 struct Plant {
     std::uint32_t number = 0;
@@ -235,6 +239,34 @@ World::World(const Scene& scene, std::size_t memory, const std::filesystem::path
 }
 
 World::~World() = default;
+
+void World::save(std::ostream& out) const {
+    put(out, checkpoint_signature);
+    put(out, static_cast<std::int32_t>(state_->step));
+    put(out, static_cast<std::uint64_t>(state_->plants.size()));
+    for (const Plant& plant : state_->plants) {
+        plant.derivation.save(out);
+        save_string(plant.string, out);
+    }
+    state_->environment->save(out);
+}
+
+void World::restore(std::istream& in) {
+    if (get<std::uint64_t>(in) != checkpoint_signature) throw RunError("this is not the checkpoint of a world");
+    const auto step = get<std::int32_t>(in);
+    if (get<std::uint64_t>(in) != state_->plants.size()) throw RunError("the checkpoint is of another scene");
+    for (Plant& plant : state_->plants) {
+        plant.derivation.restore(in);
+        restore_string(plant.string, state_->shares.string, in);
+        plant.memory.strings = plant.string.bytes();
+        plant.length = plant.derivation.length();
+        plant.stopped = plant.derivation.stopped();
+    }
+    state_->environment->restore(in);
+    state_->step = step;
+    state_->frames_of = -1;
+    state_->sum_up();
+}
 
 void World::start() {
     plant_axioms();

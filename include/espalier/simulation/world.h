@@ -5,6 +5,7 @@
 #include "espalier/timeline/frame.h"
 
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <vector>
 
@@ -29,6 +30,12 @@ public:
     void start();
     /// derive -> interpret -> exchange, for every plant; frame k is k steps.
     void step();
+
+    /// Everything that lasts from step to step, as bytes, after a step; for this machine and the same scene.
+    void save(std::ostream& out) const;
+    /// Instead of start(): the next step() is the one after the save. The frame of the saved step is not there again.
+    /// Throws RunError or UserError for bytes of another scene, or for bytes that are damaged.
+    void restore(std::istream& in);
 
     // The parts of start() and step(), for who wants to see a string before its queries are answered.
     void plant_axioms();
