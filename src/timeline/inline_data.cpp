@@ -1,9 +1,6 @@
 #include "timeline/inline_data.h"
 
-#include "espalier/base/error.h"
-
-#include <vtkLZ4DataCompressor.h>
-#include <vtkNew.h>
+#include "timeline/lz4_block.h"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +10,8 @@
 namespace espalier {
 namespace {
 
-// Blocks stay in the cache; within 64 KiB LZ4 would take tables so small that it misses most repetitions of organs.
+/// Blocks stay in the cache.
 constexpr std::size_t block_bytes = std::size_t{1} << 18;
-/// Coordinates hardly repeat: looking less hard for it halves the time and costs a thousandth of the size.
-constexpr int acceleration = 4;
 
 constexpr std::size_t base64_length(std::size_t bytes) {
     return (bytes + 2) / 3 * 4;
@@ -53,72 +48,32 @@ char* write_base64_end(const unsigned char* bytes, std::size_t count, char* out)
     return out;
 }
 
-template <std::size_t Width>
-struct Tuple {
-    std::array<unsigned char, Width> bytes;
-};
-
-// Tuples [first, last) of an array of runs; `run` is that of the first and moves on.
-template <std::size_t Width>
-void expand(const DataArray& array, std::size_t first, std::size_t last, std::size_t& run, unsigned char* out) {
-    const auto* values = static_cast<const Tuple<Width>*>(array.values);
-    auto* tuples = reinterpret_cast<Tuple<Width>*>(out);
-    while (first < last) {
-        const std::size_t end = std::min<std::size_t>(array.ends[run], last);
-        const Tuple<Width> value = values[run];
-        for (; first < end; ++first) *tuples++ = value;
-        if (end == array.ends[run]) ++run;
-    }
-}
-
-using Expand = void (*)(const DataArray&, std::size_t, std::size_t, std::size_t&, unsigned char*);
-
-Expand expander(std::size_t width) {
-    switch (width) {
-        case 1:
-            return expand<1>;
-        case 2:
-            return expand<2>;
-        case 3:
-            return expand<3>;
-        case 4:
-            return expand<4>;
-        case 8:
-            return expand<8>;
-        default:
-            throw RunError("an array of runs with tuples of a width that nobody writes");
-    }
-}
-
-/// The blocks of an array one after the other, as bytes in memory.
+/// The blocks of an array one after the other, compressed.
 class Blocks {
 public:
     explicit Blocks(const DataArray& array)
-        : array_(array), tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {
-        if (!array.ends.empty()) {
-            expand_ = expander(array.tuple_bytes);
-            expanded_.resize(full());
-        }
-    }
+        : array_(array), tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {}
 
     std::size_t full() const { return tuples_ * array_.tuple_bytes; }
     std::size_t count() const { return (array_.tuples + tuples_ - 1) / tuples_; }
+    std::size_t most_bytes() const { return most_lz4_bytes(std::min(full(), array_.bytes())); }
 
-    std::span<const unsigned char> next() {
-        const std::size_t first = done_, last = std::min(array_.tuples, done_ + tuples_);
+    /// Returns how many bytes it has written.
+    std::size_t next(unsigned char* out) {
+        const std::size_t first = done_, last = std::min(array_.tuples, done_ + tuples_), width = array_.tuple_bytes;
         done_ = last;
-        const std::size_t bytes = (last - first) * array_.tuple_bytes;
-        if (!expand_) return {static_cast<const unsigned char*>(array_.values) + first * array_.tuple_bytes, bytes};
-        expand_(array_, first, last, run_, expanded_.data());
-        return {expanded_.data(), bytes};
+        if (!array_.ends.empty()) {
+            return compressor_.compress_runs(array_.values, array_.ends, width, first, last, run_, out);
+        }
+        const auto* bytes = static_cast<const unsigned char*>(array_.values);
+        return compressor_.compress({bytes + first * width, (last - first) * width}, width, out);
     }
 
 private:
     const DataArray& array_;
+    Lz4Blocks compressor_;
     std::size_t tuples_;  ///< in a block
     std::size_t done_ = 0, run_ = 0;
-    Expand expand_ = nullptr;
-    Column<unsigned char> expanded_;
 };
 
 }  // namespace
@@ -134,15 +89,10 @@ void encode(const DataArray& array, Column<char>& text) {
     const std::size_t header_at = text.size(), header_bytes = header.size() * sizeof(std::uint64_t);
     text.resize(header_at + base64_length(header_bytes));
 
-    vtkNew<vtkLZ4DataCompressor> compressor;
-    compressor->SetAccelerationLevel(acceleration);
-    const std::size_t space = compressor->GetMaximumCompressionSpace(blocks.full());
-    Column<unsigned char> packed(2 + space);  // behind what the block before left of a triplet
+    Column<unsigned char> packed(2 + blocks.most_bytes());  // behind what the block before left of a triplet
     std::size_t left = 0;
     for (std::size_t block = 0; block < count; ++block) {
-        const std::span<const unsigned char> bytes = blocks.next();
-        const std::size_t size = compressor->Compress(bytes.data(), bytes.size(), packed.data() + left, space);
-        if (size == 0) throw RunError("the LZ4 compressor failed");
+        const std::size_t size = blocks.next(packed.data() + left);
         header[3 + block] = size;
         const std::size_t ready = left + size, whole = ready / 3 * 3;
         const std::size_t at = text.size();

@@ -43,8 +43,7 @@ DataArray data_array(std::string name, std::span<const T> values, int components
     return {std::move(name), vtk_type<T>(), components, sizeof(T) * width, values.size() / width, values.data(), {}};
 }
 
-/// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks. Throws RunError if the
-/// compressor fails.
+/// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks.
 void encode(const DataArray& array, Column<char>& text);
 
 }  // namespace espalier
