@@ -4,6 +4,7 @@
 #include "environment/soil_water_soil.h"
 #include "table.h"
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <cstring>
@@ -55,35 +56,83 @@ void echo_round_trip(benchmark::State& state) {
 }
 BENCHMARK(echo_round_trip)->UseRealTime();
 
-const std::string shade = R"([light]
-process = "voxel-shade"
+/// 100,000 questions to a process of their own: the exchange around it is what the echo measures.
+class ShadedCrown {
+public:
+    ShadedCrown() {
+        Settings settings = Settings::parse_toml(R"(process = "voxel-shade"
 voxel = 1
 strength = 1
 dissipation = 1.5
 depth = 8
-)";
+)",
+                                                 "scene.toml");
+        EnvironmentContext context;
+        context.name = "light";
+        process_ = ProcessRegistry::entries().at("voxel-shade").make(settings, context, fields_);
+        parameters_.resize(count);
+        answers_.resize(count);
+        for (const Asked& asked : crown(count, 1)) {
+            Query query;
+            query.parameters = {&parameters_[queries_.size()], 1};
+            query.pose.position = asked.position;
+            queries_.push_back(query);
+        }
+    }
 
-/// A step in which every caster differs from the step before, its two published grids included.
+    void ask_with(double strength) { std::fill(parameters_.begin(), parameters_.end(), strength); }
+    void advance() {
+        process_->advance({}, queries_, fields_);
+        benchmark::DoNotOptimize(fields_.need("light").grid.get());
+    }
+    void answer() {
+        for (std::size_t i = 0; i < count; ++i) answer_spans_[i] = {&answers_[i], 1};
+        process_->answer({}, queries_, answer_spans_, fields_);
+        benchmark::DoNotOptimize(answers_.data());
+    }
+
+    static constexpr std::size_t count = 100'000;
+
+private:
+    Fields fields_;
+    std::unique_ptr<EnvironmentProcess> process_;
+    std::vector<double> parameters_, answers_;
+    std::vector<Query> queries_;
+    std::vector<Answer> answer_spans_ = std::vector<Answer>(count);
+};
+
+/// From the questions to the published grid of light, in a step in which every caster differs from the step before.
 void shade_of_a_crown(benchmark::State& state) {
-    Environment environment = environment_of(shade);
-    AskingPlants plants;
-    plants.add(crown(100'000, 1));
+    ShadedCrown shaded;
     double strength = 1;
-    const auto step = [&] {
-        plants.exchange(environment);
-        benchmark::DoNotOptimize(environment.fields().need("light").grid.get());
-        benchmark::DoNotOptimize(environment.fields().need("light.shade").grid.get());
-    };
-    step();  // the first takes fresh memory, the others have it
+    const auto ask = [&] { shaded.ask_with(strength = 1.9 - strength); };
+    for (int i = 0; i < 2; ++i) {  // the first steps take fresh memory, the others have it
+        ask();
+        shaded.advance();
+    }
     for (auto _ : state) {
         state.PauseTiming();
-        strength = 1.9 - strength;
-        plants.ask_again_with(strength);
+        ask();
         state.ResumeTiming();
-        step();
+        shaded.advance();
     }
 }
 BENCHMARK(shade_of_a_crown)->UseRealTime();
+
+/// Each between the eight voxels around it, all over 134 MB of sums; nanoseconds for one of them.
+void answers_from_the_shade(benchmark::State& state) {
+    ShadedCrown shaded;
+    shaded.ask_with(1);
+    shaded.advance();
+    double best = 1e9;
+    for (auto _ : state) {
+        const auto begin = std::chrono::steady_clock::now();
+        shaded.answer();
+        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    state.counters["value"] = best / double(ShadedCrown::count) * 1e9;
+}
+BENCHMARK(answers_from_the_shade)->UseRealTime();
 
 void copy_of_a_float_field(benchmark::State& state) {
     const std::vector<float> from(std::size_t(edge) * edge * edge, 1.0f);
@@ -109,7 +158,7 @@ void one_changed_organ(benchmark::State& state) {
     for (std::size_t i = 0; i < moves; ++i) {
         ShadeCast cast = casts.casts()[i * 97];
         back[i].come = there[i].gone = {cast};
-        cast.apex.x += 1;
+        cast.apex[static_cast<int>(i % 3)] += 1;  // sideways, upwards, sideways
         there[i].come = back[i].gone = {cast};
     }
     double best = 1e9;
@@ -155,12 +204,18 @@ using Measure = Row::Measure;
 using Goal = Row::Goal;
 const Row trip{
     "a question's round trip through an echo, ns", "echo_round_trip/real_time", "", Measure::value, Goal::at_most, 50};
-const Row rebuilt{"shade of 100,000 casters in 256^3 and its grids, against copying the field",
+const Row rebuilt{"shade of 100,000 casters in 256^3: casts, sums, grid of light; against copying the field",
                   "shade_of_a_crown/real_time",
                   "copy_of_a_float_field/real_time",
                   Measure::time,
                   Goal::at_most,
                   4};
+const Row answered{"a scattered question answered from that shade, without the exchange, ns",
+                   "answers_from_the_shade/real_time",
+                   "",
+                   Measure::value,
+                   Goal::at_most,
+                   150};
 const Row changed{
     "one changed organ in the shade, us", "one_changed_organ/real_time", "", Measure::value, Goal::at_most, 3};
 const Row sweep{"diffusion sweep in 256^3, against copying the field",

@@ -18,6 +18,36 @@ constexpr std::size_t voxels_per_change = 1000, casts_per_change = 8;
 
 constexpr int edge = ShadeBricks::edge;
 
+// Parts whose memory is on its way before the first of them is added.
+constexpr std::size_t most_listed = 256;
+
+/// Voxels of a layer; with corners as seen from a brick only those in it.
+struct Square {
+    int left, right, back, front;
+
+    static Square around(const glm::ivec3& apex, int width, int deep) {
+        return {apex.x - width, apex.x + width, apex.z - deep, apex.z + deep};
+    }
+    bool empty() const { return left > right || back > front; }
+    Square within(const Square& other) const {
+        return {std::max(left, other.left), std::min(right, other.right), std::max(back, other.back),
+                std::min(front, other.front)};
+    }
+    Square seen_from(const glm::ivec3& origin) const {
+        return Square{left - origin.x, right - origin.x, back - origin.z, front - origin.z}.within(
+            {0, edge - 1, 0, edge - 1});
+    }
+    /// What lies to the left of `other`, to its right, behind it and before it.
+    std::array<Square, 4> without(const Square& other) const {
+        const Square both = within(other);
+        if (both.empty()) return {*this, nothing(), nothing(), nothing()};
+        return {Square{left, both.left - 1, back, front}, Square{both.right + 1, right, back, front},
+                Square{both.left, both.right, back, both.back - 1},
+                Square{both.left, both.right, both.front + 1, front}};
+    }
+    static Square nothing() { return {0, -1, 0, -1}; }
+};
+
 ESPALIER_VECTOR_CLONES
 void add_parts(std::span<const ShadePart> parts) {
     for (const ShadePart& part : parts) {
@@ -74,7 +104,7 @@ void ShadeField::enclose(const ShadeCasts& casts, const Extremes& extremes) {
     box_ = box;
 }
 
-bool ShadeField::show(const ShadeCasts& casts) {
+bool ShadeField::show(const ShadeCasts& casts, const ShadeSweep::Leaves& leaves) {
     const bool known = shown_ == casts.before().size();
     const std::size_t most =
         bricks_.end() * ShadeBricks::voxels / voxels_per_change + casts.casts().size() / casts_per_change;
@@ -82,17 +112,17 @@ bool ShadeField::show(const ShadeCasts& casts) {
         if (changes_.gone.empty() && changes_.come.empty()) return false;
         if (update(casts, changes_)) return true;
     }
-    rebuild(casts);
+    rebuild(casts, leaves);
     return true;
 }
 
-void ShadeField::rebuild(const ShadeCasts& casts) {
+void ShadeField::rebuild(const ShadeCasts& casts, const ShadeSweep::Leaves& leaves) {
     enclose(casts, extremes_of(casts.casts()));
     shown_ = casts.casts().size();
     if (shown_ == 0)
         bricks_.clear();
     else
-        sweep_.run(casts, box_, bricks_);
+        sweep_.run(casts, box_, bricks_, leaves);
 }
 
 bool ShadeField::update(const ShadeCasts& casts, const ShadeChanges& changes) {
@@ -103,37 +133,63 @@ bool ShadeField::update(const ShadeCasts& casts, const ShadeChanges& changes) {
     for (const ShadeCast& cast : changes.gone) known = extremes.remove(cast.apex) && known;
     enclose(casts, known ? extremes : extremes_of(casts.casts()));
     if (!bricks_.cover_also(ShadeBricks::brick_of(box_.lower), ShadeBricks::brick_of(box_.upper))) return false;
-    for (const ShadeCast& cast : changes.come) add(casts, cast, 1);
-    for (const ShadeCast& cast : changes.gone) add(casts, cast, -1);
+    add(casts, changes.come, changes.gone, 1);
+    add(casts, changes.gone, changes.come, -1);  // last: a brick that goes is not needed again
+    add_listed();
     shown_ = casts.casts().size();
     return true;
 }
 
-// Lists the parts of one pyramid, brick after brick, and fetches them meanwhile.
-void ShadeField::add(const ShadeCasts& casts, const ShadeCast& cast, Shade sign) {
+// A pyramid that moved sideways, as a growing organ's does from step to step, is beside itself in the other list: what
+// both cover stays as it is.
+void ShadeField::add(const ShadeCasts& casts, std::span<const ShadeCast> some, std::span<const ShadeCast> others,
+                     Shade sign) {
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        const bool moved = i < others.size() && some[i].row == others[i].row && some[i].apex.y == others[i].apex.y;
+        list(casts, some[i], moved ? &others[i] : nullptr, sign);
+        if (parts_.size() >= most_listed) add_listed();
+    }
+}
+
+void ShadeField::add_listed() {
+    add_parts(parts_);
+    parts_.clear();
+}
+
+// Lists the parts of one pyramid, brick after brick, without what `except` covers, and has them fetched meanwhile.
+void ShadeField::list(const ShadeCasts& casts, const ShadeCast& cast, const ShadeCast* except, Shade sign) {
     const glm::ivec3& apex = cast.apex;
     const VoxelBox bounds = casts.bounds(apex).within(casts.clip());
     const Shade* weights = casts.weights(cast);
-    parts_.clear();
-    const auto list = [&](const glm::ivec3& brick) {
+    const auto list_part = [&](Shade* layer, const Square& part, Shade weight) {
+        if (part.empty()) return;
+        for (int x = part.left; x <= part.right; ++x) prefetch(layer + x * edge * edge);
+        parts_.push_back({layer, part.left, part.right, part.back, part.front, weight});
+    };
+    const auto list_brick = [&](const glm::ivec3& brick) {
         const std::int32_t number = sign > 0 ? bricks_.reach(brick) : bricks_.find(brick);
         if (sign < 0) bricks_.leave(number);
         Shade* sums = bricks_.sums(static_cast<std::size_t>(number));
         const glm::ivec3 origin = brick * edge;
+        const Square whole = Square{bounds.lower.x, bounds.upper.x, bounds.lower.z, bounds.upper.z}.seen_from(origin);
         for (int y = std::max(bounds.lower.y, origin.y); y <= std::min(bounds.upper.y, origin.y + edge - 1); ++y) {
             const int q = apex.y - y, width = casts.half_width(q), deep = casts.thickness(q);
-            const ShadePart part{sums + (y - origin.y) * edge,
-                                 std::max({apex.x - width, bounds.lower.x, origin.x}) - origin.x,
-                                 std::min({apex.x + width, bounds.upper.x, origin.x + edge - 1}) - origin.x,
-                                 std::max(apex.z - deep, bounds.lower.z) - origin.z,
-                                 std::min(apex.z + deep, bounds.upper.z) - origin.z,
-                                 sign * weights[q]};
-            for (int x = part.left; x <= part.right; ++x) prefetch(part.layer + x * edge * edge);
-            if (part.left <= part.right) parts_.push_back(part);
+            Shade* layer = sums + (y - origin.y) * edge;
+            const Square part = Square::around(apex, width, deep).seen_from(origin).within(whole);
+            if (except == nullptr) {
+                list_part(layer, part, sign * weights[q]);
+                continue;
+            }
+            const Square other = Square::around(except->apex, width, deep).seen_from(origin);
+            for (const Square& rest : part.without(other)) list_part(layer, rest, sign * weights[q]);
         }
     };
-    for (int y = bounds.lower.y >> 3; y <= bounds.upper.y >> 3; ++y) visit_bricks(casts, apex, y, list);
-    add_parts(parts_);
+    for (int y = bounds.lower.y >> 3; y <= bounds.upper.y >> 3; ++y) {
+        const BrickSquare square = reached_bricks(casts, apex, y);
+        for (int x = square.left; x <= square.right; ++x) {
+            for (int z = square.back; z <= square.front; ++z) list_brick({x, y, z});
+        }
+    }
 }
 
 }  // namespace espalier

@@ -23,10 +23,11 @@ public:
     explicit ShadeField(std::size_t memory) : bricks_(memory) {}
 
     /// Comes to be the sum of this step's pyramids; it must have been asked for that of the step before. False if
-    /// nothing changed. Throws RunError before allocating more than the memory allows.
-    bool show(const ShadeCasts& casts);
+    /// nothing changed. What is summed anew is written into `leaves` as well. Throws RunError before allocating more
+    /// than the memory allows.
+    bool show(const ShadeCasts& casts, const ShadeSweep::Leaves& leaves = {});
     /// The sum of all pyramids, whatever was before.
-    void rebuild(const ShadeCasts& casts);
+    void rebuild(const ShadeCasts& casts, const ShadeSweep::Leaves& leaves = {});
     /// Takes the changes in, which lead to this step's pyramids. False, and nothing done, where only a rebuild can.
     bool update(const ShadeCasts& casts, const ShadeChanges& changes);
 
@@ -52,7 +53,9 @@ private:
 
     void enclose(const ShadeCasts& casts, const Extremes& extremes);
     static Extremes extremes_of(std::span<const ShadeCast> casts);
-    void add(const ShadeCasts& casts, const ShadeCast& cast, Shade sign);
+    void add(const ShadeCasts& casts, std::span<const ShadeCast> some, std::span<const ShadeCast> others, Shade sign);
+    void list(const ShadeCasts& casts, const ShadeCast& cast, const ShadeCast* except, Shade sign);
+    void add_listed();
 
     ShadeBricks bricks_;
     ShadeSweep sweep_;

@@ -1,12 +1,10 @@
 #include "environment/shade_grids.h"
 
-#include "espalier/base/vector_clones.h"
 #include "espalier/environment/openvdb_grid.h"
 
 #include <tbb/parallel_for.h>
 
 #include <atomic>
-#include <cstring>
 
 namespace espalier {
 namespace {
@@ -19,64 +17,8 @@ openvdb::Coord coord(const glm::ivec3& voxel) {
     return {voxel.x, voxel.y, voxel.z};
 }
 
-// Whole numbers below 2^52 as the bits of a double above 2^52: every width of vectors can do that.
-constexpr std::uint64_t exponent_52 = 0x4330000000000000;
-constexpr double two_52 = 4503599627370496.0;
-
-/// Which of a brick's voxels are shaded, 64 to a word, and whether all of them are below 2^52.
-ESPALIER_VECTOR_CLONES
-bool find_shaded(const Shade* sums, std::uint64_t* words) {
-    std::uint64_t all = 0;
-    for (std::size_t word = 0; word < ShadeBricks::voxels / 64; ++word) {
-        std::uint64_t bits = 0;
-        for (std::size_t bit = 0; bit < 64; ++bit) {
-            const auto sum = static_cast<std::uint64_t>(sums[64 * word + bit]);
-            all |= sum;
-            bits |= ((0 - sum) >> 63) << bit;  // sums are not negative
-        }
-        words[word] = bits;
-    }
-    return all < std::uint64_t(1) << 52;
-}
-
-// In as many parts as the machine's vectors need.
-using WholeEight = std::uint64_t __attribute__((vector_size(64)));
-using RealEight = double __attribute__((vector_size(64)));
-using FloatEight = float __attribute__((vector_size(32)));
-
-ESPALIER_VECTOR_CLONES
-void write_added(const Shade* sums, double full_light, float* light, float* shade) {
-    for (std::size_t i = 0; i < ShadeBricks::voxels; i += 8) {
-        WholeEight bits;
-        std::memcpy(&bits, sums + i, sizeof bits);
-        bits |= exponent_52;
-        RealEight amount;
-        std::memcpy(&amount, &bits, sizeof bits);
-        amount = (amount - two_52) * (1 / shade_steps_per_unit);
-        RealEight left = full_light - amount;
-        left = left < 0.0 ? RealEight{} : left;
-        const FloatEight shades = __builtin_convertvector(amount, FloatEight);
-        const FloatEight lights = __builtin_convertvector(left, FloatEight);
-        std::memcpy(shade + i, &shades, sizeof shades);
-        std::memcpy(light + i, &lights, sizeof lights);
-    }
-}
-
-void write(const ShadeRule& rule, const Shade* sums, Leaf& light, Leaf& shade) {
-    Leaf::NodeMaskType shaded;
-    std::uint64_t words[Leaf::NodeMaskType::WORD_COUNT];
-    const bool small = find_shaded(sums, words);
-    for (openvdb::Index word = 0; word < Leaf::NodeMaskType::WORD_COUNT; ++word) {
-        shaded.getWord<openvdb::Index64>(word) = words[word];
-    }
-    light.setValueMask(shaded);
-    shade.setValueMask(shaded);
-    float *light_values = light.buffer().data(), *shade_values = shade.buffer().data();
-    if (small && !rule.attenuate) return write_added(sums, rule.full_light, light_values, shade_values);
-    for (std::size_t i = 0; i < ShadeBricks::voxels; ++i) {
-        shade_values[i] = static_cast<float>(shade_value(sums[i]));
-        light_values[i] = static_cast<float>(light_under(rule, sums[i]));
-    }
+openvdb::Coord origin_of(const glm::ivec3& brick) {
+    return coord(brick * ShadeBricks::edge);
 }
 
 /// Removes a leaf and what of the nodes above it has become empty: a tree made anew would not have them either.
@@ -97,17 +39,46 @@ void remove_leaf(Tree& tree, const openvdb::Coord& at) {
 }  // namespace
 
 struct ShadeGrids::Grids {
-    /// A grid and, by the number of a brick, its leaves.
+    /// A grid; its leaves, and where they are, by the number of a brick; and the bricks that changed since it was made.
     struct One {
         std::shared_ptr<FieldGrid> field;
-        std::vector<Leaf*> leaves;
+        std::vector<ShadeLeaf> leaves;
+        std::vector<glm::ivec3> places;
+        std::vector<std::uint32_t> changed;
+        std::vector<std::uint8_t> marks;
 
+        void note(const ShadeBricks& bricks);
+        bool prepare(const ShadeBricks& bricks, const VoxelBox& shown);
+        template <class Write>
+        void bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write);
+        void forget_changes();
+
+    private:
         void require_own();
         void remove_stale(const ShadeBricks& bricks);
         void add_new(const ShadeBricks& bricks);
+        void place_leaf(std::size_t number, Leaf& leaf);
     };
     One light, shade;
 };
+
+void ShadeGrids::Grids::One::note(const ShadeBricks& bricks) {
+    marks.resize(bricks.end(), 0);
+    for (const std::uint32_t number : bricks.changed()) {
+        if (marks[number]) continue;
+        marks[number] = 1;
+        changed.push_back(number);
+    }
+}
+
+void ShadeGrids::Grids::One::forget_changes() {
+    for (const std::uint32_t number : changed) marks[number] = 0;
+    changed.clear();
+}
+
+void ShadeGrids::Grids::One::place_leaf(std::size_t number, Leaf& leaf) {
+    leaves[number] = {leaf.buffer().data(), &leaf.getValueMask().getWord<openvdb::Index64>(0)};
+}
 
 // With more holders than the field and ourselves, someone reads the grid of a step before: it is left to them.
 void ShadeGrids::Grids::One::require_own() {
@@ -118,34 +89,60 @@ void ShadeGrids::Grids::One::require_own() {
     const openvdb::FloatGrid::Ptr copy = field->grid->deepCopy();
     copy->setTransform(field->grid->transformPtr());  // a copied one is written in other bytes
     field = std::make_shared<FieldGrid>(FieldGrid{copy, field->box});
-    for (Leaf*& leaf : leaves) {
-        if (leaf != nullptr) leaf = field->grid->tree().probeLeaf(leaf->origin());
+    openvdb::FloatGrid::Accessor tree = copy->getAccessor();
+    for (std::size_t number = 0; number < leaves.size(); ++number) {
+        if (leaves[number].values != nullptr) place_leaf(number, *tree.probeLeaf(origin_of(places[number])));
     }
 }
 
 void ShadeGrids::Grids::One::remove_stale(const ShadeBricks& bricks) {
-    leaves.resize(bricks.end(), nullptr);
-    for (const std::uint32_t number : bricks.changed()) {
-        Leaf*& leaf = leaves[number];
-        if (leaf == nullptr) continue;
-        const openvdb::Coord origin = leaf->origin();
-        if (bricks.exists(number) && origin == coord(bricks.brick(number) * ShadeBricks::edge)) continue;
-        remove_leaf(field->grid->tree(), origin);
-        leaf = nullptr;
+    leaves.resize(bricks.end());
+    places.resize(bricks.end());
+    for (const std::uint32_t number : changed) {
+        if (leaves[number].values == nullptr) continue;
+        if (bricks.exists(number) && places[number] == bricks.brick(number)) continue;
+        remove_leaf(field->grid->tree(), origin_of(places[number]));
+        leaves[number] = {};
     }
 }
 
 void ShadeGrids::Grids::One::add_new(const ShadeBricks& bricks) {
     std::vector<std::uint32_t> numbers;
-    for (const std::uint32_t number : bricks.changed()) {
-        if (bricks.exists(number) && leaves[number] == nullptr) numbers.push_back(number);
+    for (const std::uint32_t number : changed) {
+        if (bricks.exists(number) && leaves[number].values == nullptr) numbers.push_back(number);
     }
     const float background = field->grid->background();
+    std::vector<Leaf*> fresh(numbers.size());
     tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t i) {
-        leaves[numbers[i]] = new Leaf(coord(bricks.brick(numbers[i]) * ShadeBricks::edge), background);
+        places[numbers[i]] = bricks.brick(numbers[i]);
+        fresh[i] = new Leaf(origin_of(places[numbers[i]]), background);
+        place_leaf(numbers[i], *fresh[i]);
     });
     openvdb::FloatGrid::Accessor tree = field->grid->getAccessor();
-    for (const std::uint32_t number : numbers) tree.addLeaf(leaves[number]);
+    for (Leaf* leaf : fresh) tree.addLeaf(leaf);
+}
+
+// Leaves that stay are written over. False if nothing has changed.
+bool ShadeGrids::Grids::One::prepare(const ShadeBricks& bricks, const VoxelBox& shown) {
+    // A viewer of an empty field still needs something to show: the voxel at the origin.
+    const VoxelBox box = shown.empty() ? VoxelBox{glm::ivec3(0), glm::ivec3(0)} : shown;
+    const openvdb::CoordBBox shown_box(coord(box.lower), coord(box.upper));
+    if (changed.empty() && field->box == shown_box) return false;
+    require_own();
+    field->box = shown_box;
+    remove_stale(bricks);
+    add_new(bricks);
+    return true;
+}
+
+template <class Write>
+void ShadeGrids::Grids::One::bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write) {
+    if (!prepare(bricks, shown)) return;
+    tbb::parallel_for(std::size_t{0}, changed.size(), [&](std::size_t i) {
+        const std::uint32_t number = changed[i];
+        if (bricks.exists(number)) write(bricks.sums(number), leaves[number]);
+    });
+    forget_changes();
 }
 
 ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, double voxel)
@@ -164,34 +161,37 @@ ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, double voxel)
 ShadeGrids::~ShadeGrids() = default;
 
 void ShadeGrids::provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fields) {
-    const auto current = [this, &bricks, &shown](Grids::One Grids::*which) {
-        bring_up_to_date(bricks, shown);
-        return std::shared_ptr<const FieldGrid>(((*grids_).*which).field);
+    const auto light = [this, &bricks, &shown]() -> std::shared_ptr<const FieldGrid> {
+        note_changes(bricks);
+        light_asked_for_ = true;
+        const auto write = [this](const Shade* sums, const ShadeLeaf& leaf) { write_light(rule_, sums, leaf); };
+        grids_->light.bring_up_to_date(bricks, shown, write);
+        return grids_->light.field;
     };
-    fields.provide({name_, "1", "light: what full light the shadows leave", current(&Grids::light), true,
-                    [current] { return current(&Grids::light); }});
+    const auto shade = [this, &bricks, &shown]() -> std::shared_ptr<const FieldGrid> {
+        note_changes(bricks);
+        grids_->shade.bring_up_to_date(bricks, shown, write_shade);
+        return grids_->shade.field;
+    };
+    fields.provide({name_, "1", "light: what full light the shadows leave", light(), true, light});
     fields.provide({name_ + ".shade", "1", rule_.attenuate ? "optical depth of all shadows" : "sum of all shadows",
-                    current(&Grids::shade), true, [current] { return current(&Grids::shade); }});
+                    shade(), true, shade});
+    light_asked_for_ = false;
 }
 
-// Leaves that stay are written over.
-void ShadeGrids::bring_up_to_date(ShadeBricks& bricks, const VoxelBox& shown) {
-    // A viewer of an empty field still needs something to show: the voxel at the origin.
-    const VoxelBox box = shown.empty() ? VoxelBox{glm::ivec3(0), glm::ivec3(0)} : shown;
-    const openvdb::CoordBBox shown_box(coord(box.lower), coord(box.upper));
-    Grids::One &light = grids_->light, &shade = grids_->shade;
-    if (bricks.changed().empty() && light.field->box == shown_box) return;
-    for (Grids::One* one : {&light, &shade}) {
-        one->require_own();
-        one->field->box = shown_box;
-        one->remove_stale(bricks);
-        one->add_new(bricks);
-    }
-    const std::span<const std::uint32_t> changed = bricks.changed();
-    tbb::parallel_for(std::size_t{0}, changed.size(), [&](std::size_t i) {
-        const std::uint32_t number = changed[i];
-        if (bricks.exists(number)) write(rule_, bricks.sums(number), *light.leaves[number], *shade.leaves[number]);
-    });
+std::span<const ShadeLeaf> ShadeGrids::light_to_write(ShadeBricks& bricks, const VoxelBox& shown) {
+    if (!light_asked_for_) return {};
+    light_asked_for_ = false;
+    note_changes(bricks);
+    grids_->light.prepare(bricks, shown);
+    grids_->light.forget_changes();
+    return grids_->light.leaves;
+}
+
+void ShadeGrids::note_changes(ShadeBricks& bricks) {
+    if (bricks.changed().empty()) return;
+    grids_->light.note(bricks);
+    grids_->shade.note(bricks);
     bricks.forget_changes();
 }
 

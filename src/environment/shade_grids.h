@@ -4,7 +4,7 @@
 
 #include "espalier/environment/field.h"
 
-#include "environment/shade_bricks.h"
+#include "environment/shade_leaves.h"
 
 #include <memory>
 #include <string>
@@ -21,12 +21,17 @@ public:
     /// is asked for. Voxels that nothing shades are inactive: full light, no shade.
     void provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fields);
 
+    /// The leaf of light of each brick, for someone who will write all of them now, while the sums are at hand. None if
+    /// nobody asked for the light since the last time: perhaps nobody will.
+    std::span<const ShadeLeaf> light_to_write(ShadeBricks& bricks, const VoxelBox& shown);
+
 private:
     struct Grids;
-    void bring_up_to_date(ShadeBricks& bricks, const VoxelBox& shown);
+    void note_changes(ShadeBricks& bricks);
 
     std::string name_;
     ShadeRule rule_;
+    bool light_asked_for_ = false;
     std::unique_ptr<Grids> grids_;
 };
 

@@ -20,12 +20,6 @@ constexpr int edge = ShadeBricks::edge;
 constexpr int stretch_bricks = 8;  // long enough that beginning one costs little, short enough to share out
 constexpr int slice_bricks = 64;   // along z; eight running rows fit into the first cache
 
-/// A brick of the column being written.
-struct Target {
-    Shade* sums;
-    std::size_t at;  ///< where its voxels begin in each running row
-};
-
 /// A sweep as the loops over single voxels see it.
 struct Pass {
     std::span<const ShadeFront> fronts;
@@ -83,11 +77,8 @@ void advance(const Pass& pass, int x, bool ends) {
     }
 }
 
-// In as many parts as the machine's vectors need.
-using Eight = std::int64_t __attribute__((vector_size(64), may_alias));
-
 // Past the caches: no sum is looked at again before they have all gone through.
-inline void store(Shade* to, const Eight& sums) {
+inline void store(Shade* to, const EightShades& sums) {
 #ifdef __SSE2__
     __m128i parts[4];
     std::memcpy(parts, &sums, sizeof sums);
@@ -98,38 +89,87 @@ inline void store(Shade* to, const Eight& sums) {
 }
 
 /// Sums of the first 1, 2, ... 8 numbers.
-inline void sum_along(Eight& v) {
-    const Eight none{};
+inline void sum_along(EightShades& v) {
+    const EightShades none{};
     v += __builtin_shufflevector(none, v, 0, 8, 9, 10, 11, 12, 13, 14);
     v += __builtin_shufflevector(none, v, 0, 0, 8, 9, 10, 11, 12, 13);
     v += __builtin_shufflevector(none, v, 0, 0, 0, 0, 8, 9, 10, 11);
 }
 
+/// Or of all eight.
+inline std::uint64_t any_of(const EightShades& of) {
+    EightShades v = of | __builtin_shufflevector(of, of, 4, 5, 6, 7, 0, 1, 2, 3);
+    v |= __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5);
+    return v[0] | v[1];
+}
+
+/// What becomes light of the 64 sums at one x of a brick.
+struct LightOfTarget {
+    float* to;
+    double full_light;
+    EightShades all{}, shaded{};
+
+    LightOfTarget(const ShadeTarget& target, int x, double full)
+        : to(target.leaf.values + (x & 7) * edge * edge), full_light(full) {}
+    [[gnu::always_inline]] void take(const EightShades& sums, int y) {
+        constexpr EightShades bits{1, 2, 4, 8, 16, 32, 64, 128};
+        all |= sums;
+        shaded |= sums != 0 ? bits << (edge * y) : EightShades{};
+        write_lights_under(full_light, sums, to + edge * y);
+    }
+    [[gnu::always_inline]] void give(ShadeTarget& target, int x) const {
+        target.all |= any_of(all);
+        target.leaf.shaded[x & 7] = any_of(shaded);
+    }
+};
+struct NoLight {
+    NoLight(const ShadeTarget&, int, double) {}
+    void take(const EightShades&, int) {}
+    void give(ShadeTarget&, int) const {}
+};
+
 // The sums at x, of brick after brick along z. Between bricks that do not follow each other nothing is shaded.
-ESPALIER_VECTOR_CLONES
-void write(std::span<const Target> targets, const ShadeRows& rows, int x) {
-    Shade before[edge] = {};
+template <class Light>
+[[gnu::always_inline]] inline void write_with(std::span<ShadeTarget> targets, const ShadeRows& rows, int x,
+                                              double full_light) {
+    std::uint64_t before[edge] = {};
     std::size_t next = 0;
-    for (const Target& target : targets) {
+    for (ShadeTarget& target : targets) {
         if (target.at != next) std::fill(before, before + edge, 0);
         next = target.at + edge;
         Shade* to = target.sums + (x & 7) * edge * edge;
         const Shade* from = rows.rows + target.at;
+        Light light(target, x, full_light);
         for (int y = 0; y < edge; ++y, to += edge, from += rows.length) {
-            Eight sums;
+            EightShades sums;
             std::memcpy(&sums, from, sizeof sums);
             sum_along(sums);
             sums += before[y];
             before[y] = sums[edge - 1];
             store(to, sums);
+            light.take(sums, y);
         }
+        light.give(target, x);
     }
 }
 
-void clear(std::span<const Target> targets, int x) {
-    for (const Target& target : targets) {
-        Shade* to = target.sums + (x & 7) * edge * edge;
-        std::fill(to, to + edge * edge, 0);
+ESPALIER_VECTOR_CLONES
+void write(std::span<ShadeTarget> targets, const ShadeRows& rows, int x) {
+    write_with<NoLight>(targets, rows, x, 0);
+}
+
+ESPALIER_VECTOR_CLONES
+void write_and_light(std::span<ShadeTarget> targets, const ShadeRows& rows, int x, double full_light) {
+    write_with<LightOfTarget>(targets, rows, x, full_light);
+}
+
+void clear(std::span<const ShadeTarget> targets, int x, double full_light) {
+    const std::ptrdiff_t at = (x & 7) * edge * edge;
+    for (const ShadeTarget& target : targets) {
+        std::fill_n(target.sums + at, edge * edge, 0);
+        if (target.leaf.values == nullptr) continue;
+        std::fill_n(target.leaf.values + at, edge * edge, static_cast<float>(full_light));
+        target.leaf.shaded[x & 7] = 0;
     }
 }
 
@@ -162,7 +202,7 @@ void sort_by(Column<Item>& items, Column<Item>& spare, const Number& number) {
 }  // namespace
 
 // Each stretch of bricks is summed by one thread; sums of whole numbers do not depend on their order.
-void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks) {
+void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks, const Leaves& leaves) {
     bricks.cover(ShadeBricks::brick_of(box.lower), ShadeBricks::brick_of(box.upper));
     measure(casts);
     cut(casts, bricks.first().z);
@@ -170,6 +210,7 @@ void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& 
     count(casts, bricks);
     bricks.set_reach(counts_);
     list_stretches(bricks);
+    leaves_ = leaves ? leaves() : std::span<const ShadeLeaf>();
     tbb::parallel_for(std::size_t{0}, stretches_.size(), [&](std::size_t i) { sweep(casts, stretches_[i], bricks); });
 }
 
@@ -219,25 +260,43 @@ std::span<const ShadeSweep::Layer> ShadeSweep::layers_over(int slice, int lower,
 
 void ShadeSweep::count(const ShadeCasts& casts, const ShadeBricks& bricks) {
     counts_.resize(bricks.places());
+    const int first = bricks.first().y;
+    tbb::parallel_for(first, first + static_cast<int>(bricks.size().y), [&](int y) { count_layer(casts, bricks, y); });
+}
+
+// Squares of bricks are added up from their corners, as pyramids are from their edges.
+void ShadeSweep::count_layer(const ShadeCasts& casts, const ShadeBricks& bricks, int y) {
     const glm::ivec3 first = bricks.first(), size(bricks.size());
-    const VoxelBox& clip = casts.clip();
-    tbb::parallel_for(first.y, first.y + size.y, [&](int y) {
-        for (int x = 0; x < size.x; ++x) {
-            std::uint32_t* row = counts_.data() + bricks.place({first.x + x, y, first.z});
-            std::fill(row, row + size.z, 0);
-        }
-        if (y < clip.lower.y >> 3 || y > clip.upper.y >> 3) return;
-        for (int slice = 0; slice <= (size.z - 1) / slice_bricks; ++slice) {
-            for (const Layer& layer : layers_over(slice, y * edge, y * edge + edge - 1, casts.rule().depth)) {
-                if (layer.y < clip.lower.y) continue;
-                for (std::size_t i = layer.begin; i < layer.end; ++i) {
-                    visit_bricks(casts, sorted_[i].cast.apex, y, [&](const glm::ivec3& brick) {
-                        counts_[bricks.place(brick)] += (brick.z - first.z) / slice_bricks == slice;
-                    });
-                }
+    const auto length = static_cast<std::size_t>(size.z) + 1;
+    std::vector<std::uint32_t> changes((static_cast<std::size_t>(size.x) + 1) * length, 0);
+    const int lower = std::max(y * edge, casts.clip().lower.y);
+    const int upper = std::min(y * edge + edge - 1, casts.clip().upper.y);
+    for (int slice = 0; lower <= upper && slice <= (size.z - 1) / slice_bricks; ++slice) {
+        const int back = first.z + slice * slice_bricks, front = back + slice_bricks - 1;
+        for (const Layer& layer : layers_over(slice, lower, upper, casts.rule().depth)) {
+            for (std::size_t i = layer.begin; i < layer.end; ++i) {
+                const BrickSquare square = reached_bricks(casts, sorted_[i].cast.apex, y);
+                if (square.front < back || square.back > front) continue;
+                const auto z = static_cast<std::size_t>(std::max(square.back, back) - first.z);
+                const auto end_z = static_cast<std::size_t>(std::min(square.front, front) + 1 - first.z);
+                std::uint32_t* begins = changes.data() + static_cast<std::size_t>(square.left - first.x) * length;
+                std::uint32_t* ends = changes.data() + static_cast<std::size_t>(square.right + 1 - first.x) * length;
+                ++begins[z];
+                --begins[end_z];
+                --ends[z];
+                ++ends[end_z];
             }
         }
-    });
+    }
+    std::vector<std::uint32_t> sums(length, 0);
+    for (int x = 0; x < size.x; ++x) {
+        std::uint32_t sum = 0;
+        std::uint32_t* counts = counts_.data() + bricks.place({first.x + x, y, first.z});
+        for (std::size_t z = 0; z < length - 1; ++z) {
+            sums[z] += changes[static_cast<std::size_t>(x) * length + z];
+            counts[z] = sum += sums[z];
+        }
+    }
 }
 
 void ShadeSweep::list_stretches(const ShadeBricks& bricks) {
@@ -306,25 +365,41 @@ void ShadeSweep::sweep(const ShadeCasts& casts, const Stretch& stretch, ShadeBri
                     {running.data(), length, first_z * edge, std::max(clip.lower.z, first_z * edge),
                      std::min(clip.upper.z, end_z * edge - 1), first_x - reach}};
     begin(pass, first_x);
-    std::vector<Target> targets;
+    const ShadeRule& rule = casts.rule();
+    const bool with_light = !leaves_.empty() && !rule.attenuate;
+    std::vector<ShadeTarget> targets;
     for (int brick = stretch.begin; brick < stretch.end; ++brick) {
-        targets.clear();
-        for (int z = first_z; z < end_z; ++z) {
-            const std::int32_t number = bricks.find({brick, stretch.y, z});
-            if (number == ShadeBricks::none) continue;
-            targets.push_back(
-                {bricks.sums(static_cast<std::size_t>(number)), static_cast<std::size_t>(z - first_z) * edge});
-        }
+        list_targets(bricks, {brick, stretch.y, first_z}, end_z, targets);
         for (int x = brick * edge; x < (brick + 1) * edge; ++x) {
             if (x < first_x || x > last_x) {
-                clear(targets, x);
+                clear(targets, x, rule.full_light);
                 continue;
             }
             advance(pass, x, x > first_x);
-            write(targets, pass.rows, x);
+            if (with_light)
+                write_and_light(targets, pass.rows, x, rule.full_light);
+            else
+                write(targets, pass.rows, x);
+        }
+        if (leaves_.empty()) continue;
+        for (const ShadeTarget& target : targets) {
+            if (!with_light || target.all >= most_fast_shade) write_light(rule, target.sums, target.leaf);
         }
     }
     std::atomic_thread_fence(std::memory_order_seq_cst);  // what went past the caches is there for other threads
+}
+
+// The bricks from `first` on along z.
+void ShadeSweep::list_targets(ShadeBricks& bricks, const glm::ivec3& first, int end_z,
+                              std::vector<ShadeTarget>& targets) const {
+    targets.clear();
+    for (glm::ivec3 brick = first; brick.z < end_z; ++brick.z) {
+        const std::int32_t found = bricks.find(brick);
+        if (found == ShadeBricks::none) continue;
+        const auto number = static_cast<std::size_t>(found);
+        targets.push_back({bricks.sums(number), static_cast<std::size_t>(brick.z - first.z) * edge,
+                           leaves_.empty() ? ShadeLeaf() : leaves_[number]});
+    }
 }
 
 }  // namespace espalier

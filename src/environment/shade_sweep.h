@@ -3,7 +3,9 @@
 // pyramids, not with their volume.
 #pragma once
 
-#include "environment/shade_bricks.h"
+#include "environment/shade_leaves.h"
+
+#include <functional>
 
 namespace espalier {
 
@@ -39,10 +41,21 @@ struct ShadeRows {
     int base;            ///< x that fronts count from
 };
 
+/// A brick of the column being written.
+struct ShadeTarget {
+    Shade* sums;
+    std::size_t at;         ///< where its voxels begin in each running row
+    ShadeLeaf leaf;         ///< where its light goes, if anywhere
+    std::uint64_t all = 0;  ///< bits that any of its sums has
+};
+
 class ShadeSweep {
 public:
+    /// Gives, when bricks are those of this step, the leaf of each that its light is wanted in; or none.
+    using Leaves = std::function<std::span<const ShadeLeaf>()>;
+
     /// Makes `bricks` those that `casts` reach, of which there must be some, and writes every sum. `box`: around them.
-    void run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks);
+    void run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks, const Leaves& leaves);
 
 private:
     /// Pyramids of one slice with apices at one height, sorted along x.
@@ -59,10 +72,12 @@ private:
     void cut(const ShadeCasts& casts, int first_z);
     void sort();
     void count(const ShadeCasts& casts, const ShadeBricks& bricks);
+    void count_layer(const ShadeCasts& casts, const ShadeBricks& bricks, int y);
     void list_stretches(const ShadeBricks& bricks);
     std::vector<ShadeFront> fronts_of(const ShadeCasts& casts, const Stretch& stretch, int base, int end,
                                       Column<std::uint32_t>& first) const;
     void sweep(const ShadeCasts& casts, const Stretch& stretch, ShadeBricks& bricks) const;
+    void list_targets(ShadeBricks& bricks, const glm::ivec3& first, int end_z, std::vector<ShadeTarget>& targets) const;
     /// The layers of a slice whose pyramids may reach heights from `lower` to `upper`.
     std::span<const Layer> layers_over(int slice, int lower, int upper, int depth) const;
 
@@ -71,20 +86,22 @@ private:
     std::vector<Layer> layers_;
     Column<std::uint32_t> counts_;  ///< pyramids that reach each place of the directory
     std::vector<Stretch> stretches_;
+    std::span<const ShadeLeaf> leaves_;  ///< of each brick, during a run
 };
 
-/// Calls visit(brick) for every brick that the pyramid reaches in the layer `y` of bricks, which its bounds must do.
-/// Of its layers in a brick the lowest is the widest.
-template <class Visit>
-void visit_bricks(const ShadeCasts& casts, const glm::ivec3& apex, int y, const Visit& visit) {
+/// Bricks of one layer of them, from `left` to `right` along x and from `back` to `front` along z.
+struct BrickSquare {
+    int left, right, back, front;
+};
+
+/// Those that the pyramid reaches in the layer `y` of bricks, which its bounds must do. Of its layers in a brick the
+/// lowest is the widest.
+inline BrickSquare reached_bricks(const ShadeCasts& casts, const glm::ivec3& apex, int y) {
     const VoxelBox& clip = casts.clip();
     const int q = std::min(casts.rule().depth, apex.y - std::max(y * ShadeBricks::edge, clip.lower.y));
     const int width = casts.half_width(q), deep = casts.thickness(q);
-    const int left = std::max(apex.x - width, clip.lower.x) >> 3, right = std::min(apex.x + width, clip.upper.x) >> 3;
-    const int back = std::max(apex.z - deep, clip.lower.z) >> 3, front = std::min(apex.z + deep, clip.upper.z) >> 3;
-    for (int x = left; x <= right; ++x) {
-        for (int z = back; z <= front; ++z) visit(glm::ivec3(x, y, z));
-    }
+    return {std::max(apex.x - width, clip.lower.x) >> 3, std::min(apex.x + width, clip.upper.x) >> 3,
+            std::max(apex.z - deep, clip.lower.z) >> 3, std::min(apex.z + deep, clip.upper.z) >> 3};
 }
 
 }  // namespace espalier

@@ -98,6 +98,7 @@ const std::vector<std::string> scenes{
     plain + "mode = \"attenuate\"\nsampling = \"nearest\"\n",
     plain + "spread = 0.4\n",
     plain + "dimensions = 2\n",
+    "[light]\nprocess = \"voxel-shade\"\nvoxel = 1\nstrength = 40000\ndepth = 5\nfull_light = 2e5\n",  // 2^52 steps
     plain + "domain = { lower = [-13, -9, -11], upper = [10, 12, 14] }\n",
     plain + "periodic = true\ndomain = { lower = [-6.5, -9, -5], upper = [6.5, 12, 5] }\n",
     plain + "periodic = true\ndimensions = 2\ndomain = { lower = [-2.5, -9, -5], upper = [2.5, 12, 5] }\n",

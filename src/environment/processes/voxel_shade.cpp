@@ -128,7 +128,7 @@ public:
           field_(context.memory),
           grids_(context.name, rule_, lattice_.voxel),
           totals_(context.plants) {
-        grids_.provide(field_.bricks(), lattice_.fixed ? lattice_.domain : field_.box(), fields);
+        grids_.provide(field_.bricks(), shown(), fields);
     }
 
     void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
@@ -139,7 +139,7 @@ public:
             if (query.parameters[0] > 0) cast(lattice_.voxel_of(query.pose.position), query.parameters[0]);
         }
         casts_begin_.push_back(casts_.casts().size());
-        field_.show(casts_);
+        field_.show(casts_, [this] { return grids_.light_to_write(field_.bricks(), shown()); });
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
@@ -175,6 +175,8 @@ private:
         double light = 0, queries = 0, casts = 0;
         double least = std::numeric_limits<double>::infinity(), most = 0;
     };
+
+    const VoxelBox& shown() const { return lattice_.fixed ? lattice_.domain : field_.box(); }
 
     // In a periodic domain, with every image whose pyramid reaches into the stored period.
     void cast(const glm::ivec3& voxel, double s) {
