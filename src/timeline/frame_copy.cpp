@@ -35,6 +35,30 @@ std::size_t bytes_of(const PlantGeometry& geometry) {
            bytes_of(geometry.mesh.pieces) + bytes_of(geometry.labels) + bytes_of(geometry.textures);
 }
 
+// A plant grows from frame to frame: with room to spare, its copy is not put into fresh memory every time.
+template <class Values>
+void make_room(Values& copy, const Values& original) {
+    if (original.size() <= copy.capacity()) return;
+    copy.clear();
+    copy.reserve(original.size() + original.size() / 2);
+}
+
+void make_room(ModuleString& copy, const ModuleString& original) {
+    make_room(copy.letters, original.letters);
+    make_room(copy.parameters, original.parameters);
+    make_room(copy.identities, original.identities);
+    make_room(copy.parents, original.parents);
+    make_room(copy.births, original.births);
+}
+
+void make_room(Interpretation& copy, const Interpretation& original) {
+    make_room(copy.geometry.internodes, original.geometry.internodes);
+    make_room(copy.geometry.polygons, original.geometry.polygons);
+    make_room(copy.geometry.vertices, original.geometry.vertices);
+    make_room(copy.geometry.organs, original.geometry.organs);
+    make_room(copy.queries, original.queries);
+}
+
 }  // namespace
 
 void FrameCopy::take(const Frame& frame, std::span<const std::string> fields) {
@@ -45,7 +69,9 @@ void FrameCopy::take(const Frame& frame, std::span<const std::string> fields) {
     for (std::size_t i = 0; i < plants_.size(); ++i) {
         const PlantFrame& original = frame.plants[i];
         Plant& copy = storage_[i];
+        make_room(copy.string, *original.string);
         copy.string = *original.string;
+        make_room(copy.interpretation, *original.interpretation);
         copy.interpretation = *original.interpretation;
         point_into(copy.interpretation.queries, copy.string, *original.string);
         plants_[i].string = &copy.string;

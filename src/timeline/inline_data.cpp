@@ -7,6 +7,10 @@
 #include <cstring>
 #include <vector>
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#include <immintrin.h>
+#endif
+
 namespace espalier {
 namespace {
 
@@ -28,9 +32,48 @@ constexpr std::array<char, 8192> base64_pairs = [] {
     return pairs;
 }();
 
+#if defined(__x86_64__) && defined(__GNUC__)
+// Muła and Lemire 2018, "Faster Base64 Encoding and Decoding using AVX2 Instructions", ACM Trans. Web 12(3), sections 3
+// and 4: 24 bytes at a time, as long as 28 may be read. Returns how many bytes it has written.
+__attribute__((target("avx2"))) std::size_t write_wide_base64(const unsigned char* bytes, std::size_t count,
+                                                              char* out) {
+    const __m256i spread = _mm256_setr_epi8(1, 0, 2, 1, 4, 3, 5, 4, 7, 6, 8, 7, 10, 9, 11, 10,  //
+                                            1, 0, 2, 1, 4, 3, 5, 4, 7, 6, 8, 7, 10, 9, 11, 10);
+    // What is added to a digit: a to z, ten times 0 to 9, +, /, A to Z.
+    const __m256i shifts = _mm256_setr_epi8(71, -4, -4, -4, -4, -4, -4, -4, -4, -4, -4, -19, -16, 65, 0, 0,  //
+                                            71, -4, -4, -4, -4, -4, -4, -4, -4, -4, -4, -19, -16, 65, 0, 0);
+    std::size_t done = 0;
+    for (; done + 28 <= count; done += 24, out += 32) {
+        const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + done));
+        const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + done + 12));
+        const __m256i triplets = _mm256_shuffle_epi8(_mm256_set_m128i(high, low), spread);
+        const __m256i odd = _mm256_and_si256(triplets, _mm256_set1_epi32(0x0fc0fc00));
+        const __m256i even = _mm256_and_si256(triplets, _mm256_set1_epi32(0x003f03f0));
+        const __m256i digits = _mm256_or_si256(_mm256_mulhi_epu16(odd, _mm256_set1_epi32(0x04000040)),
+                                               _mm256_mullo_epi16(even, _mm256_set1_epi32(0x01000010)));
+        const __m256i upper = _mm256_cmpgt_epi8(_mm256_set1_epi8(26), digits);
+        const __m256i range = _mm256_or_si256(_mm256_subs_epu8(digits, _mm256_set1_epi8(51)),
+                                              _mm256_and_si256(upper, _mm256_set1_epi8(13)));
+        const __m256i text = _mm256_add_epi8(_mm256_shuffle_epi8(shifts, range), digits);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), text);
+    }
+    return done;
+}
+
+const bool writes_wide = __builtin_cpu_supports("avx2");
+#else
+std::size_t write_wide_base64(const unsigned char*, std::size_t, char*) {
+    return 0;
+}
+
+constexpr bool writes_wide = false;
+#endif
+
 // Whole triplets.
 char* write_base64(const unsigned char* bytes, std::size_t count, char* out) {
-    for (std::size_t i = 0; i < count; i += 3, out += 4) {
+    const std::size_t wide = writes_wide ? write_wide_base64(bytes, count, out) : 0;
+    out += wide / 3 * 4;
+    for (std::size_t i = wide; i < count; i += 3, out += 4) {
         const std::uint32_t bits =
             std::uint32_t{bytes[i]} << 16 | std::uint32_t{bytes[i + 1]} << 8 | std::uint32_t{bytes[i + 2]};
         std::memcpy(out, &base64_pairs[2 * std::size_t{bits >> 12}], 2);
