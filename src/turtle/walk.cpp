@@ -149,6 +149,11 @@ void Walk::set_scale(double scale) {
     turtle().scale = scale;
 }
 
+const Rotation& Walk::learn(KnownRotation& known, double degrees) {
+    known = {degrees, rotation_of_degrees(degrees)};
+    return known.rotation;
+}
+
 void Walk::push_elasticities() {
     elasticity_stack.insert(elasticity_stack.end(), elasticities.begin(), elasticities.end());
 }
@@ -235,6 +240,10 @@ void Walk::ask(QueryKind kind) {
 
 const std::string& Walk::symbol() const {
     return model_.alphabet.name(letter_);
+}
+
+void Walk::fail(const char* what) const {
+    fail(std::string(what));
 }
 
 void Walk::fail(const std::string& what) const {

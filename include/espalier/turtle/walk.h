@@ -195,6 +195,7 @@ public:
 
     /// Throws RunError naming the module, the plant and the modules around it.
     [[noreturn]] void fail(const std::string& what) const;
+    [[noreturn]] void fail(const char* what) const;
 
 private:
     friend class StringWalk;
@@ -205,6 +206,7 @@ private:
 
     void push_elasticities();
     void pop_elasticities();
+    static const Rotation& learn(KnownRotation& known, double degrees);
     /// move() with all that a tropism, an open polygon or cylinder and a texture ask for.
     void move_and_mark(double distance, bool draws, bool records_vertex);
     void draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip);
@@ -285,8 +287,7 @@ inline Rotation Walk::rotation(std::span<const double> parameters) {
     const double degrees = parameters[0];
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(degrees);
     KnownRotation& known = known_rotations_[(bits * 0x9E3779B97F4A7C15u) >> 60];
-    if (known.degrees != degrees) known = {degrees, rotation_of_degrees(degrees)};
-    return known.rotation;
+    return known.degrees == degrees ? known.rotation : learn(known, degrees);
 }
 
 // Copied number by number and vector by vector, as they are read and written elsewhere: a load that spans two stores

@@ -1,0 +1,77 @@
+// The loop of every walk. A function of its own, so that what it counts stays in registers.
+#include "turtle/string_walk.h"
+
+#include <cassert>
+
+namespace espalier {
+
+void StringWalk::run(std::size_t begin, std::size_t end, std::size_t at) {
+    if (input_.derivation) {
+        run_along<true>(begin, end, at);
+    } else {
+        run_along<false>(begin, end, at);
+    }
+}
+
+template <bool with_pictures>
+void StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t at) {
+    const LetterId* const letters = input_.string.letters.data();
+    const LetterMeaning* const meanings = input_.symbols.levels[0].data();
+    if (begin == end) return;
+    const LetterMeaning* next = &meanings[letters[begin]];
+    for (std::size_t i = begin; i < end && !walk_.stopped; ++i) {
+        assert(letters[i] < input_.symbols.levels[0].size());
+        const LetterMeaning& meaning = *next;
+        // Known before this one acts: then the processor need not wait to know where it goes on.
+        if (i + 1 < end) next = &meanings[letters[i + 1]];
+        if constexpr (with_pictures) {
+            if (const std::size_t replaced = pictured_[letters[i]] ? draw_picture(i, at) : 0) {
+                for (std::size_t k = 0; k < replaced; ++k) at += meanings[letters[i + k]].arity;
+                i += replaced - 1;
+                if (i + 1 < end) next = &meanings[letters[i + 1]];
+                continue;
+            }
+        }
+        if (meaning.level) {
+            const SymbolMatch match = input_.symbols.match(input_.string, i);
+            if (match.module > i) {
+                i = match.module;
+                if (i + 1 < end) next = &meanings[letters[i + 1]];
+            }
+            if (match.meaning.action) act(i, letters[i], match.meaning, at);
+            at += match.meaning.arity;
+            continue;
+        }
+        if (meaning.action) act(i, letters[i], meaning, at);
+        at += meaning.arity;
+    }
+}
+
+std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
+    const ModuleString& string = input_.string;
+    const bool looks_around = input_.symbols.pictures_look_around;
+    if (looks_around && offsets_.empty()) {
+        link_branches(string, links_);
+        offsets_ = parameter_offsets(string, input_.model.alphabet);
+    }
+    picture_.clear();
+    const std::size_t replaced =
+        input_.derivation->picture(string, looks_around ? &offsets_ : nullptr, links_, module, at, picture_);
+    if (replaced == 0) return 0;
+
+    walk_.module_ = std::uint32_t(module);
+    walk_.parameters_at_ = at;
+    walk_.in_picture_ = true;
+    const double* values = picture_.parameters.data();
+    for (std::size_t i = 0; i < picture_.size() && !walk_.stopped; ++i) {
+        const SymbolMatch match = input_.symbols.match(picture_, i);
+        i = match.module;
+        walk_.letter_ = picture_.letters[i];
+        if (match.meaning.action) match.meaning.action(walk_, {values, match.meaning.arity});
+        values += match.meaning.arity;
+    }
+    walk_.in_picture_ = false;
+    return replaced;
+}
+
+}  // namespace espalier
