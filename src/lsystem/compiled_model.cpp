@@ -241,7 +241,9 @@ void SystemCompiler::descend(CompiledProduction& production) const {
     std::uint32_t place = 0;
     for (Descent& descent : production.descents) {
         if (descent.heir_of == Descent::born) descent.place = place++;
+        production.places.push_back(descent.place);
     }
+    production.places.resize(whole_blocks(production.length, lineage_block));
 }
 
 /// True if the expression or block reads a formal of one of the patterns.

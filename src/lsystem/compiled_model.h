@@ -44,6 +44,7 @@ struct CompiledProduction {
     std::vector<LetterId> letters;  ///< of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
     std::vector<Descent> descents;
+    std::vector<std::uint32_t> places;  ///< of the descents, padded to whole blocks
     std::vector<std::uint32_t> heirs;  ///< of each strict module the place in the successor, or Descent::none
     std::size_t length = 0;
     std::size_t parameters = 0;

@@ -16,6 +16,7 @@ class CompiledSystem;
 // what is too much.
 inline constexpr std::size_t letter_block = 16;
 inline constexpr std::size_t value_block = 4;
+inline constexpr std::size_t lineage_block = 8;
 
 /// Modules that one thread writes before another may have its turn: at least so many of the old string or the new.
 inline constexpr std::size_t grain = 8192;
