@@ -22,8 +22,11 @@ public:
     static constexpr std::size_t voxels = 512;
     static constexpr std::int32_t none = -1;
 
-    /// `memory`: bytes that bricks, and grids made of them, may take.
+    /// `memory`: bytes that bricks, grids made of them, and what is kept besides may take.
     explicit ShadeBricks(std::size_t memory) : memory_(memory) {}
+
+    /// So many bytes are, or soon will be, kept besides the bricks. Throws RunError if they do not fit beside them.
+    void keep_besides(std::size_t bytes);
 
     static glm::ivec3 brick_of(const glm::ivec3& voxel) { return {voxel.x >> 3, voxel.y >> 3, voxel.z >> 3}; }
     static std::size_t offset(const glm::ivec3& v) {
@@ -91,7 +94,7 @@ private:
     void remove(std::int32_t number);
     void require_memory(std::size_t places, std::size_t bricks) const;
 
-    std::size_t memory_;
+    std::size_t memory_, besides_ = 0;
     glm::ivec3 first_{0};
     glm::tvec3<std::size_t> size_{0};
     Column<std::int32_t> directory_;

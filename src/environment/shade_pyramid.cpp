@@ -71,6 +71,11 @@ void ShadeCasts::add(const glm::ivec3& apex, double s) {
     casts_.push_back({apex, number * static_cast<std::uint32_t>(rule_.depth + 1)});
 }
 
+std::size_t ShadeCasts::bytes() const {
+    return (casts_.capacity() + before_.capacity()) * sizeof(ShadeCast) + layers_.capacity() * sizeof(Shade) +
+           (strengths_.capacity() + darkest_.capacity()) * sizeof(double) + table_.capacity() * sizeof(std::uint32_t);
+}
+
 // The number of the strength's row.
 std::uint32_t ShadeCasts::row_of(double s) {
     if (last_ < strengths_.size() && strengths_[last_] == s) return last_;

@@ -107,6 +107,8 @@ public:
         const int width = half_width(rule_.depth), deep = thickness(rule_.depth);
         return {{apex.x - width, apex.y - rule_.depth, apex.z - deep}, {apex.x + width, apex.y, apex.z + deep}};
     }
+    /// What they and their weights take.
+    std::size_t bytes() const;
     const ShadeRule& rule() const { return rule_; }
     const VoxelBox& clip() const { return clip_; }
 

@@ -3,6 +3,7 @@
 #include "espalier/base/vector_clones.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <atomic>
@@ -212,6 +213,18 @@ void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& 
     list_stretches(bricks);
     leaves_ = leaves ? leaves() : std::span<const ShadeLeaf>();
     tbb::parallel_for(std::size_t{0}, stretches_.size(), [&](std::size_t i) { sweep(casts, stretches_[i], bricks); });
+}
+
+std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
+    const auto depth = static_cast<std::size_t>(casts.rule().depth);
+    const auto wide = static_cast<std::size_t>(casts.half_width(casts.rule().depth));
+    const auto deep = static_cast<std::size_t>(casts.thickness(casts.rule().depth));
+    const std::size_t slices = 1 + (2 * deep + edge * slice_bricks - 1) / (edge * slice_bricks);
+    const std::size_t rows = edge * edge * (slice_bricks + 1) * sizeof(Shade);
+    const std::size_t fronts = std::min(edge + depth, casts.casts().size()) *
+                               (sizeof(ShadeFront) + (edge * stretch_bricks + 2 * wide + 4) * sizeof(std::uint32_t));
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    return 2 * slices * casts.casts().size() * sizeof(SlicedCast) + threads * (rows + fronts);
 }
 
 void ShadeSweep::measure(const ShadeCasts& casts) {

@@ -56,6 +56,8 @@ public:
 
     /// Makes `bricks` those that `casts` reach, of which there must be some, and writes every sum. `box`: around them.
     void run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& bricks, const Leaves& leaves);
+    /// What a run takes for a while: sorted pyramids, and of each thread running rows and fronts.
+    static std::size_t bytes(const ShadeCasts& casts);
 
 private:
     /// Pyramids of one slice with apices at one height, sorted along x.

@@ -217,6 +217,18 @@ TEST_CASE("fields of shade are the same with 1, 2 and 8 threads", "[environment]
     CHECK(difference(*one, *run(8)) == "");
 }
 
+TEST_CASE("pyramids count for the memory that the shade may take, not only their bricks", "[environment]") {
+    std::vector<Asked> questions(200'000, Asked{glm::dvec3(0), {1}});
+    EnvironmentContext context;
+    context.memory = std::size_t(4) << 20;  // 18 bricks fit easily
+    Environment small = environment_of(plain, context);
+    const std::string message = message_of([&] { asked(small, questions); });
+    CHECK(lacks(message, {"the shade of this step needs", "MiB"}) == "");
+    questions.resize(100);
+    Environment enough = environment_of(plain, context);
+    CHECK(message_of([&] { asked(enough, questions); }) == "");
+}
+
 TEST_CASE("two plants far apart take the memory of two plants", "[environment]") {
     EnvironmentContext context;
     context.memory = std::size_t(24) << 20;  // a box around both would take 5 GiB
