@@ -37,7 +37,7 @@ public:
         for (const std::uint32_t row : geometry.mesh.triangles) add(row);
         for (const MeshPiece& row : geometry.mesh.pieces) add(row.module, row.first, row.count, row.order, row.colour);
         for (const Label& row : geometry.labels) {
-            add(row.module, row.position);
+            add(row.module, row.order, row.colour, row.position, row.text.size());
             bytes += row.text;
         }
         for (const std::uint16_t row : geometry.textures) add(row);
@@ -45,7 +45,8 @@ public:
             geometry.bounds.upper);
         for (const Query& row : result.queries) {
             add(row.kind, row.process, row.following, row.module, row.parameters_at, row.parameters.data(),
-                row.parameters.size(), row.following_parameters.data(), row.pose, row.width, row.scale);
+                row.parameters.size(), row.following_parameters.data(), row.pose, row.width, row.scale, row.plant,
+                row.identity, row.following_identity);
         }
     }
 
@@ -172,6 +173,28 @@ TEST_CASE("a plant walked by several threads is the plant walked in one piece, t
         }
     }
     CHECK(in_parallel > 50);
+}
+
+TEST_CASE("labels, and the lineage of queries, are the same from several threads", "[turtle]") {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+    std::vector<std::string> symbols = plain;
+    symbols.insert(symbols.end(), {"@L(0,#,#)", "@L(1)"});
+    int in_parallel = 0;
+    for (unsigned seed = 0; seed < 25; ++seed) {
+        RandomString random(2000 + seed);
+        Drawing drawing(random.of(symbols, 1600));
+        drawing.model.texts = {"%.2f of %g", "leaf"};
+        for (std::size_t i = 0; i < drawing.string.size(); ++i) drawing.string.identities.push_back(3 * i + seed);
+        const Outcome whole = walked(drawing, 0);
+        for (const std::size_t chunk : {1, 50}) {
+            CHECK(walked(drawing, chunk) == whole);
+            in_parallel += goes_in_parallel(drawing, chunk);
+        }
+        REQUIRE(drawing.geometry().labels.size() > 20);
+        const Query& last = drawing.result.queries.back();
+        CHECK(last.identity == 3 * last.module + seed);
+    }
+    CHECK(in_parallel > 40);
 }
 
 TEST_CASE("what a turtle carries across branches is not lost between threads", "[turtle]") {
