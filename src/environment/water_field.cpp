@@ -4,6 +4,8 @@
 
 #include <openvdb/tree/LeafManager.h>
 
+#include <atomic>
+
 namespace espalier {
 namespace {
 
@@ -57,16 +59,26 @@ void WaterField::set_faces(const WaterFaces& faces) {
         });
     });
     topology_ = std::make_shared<FieldGrid>(FieldGrid{grid, box_of(grid_)});
+    published_.reset();
+    stale_ = true;
 }
 
-void WaterField::publish(const WaterBrick& contents, Fields& fields) {
-    published_ = std::make_shared<FieldGrid>(FieldGrid{topology_->grid->deepCopy(), topology_->box});
-    rewrite(contents);
-    fields.provide({name_, unit_, "content of the soil", published_});
+void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fields) {
+    contents_ = std::move(contents);
+    fields.provide({name_, unit_, "content of the soil", current(), true, [this] { return current(); }});
 }
 
-void WaterField::rewrite(const WaterBrick& contents) {
-    write(contents, grid_, published_->grid->tree());
+std::shared_ptr<const FieldGrid> WaterField::current() {
+    if (!stale_) return published_;
+    // With more holders than the field and ourselves, someone reads the grid of a step before: it is left to them.
+    if (published_ == nullptr || published_.use_count() > 2 || published_->grid.use_count() > 1) {
+        published_ = std::make_shared<FieldGrid>(FieldGrid{topology_->grid->deepCopy(), topology_->box});
+    } else {
+        std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
+    }
+    write(contents_(), grid_, published_->grid->tree());
+    stale_ = false;
+    return published_;
 }
 
 }  // namespace espalier

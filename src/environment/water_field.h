@@ -5,6 +5,7 @@
 
 #include "environment/water_grid.h"
 
+#include <functional>
 #include <memory>
 
 namespace espalier {
@@ -15,16 +16,21 @@ public:
 
     /// The voxels that are free from now on; the others are inactive and 0.
     void set_faces(const WaterFaces& faces);
-    /// Provides the contents as a new grid; readers of the last one keep it.
-    void publish(const WaterBrick& contents, Fields& fields);
-    /// Writes the contents into the grid provided last.
-    void rewrite(const WaterBrick& contents);
+    /// Provides the contents as a grid, made or written over when someone asks for it. Whoever keeps one keeps its
+    /// values.
+    void provide(std::function<const WaterBrick&()> contents, Fields& fields);
+    /// The contents are others now.
+    void change() { stale_ = true; }
 
 private:
+    std::shared_ptr<const FieldGrid> current();
+
     std::string name_, unit_;
     WaterGrid grid_;
     std::shared_ptr<FieldGrid> topology_;  ///< active voxels without values
     std::shared_ptr<FieldGrid> published_;
+    std::function<const WaterBrick&()> contents_;
+    bool stale_ = true;
 };
 
 }  // namespace espalier

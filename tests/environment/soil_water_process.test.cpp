@@ -65,6 +65,15 @@ TEST_CASE("a grid once read does not change under its reader", "[environment][wa
     CHECK(before->grid->tree().getValue(openvdb::Coord(15, 15, 15)) == 0.3f);
 }
 
+TEST_CASE("a grid that nobody keeps is written over", "[environment][water]") {
+    Soil soil(soil_text);
+    const FieldGrid* before = soil.fields.need("water").grid.get();
+    soil.step({{{0.55, 0.55, 0.55}, {0.1}}});
+    CHECK(soil.fields.need("water").grid.get() == before);
+    CHECK(soil.grid().tree().getValue(openvdb::Coord(15, 15, 15)) == Approx(0.2f));
+    CHECK_FALSE(soil.grid().tree().isValueOn(openvdb::Coord(10, 10, 10)));
+}
+
 TEST_CASE("statistics are per plant where they are the plant's, and of the world otherwise", "[environment][water]") {
     EnvironmentContext context;
     context.plants = 2;

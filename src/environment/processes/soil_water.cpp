@@ -52,7 +52,7 @@ public:
         stock_.emplace(grid_, parameters_, solids_.free_voxels(grid_));
         if (parameters_.steady) stock_->settle(diffusion_);
         field_.set_faces(stock_->faces());
-        field_.publish(stock_->contents(), fields);
+        field_.provide([this]() -> const WaterBrick& { return stock_->contents(); }, fields);
     }
 
     void advance(const WorldView& world, std::span<const Query>, Fields& fields) override {
@@ -69,7 +69,7 @@ public:
         }
     }
 
-    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields& fields) override {
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         require_finite(queries);
         std::vector<WaterWish> wishes(queries.size());
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
@@ -86,7 +86,7 @@ public:
             wish_[queries[q].plant] += wishes[q].amount * parameters_.amount;
         }
         stock_->measure();
-        field_.publish(stock_->contents(), fields);
+        field_.change();
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
@@ -117,7 +117,6 @@ public:
         read_doubles(in, uptake_);
         read_doubles(in, wish_);
         field_.set_faces(stock_->faces());
-        field_.rewrite(stock_->contents());
         restored_ = true;
     }
 
