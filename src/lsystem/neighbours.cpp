@@ -1,5 +1,6 @@
 #include "neighbours.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -27,6 +28,8 @@ public:
         : gaze_(gaze), letters_(string.letters.data()), size_(string.size()), column_(column), parts_(parts) {}
 
     void run(bool ring, std::size_t grain) {
+        // One thread alone needs no parts, which cost the more the more branches reach from one into another.
+        if (tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1) grain = size_;
         column_.resize(size_);
         parts_.resize(parts_of(size_, grain));
         for (std::size_t k = 0; k < parts_.size(); ++k) {
