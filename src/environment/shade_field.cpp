@@ -4,6 +4,8 @@
 #include "espalier/base/vector_clones.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <array>
 #include <cstring>
@@ -92,7 +94,14 @@ bool ShadeField::Extremes::remove(const glm::ivec3& apex) {
 
 ShadeField::Extremes ShadeField::extremes_of(std::span<const ShadeCast> casts) {
     Extremes extremes;
-    for (const ShadeCast& cast : casts) extremes.add(cast.apex);
+    for (const ShadeCast& cast : casts) {
+        extremes.lower = glm::min(extremes.lower, cast.apex);
+        extremes.upper = glm::max(extremes.upper, cast.apex);
+    }
+    for (const ShadeCast& cast : casts) {
+        extremes.at_lower += glm::ivec3(glm::equal(cast.apex, extremes.lower));
+        extremes.at_upper += glm::ivec3(glm::equal(cast.apex, extremes.upper));
+    }
     return extremes;
 }
 

@@ -26,7 +26,9 @@ void write_lights(const Shade* sums, double full_light, float* to) {
     for (std::size_t i = 0; i < ShadeBricks::voxels; i += 8) {
         EightShades eight;
         std::memcpy(&eight, sums + i, sizeof eight);
-        write_lights_under(full_light, eight, to + i);
+        EightFloats lights;
+        read_lights(full_light, eight, lights);
+        std::memcpy(to + i, &lights, sizeof lights);
     }
 }
 

@@ -29,14 +29,13 @@ inline void read_shades(const EightShades& sums, EightReals& amounts) {
     amounts = (amounts - 4503599627370496.0) * (1 / shade_steps_per_unit);
 }
 
-/// Writes light_under eight sums below `most_fast_shade`, where shadows add up.
-inline void write_lights_under(double full_light, const EightShades& sums, float* to) {
+/// light_under eight sums below `most_fast_shade`, where shadows add up.
+inline void read_lights(double full_light, const EightShades& sums, EightFloats& lights) {
     EightReals left;
     read_shades(sums, left);
     left = full_light - left;
     left = left < 0.0 ? EightReals{} : left;
-    const EightFloats lights = __builtin_convertvector(left, EightFloats);
-    std::memcpy(to, &lights, sizeof lights);
+    lights = __builtin_convertvector(left, EightFloats);
 }
 
 /// Writes the light, or the shade, of a whole brick. A voxel is active where it is shaded.

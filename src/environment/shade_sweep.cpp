@@ -78,14 +78,16 @@ void advance(const Pass& pass, int x, bool ends) {
     }
 }
 
-// Past the caches: no sum is looked at again before they have all gone through.
-inline void store(Shade* to, const EightShades& sums) {
+// Past the caches: nothing is looked at again before all has gone through. `to` is aligned as new memory is.
+template <class Vector, class Value>
+inline void store(Value* to, const Vector& values) {
 #ifdef __SSE2__
-    __m128i parts[4];
-    std::memcpy(parts, &sums, sizeof sums);
-    for (int i = 0; i < 4; ++i) _mm_stream_si128(reinterpret_cast<__m128i*>(to) + i, parts[i]);
+    static_assert(__STDCPP_DEFAULT_NEW_ALIGNMENT__ >= sizeof(__m128i));
+    __m128i parts[sizeof(Vector) / sizeof(__m128i)];
+    std::memcpy(parts, &values, sizeof values);
+    for (std::size_t i = 0; i < std::size(parts); ++i) _mm_stream_si128(reinterpret_cast<__m128i*>(to) + i, parts[i]);
 #else
-    std::memcpy(to, &sums, sizeof sums);
+    std::memcpy(to, &values, sizeof values);
 #endif
 }
 
@@ -116,7 +118,9 @@ struct LightOfTarget {
         constexpr EightShades bits{1, 2, 4, 8, 16, 32, 64, 128};
         all |= sums;
         shaded |= sums != 0 ? bits << (edge * y) : EightShades{};
-        write_lights_under(full_light, sums, to + edge * y);
+        EightFloats lights;
+        read_lights(full_light, sums, lights);
+        store(to + edge * y, lights);
     }
     [[gnu::always_inline]] void give(ShadeTarget& target, int x) const {
         target.all |= any_of(all);
