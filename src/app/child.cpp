@@ -5,19 +5,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
 #include <fcntl.h>
 #include <spawn.h>
 #include <string_view>
 #include <sys/wait.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 
 extern char** environ;
 
 namespace espalier {
 namespace {
+
+std::atomic<int> signals{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+void count_signal(int) {
+    ++signals;
+}
+
+/// A process group of its own: a terminal sends Ctrl-C to its whole group, and with what is passed on that would be
+/// two.
+class SpawnAttributes {
+public:
+    SpawnAttributes() {
+        posix_spawnattr_init(&attributes_);
+        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
+        posix_spawnattr_setpgroup(&attributes_, 0);
+    }
+    ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
+    SpawnAttributes(const SpawnAttributes&) = delete;
+    SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+
+    const posix_spawnattr_t* get() const { return &attributes_; }
+
+private:
+    posix_spawnattr_t attributes_;
+};
 
 /// What posix_spawn does before the program begins.
 class SpawnActions {
@@ -46,29 +75,51 @@ int code_of(int status) {
 
 }  // namespace
 
+SignalCounter::SignalCounter() {
+    signals = 0;
+    struct sigaction action = {};
+    action.sa_handler = count_signal;
+    for (std::size_t i = 0; i < std::size(signals_); ++i) {
+        sigaction(signals_[i], &action, &before_[i]);
+        const bool by_nohup = signals_[i] == SIGHUP && before_[i].sa_handler == SIG_IGN;
+        if (by_nohup) sigaction(signals_[i], &before_[i], nullptr);
+    }
+}
+
+SignalCounter::~SignalCounter() {
+    for (std::size_t i = 0; i < std::size(signals_); ++i) sigaction(signals_[i], &before_[i], nullptr);
+}
+
+int SignalCounter::count() const {
+    return signals;
+}
+
 int start_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                   const std::filesystem::path& log) {
     const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
     std::vector<char*> words{const_cast<char*>(program.c_str())};
     for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
+    const SpawnAttributes attributes;
     SpawnActions actions;
     if (!log.empty()) actions.write_to(log);
     actions.change_folder(folder);
     pid_t child = 0;
-    const int error = posix_spawn(&child, program.c_str(), actions.get(), nullptr, words.data(), environ);
+    const int error = posix_spawn(&child, program.c_str(), actions.get(), attributes.get(), words.data(), environ);
     if (error != 0) {
         throw RunError(fmt::format("cannot start {}: {}", program, std::generic_category().message(error)));
     }
     return child;
 }
 
-int wait_for_program(int child) {
-    int status = 0;
+int wait_for_program(int child, const SignalCounter& signals_so_far) {
+    int status = 0, passed_on = 0;
     pid_t ended = 0;
-    do {
-        ended = waitpid(child, &status, 0);
-    } while (ended < 0 && errno == EINTR);
+    while (ended == 0 || (ended < 0 && errno == EINTR)) {
+        for (; passed_on < signals_so_far.count(); ++passed_on) ::kill(child, SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        ended = waitpid(child, &status, WNOHANG);
+    }
     if (ended < 0) throw RunError("cannot wait for a program: " + std::generic_category().message(errno));
     return code_of(status);
 }

@@ -62,9 +62,10 @@ Examples:
             fmt::print(stderr, "warning: the run was made by espalier {}, this is {}\n", command.version,
                        ESPALIER_VERSION);
         }
+        const SignalCounter signals;
         const TemporaryFolder temporary;
         const fs::path output = output_.empty() ? temporary.path() / "timeline" : fs::absolute(output_);
-        repeat(command, temporary.path() / "inputs", output);
+        if (!repeat(command, temporary.path() / "inputs", output, signals)) return exit_code::interrupted;
         return report(timeline_differences(run_, output));
     }
 
@@ -75,15 +76,19 @@ private:
                                     run_.string(), command.exit));
     }
 
-    void repeat(const RecordedCommand& command, const fs::path& root, const fs::path& output) const {
+    // False if it was interrupted.
+    bool repeat(const RecordedCommand& command, const fs::path& root, const fs::path& output,
+                const SignalCounter& signals) const {
         const fs::path folder = lay_out_inputs(command, root);
         std::vector<std::string> arguments = arguments_below(command, root);
         arguments.insert(arguments.begin(), "run");
         arguments.insert(arguments.end(), {"--output", output.string()});
         if (threads_ > 0) arguments.insert(arguments.end(), {"--threads", std::to_string(threads_)});
         if (quiet_) arguments.push_back("--quiet");
-        const int code = wait_for_program(start_program(arguments, folder, {}));
+        const int code = wait_for_program(start_program(arguments, folder, {}), signals);
+        if (signals.count() > 0 && code != 0) return false;
         if (code != 0) throw RunError(fmt::format("the run could not be repeated: it ended with code {}", code));
+        return true;
     }
 
     int report(const std::vector<std::string>& differences) const {

@@ -13,11 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <map>
+#include <sys/wait.h>
 #include <thread>
 
 namespace espalier {
@@ -25,44 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::atomic<int> signals{0};
-
-void count_signal(int) {
-    ++signals;
-}
-
-/// While it lives, SIGINT and SIGTERM are counted instead of ending the program.
-class SignalCounter {
-public:
-    SignalCounter() {
-        signals = 0;
-        struct sigaction action = {};
-        action.sa_handler = count_signal;
-        sigaction(SIGINT, &action, &interrupt_);
-        sigaction(SIGTERM, &action, &terminate_);
-    }
-    ~SignalCounter() {
-        sigaction(SIGINT, &interrupt_, nullptr);
-        sigaction(SIGTERM, &terminate_, nullptr);
-    }
-    SignalCounter(const SignalCounter&) = delete;
-    SignalCounter& operator=(const SignalCounter&) = delete;
-
-private:
-    struct sigaction interrupt_ = {}, terminate_ = {};
-};
-
 bool is_still(const fs::path& path, const ReadLog::File& file) {
     std::error_code error;
     if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != file.size) return false;
     return digest(read_text(path)) == file.digest;
 }
 
-// Ended by itself, told the same, and everything it read is still what it was.
+// Ended by itself, told the same at the same place, and everything it read is still what it was.
 bool is_done(const SweepRun& run) {
     try {
         const RecordedCommand command = read_command(run.folder);
-        return command.exit == "done" && command.arguments == run.words &&
+        return command.exit == "done" && command.arguments == run.words && command.folder == fs::current_path() &&
                std::all_of(command.inputs.begin(), command.inputs.end(),
                            [](const auto& input) { return is_still(input.first, input.second); });
     } catch (const UserError&) {
@@ -79,10 +51,20 @@ public:
     std::size_t failed() const { return failed_; }
 
     void start(const SweepRun& run) {
-        fs::create_directories(run.folder);
+        std::error_code error;
+        fs::create_directories(run.folder, error);
+        if (error) throw RunError(fmt::format("cannot make the folder {}: {}", run.folder.string(), error.message()));
         const std::vector<std::string> command = sweep_.command(run);
         running_[start_program({command.begin() + 1, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
     }
+    /// None is left behind, even where the next cannot be started.
+    ~Crew() {
+        pass_on(SIGTERM);
+        for (const auto& entry : running_) ::waitpid(entry.first, nullptr, 0);
+    }
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+
     /// Tells of those that have ended.
     void reap() {
         for (int child = 0, code = 0; poll_program(child, code);) {
@@ -118,6 +100,17 @@ private:
 
 std::string cell(double value) {
     return std::isnan(value) ? "" : format_exact(value);
+}
+
+// A row's cell for each of `columns`; empty where the table has none of that name.
+std::string cells(const RecordedTable& table, const std::vector<double>& row, const std::vector<std::string>& columns) {
+    std::string text;
+    for (const std::string& column : columns) {
+        const auto found = std::find(table.columns.begin(), table.columns.end(), column);
+        text += ",";
+        if (found != table.columns.end()) text += cell(row[static_cast<std::size_t>(found - table.columns.begin())]);
+    }
+    return text;
 }
 
 // The rows of the last step, one a plant.
@@ -167,45 +160,47 @@ fs::path Sweep::log(const SweepRun& run) const {
 }
 
 Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
-    const SignalCounter counter;
+    const SignalCounter signals;
     const std::vector<const SweepRun*> left = to_do();
     if (!quiet && left.size() < runs_.size()) {
         fmt::print(stderr, "{} of {} runs are done already\n", runs_.size() - left.size(), runs_.size());
     }
     Crew crew(*this, left.size(), quiet);
     int passed_on = 0;
-    for (std::size_t next = 0; crew.size() > 0 || (next < left.size() && signals == 0);) {
-        while (signals == 0 && next < left.size() && crew.size() < static_cast<std::size_t>(jobs)) {
+    for (std::size_t next = 0; crew.size() > 0 || (next < left.size() && signals.count() == 0);) {
+        while (signals.count() == 0 && next < left.size() && crew.size() < static_cast<std::size_t>(jobs)) {
             crew.start(*left[next++]);
         }
-        for (; passed_on < signals; ++passed_on) crew.pass_on(SIGTERM);
+        for (; passed_on < signals.count(); ++passed_on) crew.pass_on(SIGTERM);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         crew.reap();
     }
-    return {crew.failed(), signals > 0};
+    return {crew.failed(), signals.count() > 0};
 }
 
 fs::path Sweep::write_table() const {
-    std::string header = "run";
-    for (const Variation& variation : variations_) header += "," + csv_text(variation.key);
-    std::vector<std::string> columns;
-    std::string body;
+    std::vector<std::pair<const SweepRun*, RecordedTable>> tables;
+    std::vector<std::string> columns;  // of all: runs with other processes have other quantities
     for (const SweepRun& run : runs_) {
-        if (!fs::exists(run.folder / "statistics.csv")) continue;
-        const RecordedTable table = RecordedRun(run.folder).statistics();
-        if (columns.empty()) columns = table.columns;
-        if (table.columns != columns) continue;  // other processes, other quantities: not one table
-        std::string values = csv_text(run.variant.name);
-        for (const auto& pair : run.variant.values) values += "," + csv_text(pair.second);
-        for (const std::vector<double>& row : last_rows(table)) {
-            body += values;
-            for (const double value : row) body += "," + cell(value);
-            body += "\n";
+        if (!is_done(run)) continue;  // its last step is not the one asked for, or an older run's
+        RecordedTable table = RecordedRun(run.folder).statistics();
+        for (const std::string& column : table.columns) {
+            if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
         }
+        table.rows = last_rows(table);
+        tables.emplace_back(&run, std::move(table));
     }
-    for (const std::string& column : columns) header += "," + csv_text(column);
+    std::string text = "run";
+    for (const Variation& variation : variations_) text += "," + csv_text(variation.key);
+    for (const std::string& column : columns) text += "," + csv_text(column);
+    text += "\n";
+    for (const auto& [run, table] : tables) {
+        std::string values = csv_text(run->variant.name);
+        for (const auto& pair : run->variant.values) values += "," + csv_text(pair.second);
+        for (const std::vector<double>& row : table.rows) text += values + cells(table, row, columns) + "\n";
+    }
     const fs::path path = folder_ / "sweep.csv";
-    write_text(path, header + "\n" + body);
+    write_text(path, text);
     return path;
 }
 

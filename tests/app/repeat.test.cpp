@@ -104,3 +104,36 @@ TEST_CASE_METHOD(Workplace, "a run that fails does not keep the others of its sw
     CHECK_THAT(text_of(path() / "s" / "D=0.log"), Contains("shrub.l:5"));
     CHECK(fs::exists(path() / "s" / "D=1.1" / "plants.pvd"));
 }
+
+TEST_CASE_METHOD(Workplace, "sweep.csv tells of no run that failed, nor of what lay there before it", "[app]") {
+    write("shrub.l", shrub);
+    REQUIRE(run("sweep shrub.l --vary D=1.1,1.2 --quiet --output s").code == 0);
+    CHECK(lines_in(text_of(path() / "s" / "sweep.csv")) == 3);
+    write("shrub.l", "no model at all");
+    CHECK(run("sweep shrub.l --vary D=1.1,1.2 --quiet --output s").code == 2);
+    CHECK(fs::exists(path() / "s" / "D=1.1" / "statistics.csv"));
+    CHECK(lines_in(text_of(path() / "s" / "sweep.csv")) == 1);
+}
+
+TEST_CASE_METHOD(Workplace, "a scene of the same name elsewhere is another sweep", "[app]") {
+    for (const std::string folder : {"here", "there"}) {
+        fs::create_directories(path() / folder);
+        write(folder + "/shrub.l", shrub);
+    }
+    const std::string sweep = " sweep shrub.l --vary D=1.1,1.2 --quiet --output ../s";
+    REQUIRE(run(sweep, "cd here;").code == 0);
+    CHECK(lines_in(run(sweep + " --list", "cd here;").out) == 0);
+    CHECK(lines_in(run(sweep + " --list", "cd there;").out) == 2);
+}
+
+TEST_CASE_METHOD(Workplace, "values that would share a folder, or are no numbers, are refused", "[app]") {
+    write("shrub.l", shrub);
+    CHECK_THAT(run("sweep shrub.l --vary D=1,2,1").err, Contains("the value 1 is there twice"));
+    CHECK_THAT(run("sweep shrub.l --vary D=1:1:3").err, Contains("the value 1 is there twice"));
+    CHECK(run("sweep shrub.l --vary D=-1e308:1e308:3").code == 1);
+    CHECK(lines_in(run("sweep shrub.l --vary D=../a,b --list").out) == 2);
+    write("file", "");
+    const Outcome outcome = run("sweep shrub.l --vary D=1.1,1.2 --output file");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("cannot make the folder file/D=1.1"));
+}
