@@ -17,7 +17,7 @@ namespace {
 constexpr double most_voxels = 68719476736.0;
 /// How many changes take about as long as a rebuild. With a row of a pyramid's layer as the unit, 12 to 38 ns by how
 /// far away its memory is, a rebuild takes 8 for a brick and 2/5 for a layer of a pyramid. Measured with 2 threads,
-/// depths of 4 to 16, 1,000 to 400,000 pyramids in 30^3 to 256^3 voxels: true within a factor of three.
+/// depths of 4 to 16, 1,000 to 400,000 pyramids in 30^3 to 256^3 voxels: true within a factor of 3.5.
 std::size_t changes_like_rebuild(const ShadeCasts& casts, std::size_t bricks) {
     std::size_t rows = 0;
     for (int q = 0; q <= casts.rule().depth; ++q) rows += 2 * static_cast<std::size_t>(casts.half_width(q)) + 1;
