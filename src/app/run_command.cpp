@@ -128,6 +128,8 @@ int run_command(const RunArguments& arguments) {
     RunOptions options;
     options.output = arguments.output.empty() ? default_output(scene.name) : arguments.output;
     options.overwrite = arguments.overwrite;
+    options.checkpoint_every = arguments.checkpoint_every;
+    options.resume = arguments.resume;
     options.memory = arguments.memory;
     options.arguments = words_of(arguments);
     options.inputs = &inputs;
@@ -158,6 +160,11 @@ public:
             ->check(CLI::Range(1, 4096));
         app().add_option("--output", arguments_.output, "folder; default: output/<scene>-<time>");
         app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in that folder");
+        app()
+            .add_option("--checkpoint-every", arguments_.checkpoint_every,
+                        "N steps; `espalier resume` goes on from the last; default: only when interrupted")
+            ->check(CLI::Range(1, 1000000000));
+        app().add_flag("--resume", arguments_.resume)->group("");  // what `resume` starts
         app().add_flag("--quiet", arguments_.quiet, "print nothing but errors");
         add_json_flag("print the result as JSON");
         app().footer(R"(Examples:

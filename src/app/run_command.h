@@ -19,6 +19,8 @@ struct RunArguments {
     int threads = 0;  ///< 0: as many as the machine has
     std::filesystem::path output;
     bool overwrite = false;
+    int checkpoint_every = 0;
+    bool resume = false;  ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;
     bool quiet = false;
     bool json = false;

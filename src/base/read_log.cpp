@@ -10,8 +10,8 @@ std::atomic<ReadLog*> current{nullptr};
 
 }  // namespace
 
-std::uint64_t digest(std::string_view bytes) {
-    std::uint64_t hash = 0xCBF29CE484222325;
+std::uint64_t digest(std::string_view bytes, std::uint64_t before) {
+    std::uint64_t hash = before;
     for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3;
     return hash;
 }

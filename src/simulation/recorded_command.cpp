@@ -61,6 +61,7 @@ RecordedCommand read_command(const fs::path& run) {
         RecordedCommand command;
         command.version = json.at("version").get<std::string>();
         command.exit = json.at("exit").get<std::string>();
+        command.checkpoint_every = json.value("checkpoint_every", 0);
         command.folder = json.at("command").at("folder").get<std::string>();
         command.arguments = json.at("command").at("arguments").get<std::vector<std::string>>();
         if (command.arguments.empty()) throw UserError(file.string() + " does not say how the run was started");

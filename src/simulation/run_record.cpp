@@ -1,5 +1,6 @@
 #include "run_record.h"
 
+#include "lsystem/bytes.h"
 #include "run_inputs.h"
 
 #include <fmt/chrono.h>
@@ -44,6 +45,7 @@ Json overrides_json(const Scene& scene) {
 RunRecord::RunRecord(const Scene& scene, const RunOptions& options)
     : scene_(scene),
       memory_(options.memory),
+      checkpoint_every_(options.checkpoint_every),
       output_(options.output),
       inputs_(options.inputs),
       arguments_(options.arguments),
@@ -52,6 +54,18 @@ RunRecord::RunRecord(const Scene& scene, const RunOptions& options)
 
 void RunRecord::begin(const Timeline& timeline) {
     timings_.emplace(timeline.folder() / "timings.csv", "step,derive,interpret,exchange,record");
+}
+
+void RunRecord::save(std::ostream& out) const {
+    put(out, static_cast<std::uint64_t>(timings_ ? timings_->size() : 0));
+    put(out, steps_);
+    put(out, total_);
+}
+
+void RunRecord::resume(const Timeline& timeline, std::istream& in) {
+    timings_.emplace(timeline.folder() / "timings.csv", std::size_t{get<std::uint64_t>(in)});
+    steps_ = get<int>(in);
+    total_ = get<StageTimes>(in);
 }
 
 void RunRecord::add_step(const StageTimes& times) {
@@ -83,6 +97,7 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
     json["memory"] = memory_;
     json["peak_memory"] = peak_memory();
     json["started"] = started_;
+    json["checkpoint_every"] = checkpoint_every_;
     json["plants"] = plants_json(scene_, world);
     json["processes"] = processes_json(scene_);
     json["timings"] = {{"total", seconds},

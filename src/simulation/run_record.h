@@ -5,6 +5,7 @@
 #include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/timeline.h"
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,9 @@ public:
 
     /// Makes timings.csv, which then grows by a row a step.
     void begin(const Timeline& timeline);
+    /// Goes on with it as save() left it.
+    void resume(const Timeline& timeline, std::istream& in);
+    void save(std::ostream& out) const;
     void add_step(const StageTimes& times);
     /// `exit`: "running", "done", "interrupted", "failed: why".
     void write(const Timeline& timeline, const World& world, const std::string& exit, double seconds) const;
@@ -25,6 +29,7 @@ private:
 
     const Scene& scene_;
     std::size_t memory_;
+    int checkpoint_every_;
     std::filesystem::path output_;
     const ReadLog* inputs_;
     std::vector<std::string> arguments_;

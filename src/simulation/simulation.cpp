@@ -1,13 +1,22 @@
 #include "espalier/simulation/simulation.h"
 
+#include "espalier/base/file.h"
+
+#include "lsystem/bytes.h"
 #include "run_record.h"
+
+#include <fmt/format.h>
 
 #include <chrono>
 #include <exception>
+#include <fstream>
 #include <optional>
 
 namespace espalier {
 namespace {
+
+constexpr std::uint64_t signature = 0x31'6e75'52'7370'61;  // "apsRun1"
+constexpr std::uint64_t most_checkpoint_bytes = std::uint64_t{1} << 40;
 
 class Run {
 public:
@@ -23,6 +32,7 @@ public:
     RunResult walk() {
         try {
             grow();
+            if (timeline_ && !at_end()) write_checkpoint();
             if (timeline_) timeline_->finish();
         } catch (const std::exception& error) {
             end_failed(error.what());
@@ -30,6 +40,7 @@ public:
         }
         const bool cut_short = !at_end();
         write_record(cut_short ? "interrupted" : "done");
+        if (timeline_ && !cut_short) remove_checkpoint();
         return {world_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
                 world_.modules(),    seconds(),          peak_memory()};
     }
@@ -41,6 +52,7 @@ private:
 
     // A mistake in the scene's [timeline] should not leave an empty folder behind.
     void open_timeline() {
+        if (options_.resume) return resume_timeline();
         const bool existed = std::filesystem::exists(options_.output);
         try {
             timeline_.emplace(options_.output, scene_.timeline, scene_.steps, options_.overwrite);
@@ -48,9 +60,39 @@ private:
             if (!existed) remove_if_unused(options_.output);
             throw;
         }
+        remove_checkpoint();
         if (scene_.frames) timeline_->choose(*scene_.frames);
         write_record("running");
         record_.begin(*timeline_);
+    }
+
+    void resume_timeline() {
+        const std::filesystem::path path = checkpoint_of(options_.output);
+        std::ifstream in(path, std::ios::binary);
+        if (!in) throw UserError(fmt::format("there is no {} to go on from", path.string()));
+        if (get<std::uint64_t>(in) != signature) throw RunError(fmt::format("{} is no checkpoint", path.string()));
+        timeline_.emplace(options_.output, scene_.timeline, scene_.steps, get_text(in, most_checkpoint_bytes));
+        record_.resume(*timeline_, in);
+        world_.restore(in);
+        if (scene_.frames) timeline_->choose(*scene_.frames);
+        write_record("running");
+    }
+
+    void write_checkpoint() {
+        const std::string timeline = timeline_->save();
+        write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
+            std::ofstream out(temporary, std::ios::binary);
+            put(out, signature);
+            put_text(out, timeline);
+            record_.save(out);
+            world_.save(out);
+            return out.flush().good();
+        });
+    }
+
+    void remove_checkpoint() const {
+        std::error_code ignored;
+        std::filesystem::remove(checkpoint_of(options_.output), ignored);
     }
 
     static void remove_if_unused(const std::filesystem::path& folder) {
@@ -60,11 +102,15 @@ private:
     }
 
     void grow() {
-        world_.start();
-        record_frame();
+        if (!options_.resume) {
+            world_.start();
+            record_frame();
+        }
         while (!at_end() && !interrupted()) {
             world_.step();
             record_frame();
+            const bool due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
+            if (timeline_ && due && !at_end()) write_checkpoint();
         }
     }
 
@@ -110,6 +156,10 @@ private:
 };
 
 }  // namespace
+
+std::filesystem::path checkpoint_of(const std::filesystem::path& output) {
+    return output / "checkpoint";
+}
 
 RunResult run(const Scene& scene, const RunOptions& options) {
     RunOptions resolved = options;

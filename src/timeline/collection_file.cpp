@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
 
+#include "lsystem/bytes.h"
 #include "timeline/xml_text.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 namespace espalier {
 namespace {
 
+constexpr std::uint64_t most_index_bytes = std::uint64_t{1} << 32;
 constexpr std::size_t page = 4096;  // the smallest there are
 constexpr std::string_view opening =
     "<?xml version=\"1.0\"?>\n"
@@ -62,6 +64,17 @@ void CollectionFile::extend(std::size_t at, const std::string& tail) {
                           ::ftruncate(descriptor_, static_cast<off_t>(at + closing.size())) == 0;
     throw RunError(fmt::format("cannot write {}: {}{}", path_.string(), std::generic_category().message(error),
                                restored ? "" : "; its end is lost"));
+}
+
+void CollectionFile::save(std::ostream& out) const {
+    put_text(out, entries_);
+}
+
+void CollectionFile::restore(std::istream& in) {
+    entries_ = get_text(in, most_index_bytes);
+    if (entries_.empty()) return;
+    write_anew();
+    written_ = entries_.size();
 }
 
 void CollectionFile::close() {

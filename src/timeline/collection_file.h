@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 
 namespace espalier {
@@ -18,6 +19,10 @@ public:
     void add(double time, int part, const std::string& name, const std::string& file);
     /// Throws RunError; the old index stays then.
     void write();
+
+    void save(std::ostream& out) const;
+    /// Puts the saved index back on disk. Throws RunError.
+    void restore(std::istream& in);
 
 private:
     void write_anew();

@@ -26,6 +26,16 @@ CsvFile::CsvFile(const std::filesystem::path& path, std::string_view header) : p
     size_ = header.size() + 1;
 }
 
+CsvFile::CsvFile(const std::filesystem::path& path, std::size_t size) : path_(path), size_(size) {
+    std::error_code error;
+    const std::uintmax_t there = std::filesystem::file_size(path, error);
+    if (error || there < size) {
+        throw RunError(fmt::format("{} is shorter than it was at the checkpoint", path.string()));
+    }
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (descriptor_ < 0 || ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) fail_to_write(path_, errno);
+}
+
 CsvFile::~CsvFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
 #include "espalier/base/text.h"
 #include "espalier/environment/openvdb_grid.h"
 
@@ -84,6 +85,16 @@ bool same_field(const FieldGrid& a, const FieldGrid& b) {
     if (!a.grid || !b.grid || a.box != b.box || a.grid->transform() != b.grid->transform()) return false;
     return a.grid->background() == b.grid->background() && a.grid->tree().hasSameTopology(b.grid->tree()) &&
            same_values(a.grid->tree(), b.grid->tree());
+}
+
+std::uint64_t digest_of(const FieldGrid& grid) {
+    if (!grid.grid) return 0;
+    MemoryArchive archive;
+    archive.setCompression(openvdb::io::COMPRESS_NONE);  // inactive values count, too
+    const std::string bytes = archive.text(grid.grid->copyGridReplacingMetadata(openvdb::MetaMap()));
+    const std::string box = fmt::format("{} {} {} {} {} {}", grid.box.min().x(), grid.box.min().y(), grid.box.min().z(),
+                                        grid.box.max().x(), grid.box.max().y(), grid.box.max().z());
+    return digest(bytes + box);
 }
 
 void write_vdb(const std::filesystem::path& path, const Field& field) {

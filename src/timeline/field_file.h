@@ -3,12 +3,16 @@
 
 #include "espalier/environment/field.h"
 
+#include <cstdint>
 #include <filesystem>
 
 namespace espalier {
 
 /// True if both would give the same files but for the time.
 bool same_field(const FieldGrid& a, const FieldGrid& b);
+
+/// The same for grids that are the same_field, and hardly ever for others.
+std::uint64_t digest_of(const FieldGrid& grid);
 
 /// Complete or not at all; Blosc and active masks. Throws RunError.
 void write_vdb(const std::filesystem::path& path, const Field& field);

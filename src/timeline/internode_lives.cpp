@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/random.h"
 
+#include "lsystem/bytes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -99,6 +101,23 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
     }
     living_.swap(next_living_);
     previous_step_ = step;
+}
+
+void InternodeLives::save(std::ostream& out) const {
+    put(out, previous_step_);
+    put(out, static_cast<std::uint64_t>(lives_.size()));
+    for (const InternodeLife& life : lives_) put(out, life);
+    put(out, static_cast<std::uint64_t>(living_.size()));
+    for (const std::uint32_t life : living_) put(out, life);
+}
+
+void InternodeLives::restore(std::istream& in) {
+    previous_step_ = get<int>(in);
+    for (auto lives = get<std::uint64_t>(in); lives > 0; --lives) lives_.push_back(get<InternodeLife>(in));
+    for (auto living = get<std::uint64_t>(in); living > 0; --living) {
+        living_.push_back(get<std::uint32_t>(in));
+        if (living_.back() >= lives_.size()) throw RunError("the checkpoint is damaged");
+    }
 }
 
 }  // namespace espalier

@@ -4,6 +4,7 @@
 #include "espalier/timeline/frame.h"
 
 #include <cstdint>
+#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,9 @@ class InternodeLives {
 public:
     /// Brings the lives to a step. `symbols` numbers the letters. Throws RunError if the string keeps no lineage.
     void record(int step, const PlantFrame& plant, std::span<const std::uint16_t> symbols);
+
+    void save(std::ostream& out) const;
+    void restore(std::istream& in);
 
     /// In the order of first appearance.
     const std::vector<InternodeLife>& all() const { return lives_; }

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "lsystem/bytes.h"
 #include "timeline/frame_writer.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <cctype>
 #include <exception>
+#include <sstream>
 
 namespace espalier {
 namespace {
@@ -41,6 +43,16 @@ void remove_frame_files(const fs::path& folder) {
     }
 }
 
+// What a killed run was writing.
+void remove_half_written(const fs::path& folder) {
+    std::vector<fs::path> halves;
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+        const std::string name = item.path().filename().string();
+        if (name.starts_with('.') && name.find(".part") != std::string::npos) halves.push_back(item.path());
+    }
+    for (const fs::path& path : halves) fs::remove(path);
+}
+
 // Indices first: what they no longer name is nobody's.
 void remove_timeline(const fs::path& folder) {
     try {
@@ -64,10 +76,22 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
                         "with --overwrite",
                         folder.string()));
     }
+    make_recorders(table);
+    if (overwrite) remove_timeline(folder);
+}
+
+Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const std::string& checkpoint)
+    : folder_(folder), lock_(folder), last_step_(last_step) {
+    make_recorders(table);
+    remove_half_written(folder);
+    restore(checkpoint);
+}
+
+void Timeline::make_recorders(Settings& table) {
     frames_.step = static_cast<int>(table.integer_or("every", 1, Range::between(1, 1e9)));
     frames_.first = static_cast<int>(table.integer_or("first", 0, Range::between(0, 1e9)));
     next_ = frames_.first;
-    const RecorderContext context{folder, last_step};
+    const RecorderContext context{folder_, last_step_};
     for (const auto& [name, entry] : RecorderRegistry::entries()) {
         if (auto recorder = entry.make(table, context)) recorders_.push_back(std::move(recorder));
     }
@@ -83,14 +107,13 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
             if (due || recorder->sees_every_step()) recorder->record(frame);
         }
     });
-    if (overwrite) remove_timeline(folder);
 }
 
 Timeline::~Timeline() = default;
 
 void Timeline::choose(FrameSelection frames) {
     frames_ = std::move(frames);
-    next_ = frames_.first;
+    if (!resumed_) next_ = frames_.first;
     exactly_ = true;
 }
 
@@ -106,6 +129,25 @@ void Timeline::record(const Frame& frame, bool is_last) {
 
 void Timeline::wait() {
     writer_->wait();
+}
+
+std::string Timeline::save() {
+    writer_->wait();
+    std::ostringstream out;
+    put(out, next_);
+    put(out, static_cast<std::uint8_t>(recorded_));
+    put(out, static_cast<std::uint64_t>(recorders_.size()));
+    for (const auto& recorder : recorders_) recorder->save(out);
+    return std::move(out).str();
+}
+
+void Timeline::restore(const std::string& checkpoint) {
+    std::istringstream in(checkpoint);
+    resumed_ = true;
+    next_ = get<int>(in);
+    recorded_ = get<std::uint8_t>(in) != 0;
+    if (get<std::uint64_t>(in) != recorders_.size()) throw RunError("the checkpoint is of another timeline");
+    for (const auto& recorder : recorders_) recorder->restore(in);
 }
 
 void Timeline::finish() {

@@ -1,6 +1,7 @@
 #include "timeline/vtk_file.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
 
 #include "timeline/xml_text.h"
 
@@ -88,7 +89,7 @@ void VtkFile::encode_all() {
     }
 }
 
-void VtkFile::write(const std::filesystem::path& path) {
+std::vector<std::string_view> VtkFile::pieces() {
     while (!open_.empty()) close();
     encode_all();
     std::vector<std::string_view> pieces;
@@ -97,7 +98,17 @@ void VtkFile::write(const std::filesystem::path& path) {
         pieces.push_back(view(parts_[i].text));
     }
     pieces.push_back(markup_);
-    write_text(path, pieces);
+    return pieces;
+}
+
+void VtkFile::write(const std::filesystem::path& path) {
+    write_text(path, pieces());
+}
+
+std::uint64_t VtkFile::digest() {
+    std::uint64_t sum = espalier::digest("");
+    for (const std::string_view piece : pieces()) sum = espalier::digest(piece, sum);
+    return sum;
 }
 
 }  // namespace espalier

@@ -3,6 +3,7 @@
 
 #include "timeline/inline_data.h"
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <string>
@@ -30,6 +31,8 @@ public:
     /// Closes what is open, compresses the arrays, on several threads if they are large, and writes the file: complete
     /// or not at all. Throws RunError.
     void write(const std::filesystem::path& path);
+    /// Of what write() would write.
+    std::uint64_t digest();
 
 private:
     struct Part {
@@ -46,6 +49,8 @@ private:
 
     Part& add(std::string_view element, const DataArray& array, std::size_t tuples);
     void encode_all();
+    /// Of the whole file; valid until it is begun anew.
+    std::vector<std::string_view> pieces();
 
     std::vector<std::string> open_;
     std::string markup_;      ///< since the last array

@@ -42,7 +42,7 @@ TEST_CASE_METHOD(BadInput, "mistakes on the command line exit with 1 and offer t
     CHECK_THAT(run("").err, Contains("derive") && Contains("check"));
     CHECK(run("rnu bush.l").code == 1);
     CHECK_THAT(run("drive bush.l").err, Contains("'drive' is none") && Contains("did you mean 'derive'?"));
-    CHECK_THAT(run("frobnicate").err, Contains("'frobnicate' is none of the commands run, rerun, sweep"));
+    CHECK_THAT(run("frobnicate").err, Contains("'frobnicate' is none of the commands run, resume, rerun"));
     CHECK_THAT(run("--frobnicate").err, Contains("espalier has no option '--frobnicate'"));
     CHECK_THAT(run("check bush.l other.l").err, Contains("espalier check does not expect 'other.l'"));
     CHECK_THAT(run("run bush.l --stpes 3").err, Contains("did you mean '--steps'?"));

@@ -11,7 +11,8 @@
 namespace espalier {
 
 /// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): tells files apart that changed, not files that somebody forged.
-std::uint64_t digest(std::string_view bytes);
+/// `before`: the digest of the bytes before these.
+std::uint64_t digest(std::string_view bytes, std::uint64_t before = 0xCBF29CE484222325);
 
 /// While it lives, it notes every file that read_text() reads, from any thread. One at a time.
 class ReadLog {

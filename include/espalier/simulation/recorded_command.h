@@ -12,6 +12,7 @@ namespace espalier {
 
 struct RecordedCommand {
     std::string version, exit;
+    int checkpoint_every = 0;
     std::filesystem::path folder;        ///< where it was started
     std::vector<std::string> arguments;  ///< of `espalier run`, without --output and what does not change the timeline
     std::map<std::filesystem::path, ReadLog::File> inputs;

@@ -21,6 +21,9 @@ struct Progress {
 struct RunOptions {
     std::filesystem::path output;  ///< empty: no timeline
     bool overwrite = false;
+    /// A checkpoint is written after every so many steps, and when the run is interrupted; 0: only then.
+    int checkpoint_every = 0;
+    bool resume = false;                           ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;                        ///< bytes; 0: half of the machine
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
     /// What `espalier run` was told, without what does not change the timeline; goes to run.json.
@@ -46,6 +49,9 @@ struct RunResult {
 std::size_t default_memory();
 /// The most memory this process ever held in the machine at once, in bytes.
 std::size_t peak_memory();
+
+/// The file in a run's folder that a later run goes on from; gone once the run has ended.
+std::filesystem::path checkpoint_of(const std::filesystem::path& output);
 
 /// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
 /// run.json saying how it ended. Throws UserError, RunError.

@@ -12,6 +12,8 @@ class CsvFile {
 public:
     /// Makes the file anew with its header (without line break). Throws RunError.
     CsvFile(const std::filesystem::path& path, std::string_view header);
+    /// Goes on with a file that was `size` bytes long, and forgets what came behind. Throws RunError if it is shorter.
+    CsvFile(const std::filesystem::path& path, std::size_t size);
     ~CsvFile();
     CsvFile(const CsvFile&) = delete;
     CsvFile& operator=(const CsvFile&) = delete;
@@ -19,6 +21,7 @@ public:
     /// Appends whole lines, each with its line break, in one write. Takes back a write that could not be completed
     /// and throws RunError.
     void append(std::string_view lines);
+    std::size_t size() const { return size_; }  ///< bytes
 
 private:
     std::filesystem::path path_;

@@ -6,6 +6,7 @@
 #include "espalier/timeline/frame.h"
 
 #include <filesystem>
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,6 +33,12 @@ public:
     virtual void record(const Frame& frame) = 0;
     /// After the last frame, also of an interrupted or failed run.
     virtual void finish() = 0;
+
+    /// What the frames to come depend on, as bytes, when every frame so far is written; for a checkpoint.
+    virtual void save(std::ostream&) const {}
+    /// Before the first frame, in the folder that the saved recorder wrote: what it wrote after the save is gone or
+    /// will be written over.
+    virtual void restore(std::istream&) {}
 };
 
 using RecorderRegistry = Registry<Recorder, Settings&, const RecorderContext&>;

@@ -21,6 +21,9 @@ public:
     /// A folder that already holds a timeline is refused, unless `overwrite`: then that timeline's files are removed.
     /// Throws UserError for settings that mean nothing.
     Timeline(const std::filesystem::path& folder, Settings table, int last_step, bool overwrite = false);
+    /// Goes on with the timeline in the folder where save() left it; frames that came behind are written over. After
+    /// choose(), if that is called. Throws RunError if the files are not those of the checkpoint.
+    Timeline(const std::filesystem::path& folder, Settings table, int last_step, const std::string& checkpoint);
     ~Timeline();
 
     const std::filesystem::path& folder() const { return folder_; }
@@ -33,6 +36,8 @@ public:
     void record(const Frame& frame, bool is_last = false);
     /// Returns when every frame recorded is on disk.
     void wait();
+    /// Waits; then what the frames to come depend on, as bytes.
+    std::string save();
     /// Waits, then every recorder finishes, whatever becomes of the others; then the first failure is thrown.
     void finish();
 
@@ -40,11 +45,15 @@ public:
     void write_run(const std::string& json) const;
 
 private:
+    void make_recorders(Settings& table);
+    void restore(const std::string& checkpoint);
+
     std::filesystem::path folder_;
     FolderLock lock_;
     FrameSelection frames_;
     bool exactly_ = false;  // the last step is no frame unless chosen
     bool recorded_ = false;
+    bool resumed_ = false;
     int next_ = 0;
     int last_step_ = 0;
     std::vector<std::unique_ptr<Recorder>> recorders_;

@@ -6,6 +6,7 @@
 #include "espalier/base/text.h"
 #include "espalier/timeline/recorder.h"
 
+#include "lsystem/bytes.h"
 #include "timeline/collection_file.h"
 #include "timeline/field_file.h"
 #include "timeline/folder.h"
@@ -43,12 +44,11 @@ public:
         for (std::size_t i = 0; i < names_.size(); ++i) {
             const Field& field = *frame.fields->find(names_[i]);
             Written& last = written_[i];
-            const bool same = last.grid && (!field.changes || (field.grid && same_field(*field.grid, *last.grid)));
-            if (!same) {
-                last.grid.reset();  // in case the next line throws
+            if (!is_written(field, last)) {
+                last = {};  // in case the next line throws
                 last.name = write(field, frame);
-                last.grid = field.grid;
             }
+            last.grid = field.grid;
             collection_.add(frame.time, static_cast<int>(i), names_[i], last.name + (vti_ ? ".vti" : ".vdb"));
         }
         collection_.write();
@@ -56,7 +56,33 @@ public:
 
     void finish() override {}
 
+    void save(std::ostream& out) const override {
+        collection_.save(out);
+        put(out, static_cast<std::uint64_t>(written_.size()));
+        for (const Written& last : written_) {
+            put_text(out, last.name);
+            put(out, last.grid ? digest_of(*last.grid) : last.digest);
+        }
+    }
+
+    void restore(std::istream& in) override {
+        collection_.restore(in);
+        for (auto fields = get<std::uint64_t>(in); fields > 0; --fields) {
+            Written last;
+            last.name = get_text(in, 1 << 16);
+            last.digest = get<std::uint64_t>(in);
+            restored_.push_back(std::move(last));
+        }
+    }
+
 private:
+    /// The last files of a field.
+    struct Written {
+        std::string name;  ///< without extension
+        std::shared_ptr<const FieldGrid> grid;
+        std::uint64_t digest = 0;  ///< of the grid, where a checkpoint knows no more of it
+    };
+
     // At the first frame every process has provided its fields.
     void find_fields(const Fields& fields) {
         std::vector<std::string> known;
@@ -74,7 +100,16 @@ private:
                                 fmt::format("field '{}' cannot be recorded: its name must serve as a folder's", name));
             }
         }
+        written_ = restored_;
         written_.resize(names_.size());
+    }
+
+    // True if the last files show the field as it is.
+    static bool is_written(const Field& field, const Written& last) {
+        if (last.name.empty()) return false;
+        if (!field.changes) return true;
+        if (!field.grid) return false;
+        return last.grid ? same_field(*field.grid, *last.grid) : digest_of(*field.grid) == last.digest;
     }
 
     // Returns the files' common name, without extension.
@@ -91,12 +126,7 @@ private:
     std::vector<std::string> names_;
     Place place_;
     bool vti_ = true, vdb_ = true;
-    /// The last files of a field.
-    struct Written {
-        std::string name;  ///< without extension
-        std::shared_ptr<const FieldGrid> grid;
-    };
-    std::vector<Written> written_;  ///< per field
+    std::vector<Written> written_, restored_;  ///< per field
 };
 
 const RegisteredRecorder entry{{"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",

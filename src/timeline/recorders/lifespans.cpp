@@ -7,6 +7,7 @@
 // alive (1 or 0), order, colour. Point array: radius.
 #include "espalier/timeline/recorder.h"
 
+#include "lsystem/bytes.h"
 #include "timeline/internode_lives.h"
 #include "timeline/symbol_numbers.h"
 #include "timeline/vtk_file.h"
@@ -65,6 +66,25 @@ public:
         file_.add(data_array<std::int32_t>("connectivity", connectivity_));
         file_.add(data_array<std::int32_t>("offsets", offsets_));
         file_.write(path_);
+    }
+
+    void save(std::ostream& out) const override {
+        put(out, last_step_);
+        put(out, time_);
+        put(out, static_cast<std::uint64_t>(plants_.size()));
+        for (const auto& [plant, lives] : plants_) {
+            put(out, plant);
+            lives.save(out);
+        }
+    }
+
+    void restore(std::istream& in) override {
+        last_step_ = get<int>(in);
+        time_ = get<double>(in);
+        for (auto plants = get<std::uint64_t>(in); plants > 0; --plants) {
+            const auto plant = get<std::uint32_t>(in);
+            plants_[plant].restore(in);
+        }
     }
 
 private:

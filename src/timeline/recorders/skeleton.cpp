@@ -9,6 +9,7 @@
 // radius and the chosen parameters. Field data: the texts of the labels, in the order of their vertices.
 #include "espalier/timeline/recorder.h"
 
+#include "lsystem/bytes.h"
 #include "timeline/attribute_arrays.h"
 #include "timeline/chosen_parameters.h"
 #include "timeline/collection_file.h"
@@ -19,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace espalier {
@@ -69,7 +71,7 @@ public:
         now_.clear();
         fill_mesh(frame);
         fill_arrays(frame);
-        if (written_.empty() || !(now_ == before_)) {
+        if (!is_written()) {
             const std::string file = fmt::format("plants/{:04}.vtp", frame.step);
             written_.clear();  // in case the next line throws
             write(frame, folder_ / file);
@@ -81,7 +83,39 @@ public:
 
     void finish() override {}
 
+    void save(std::ostream& out) const override {
+        collection_.save(out);
+        put_text(out, written_);
+        put(out, static_cast<std::uint64_t>(texture_files_.size()));
+        for (const std::string& file : texture_files_) put_text(out, file);
+        put(out, restored_ ? *restored_ : digest_of(now_));
+    }
+
+    void restore(std::istream& in) override {
+        collection_.restore(in);
+        written_ = get_text(in, longest_name);
+        for (auto files = get<std::uint64_t>(in); files > 0; --files) {
+            texture_files_.push_back(get_text(in, longest_name));
+        }
+        restored_ = get<std::uint64_t>(in);
+    }
+
 private:
+    static constexpr std::uint64_t longest_name = 1 << 16;
+
+    // True if the last file shows what is there now.
+    bool is_written() {
+        if (written_.empty()) return false;
+        if (const auto digest = std::exchange(restored_, std::nullopt)) return digest_of(now_) == *digest;
+        return now_ == before_;
+    }
+
+    static std::uint64_t digest_of(const PlantData& data) {
+        VtkFile file;
+        fill(file, data, 0, 0);
+        return file.digest();
+    }
+
     void fill_mesh(const Frame& frame) {
         PlantMesh& mesh = now_.mesh;
         for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
@@ -123,35 +157,39 @@ private:
 
     void write(const Frame& frame, const std::filesystem::path& path) {
         make_folder(path.parent_path());
-        const PlantMesh& mesh = now_.mesh;
-        file_.begin("PolyData");
-        file_.open("PolyData");
-        file_.open("FieldData");
-        file_.add_texts("texture_files", now_.texture_files);
-        file_.add_texts("label_texts", mesh.labels);
-        file_.add_time(frame.time, frame.step);
-        file_.add_texts("symbol_names", now_.symbol_names);
-        file_.close();
-        const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size() - 1; };
-        file_.open("Piece",
-                   fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
-                               mesh.radii.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
-        file_.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
-        file_.add(data_array<float>("radius", mesh.radii));
-        file_.add(data_array<float>("Normals", mesh.normals, 3));
-        file_.add(data_array<float>("TCoords", mesh.uvs, 2));
-        add_arrays(file_, now_.of_points);
-        file_.close();
-        file_.open("CellData");
-        add_arrays(file_, now_.of_cells);
-        file_.close();
-        file_.open("Points");
-        file_.add(data_array<float>("points", mesh.points, 3));
-        file_.close();
-        add_cells(file_, "Verts", mesh.vertices);
-        add_cells(file_, "Lines", mesh.lines);
-        add_cells(file_, "Polys", mesh.polygons);
+        fill(file_, now_, frame.time, frame.step);
         file_.write(path);
+    }
+
+    static void fill(VtkFile& file, const PlantData& data, double time, int step) {
+        const PlantMesh& mesh = data.mesh;
+        file.begin("PolyData");
+        file.open("PolyData");
+        file.open("FieldData");
+        file.add_texts("texture_files", data.texture_files);
+        file.add_texts("label_texts", mesh.labels);
+        file.add_time(time, step);
+        file.add_texts("symbol_names", data.symbol_names);
+        file.close();
+        const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size() - 1; };
+        file.open("Piece",
+                  fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
+                              mesh.radii.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
+        file.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
+        file.add(data_array<float>("radius", mesh.radii));
+        file.add(data_array<float>("Normals", mesh.normals, 3));
+        file.add(data_array<float>("TCoords", mesh.uvs, 2));
+        add_arrays(file, data.of_points);
+        file.close();
+        file.open("CellData");
+        add_arrays(file, data.of_cells);
+        file.close();
+        file.open("Points");
+        file.add(data_array<float>("points", mesh.points, 3));
+        file.close();
+        add_cells(file, "Verts", mesh.vertices);
+        add_cells(file, "Lines", mesh.lines);
+        add_cells(file, "Polys", mesh.polygons);
     }
 
     std::filesystem::path folder_;
@@ -161,7 +199,8 @@ private:
     std::vector<std::string> texture_files_;
     OrganSource organs_;
     PlantData now_, before_;
-    std::string written_;  ///< the last file, relative to the folder; empty before the first
+    std::optional<std::uint64_t> restored_;  ///< what a checkpoint knows of the last file
+    std::string written_;                    ///< the last file, relative to the folder; empty before the first
     VtkFile file_;
 };
 

@@ -9,6 +9,8 @@
 #include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/recorder.h"
 
+#include "lsystem/bytes.h"
+
 #include <fmt/format.h>
 
 #include <map>
@@ -51,6 +53,28 @@ public:
     }
 
     void finish() override {}
+
+    void save(std::ostream& out) const override {
+        put(out, static_cast<std::uint64_t>(file_ ? file_->size() : 0));
+        put(out, previous_step_);
+        put(out, static_cast<std::uint64_t>(quantities_.size()));
+        for (const std::string& name : quantities_) put_text(out, name);
+        put(out, static_cast<std::uint64_t>(modules_.size()));
+        for (const auto& [plant, modules] : modules_) {
+            put(out, plant);
+            put(out, static_cast<std::uint64_t>(modules));
+        }
+    }
+
+    void restore(std::istream& in) override {
+        if (const auto size = get<std::uint64_t>(in)) file_.emplace(path_, size);
+        previous_step_ = get<int>(in);
+        for (auto names = get<std::uint64_t>(in); names > 0; --names) quantities_.push_back(get_text(in, 1 << 16));
+        for (auto plants = get<std::uint64_t>(in); plants > 0; --plants) {
+            const auto plant = get<std::uint32_t>(in);
+            modules_[plant] = get<std::uint64_t>(in);
+        }
+    }
 
 private:
     void begin(const Frame& frame) {

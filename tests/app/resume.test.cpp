@@ -1,0 +1,90 @@
+// Runs that are killed or interrupted, and go on.
+#include "catch.h"
+#include "program.h"
+
+#include <filesystem>
+#include <set>
+
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const growing =
+    "environment light;\nlsystem: 1\nseed: 2\nderivation length: 60\naxiom: A(1)\n"
+    "A(x) --> F(x)[+A(x*0.9)?light(1)] : 1\nA(x) --> F(x)A(x*0.99) : 2\nF(x) : x < 4 --> F(x*1.01)\nendlsystem\n";
+
+const char* const lit =
+    "[[plant]]\nmodel = \"growing.l\"\npositions = [[0, 0, 0], [1, 0, 0]]\n"
+    "[environment.light]\nprocess = \"voxel-shade\"\n[timeline]\nfields = [\"light\"]\n";
+
+class Resumed : public Workplace {
+public:
+    Resumed() {
+        write("growing.l", growing);
+        write("lit.toml", lit);
+        REQUIRE(run("run lit.toml --quiet --output whole").code == 0);
+    }
+
+    std::set<std::string> files(const std::string& folder) const {
+        std::set<std::string> names;
+        for (const auto& item : fs::recursive_directory_iterator(path() / folder)) {
+            const std::string name = item.path().lexically_relative(path() / folder).string();
+            if (item.is_regular_file() && name != "run.json" && name != "timings.csv") names.insert(name);
+        }
+        return names;
+    }
+
+    void check_same(const std::string& folder) const {
+        CHECK(files(folder) == files("whole"));
+        for (const std::string& name : files("whole")) {
+            INFO(name);
+            CHECK(text_of(path() / folder / name) == text_of(path() / "whole" / name));
+        }
+    }
+};
+
+}  // namespace
+
+TEST_CASE_METHOD(Resumed, "a run that is killed again and again ends with the bytes of one that was not", "[app]") {
+    const auto has_checkpoint = [&] { return fs::exists(path() / "again" / "checkpoint"); };
+    const auto strike = [](pid_t process) { kill(process, SIGKILL); };
+    run_until({"run", "lit.toml", "--quiet", "--output", "again", "--checkpoint-every", "3"}, has_checkpoint, strike);
+    for (int wait = 0; wait < 8 && has_checkpoint(); ++wait) {
+        run_until(
+            {"resume", "again", "--quiet"}, [] { return true; },
+            [&](pid_t process) {
+                usleep(static_cast<unsigned>(20'000 + 15'000 * wait));
+                kill(process, SIGKILL);
+            });
+    }
+    if (has_checkpoint()) CHECK(run("resume again --quiet --threads 1").code == 0);
+    check_same("again");
+    CHECK(run("resume again").code == 1);  // nothing is left to do
+}
+
+TEST_CASE_METHOD(Resumed, "an interrupted run leaves a checkpoint, whatever it was told", "[app]") {
+    const Outcome outcome = run_until(
+        {"run", "lit.toml", "--quiet", "--output", "again"},
+        [&] { return fs::exists(path() / "again" / "plants" / "0002.vtp"); },
+        [](pid_t process) { kill(process, SIGTERM); });
+    if (outcome.code == 130) CHECK(run("resume again --quiet").code == 0);
+    check_same("again");
+}
+
+TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {
+    CHECK_THAT(run("resume nowhere").err, Contains("nowhere holds no run"));
+    run_until(
+        {"run", "lit.toml", "--quiet", "--output", "again", "--checkpoint-every", "1"},
+        [&] { return fs::exists(path() / "again" / "checkpoint"); }, [](pid_t process) { kill(process, SIGKILL); });
+    write("growing.l", std::string(growing) + "\n");
+    const Outcome changed = run("resume again");
+    CHECK(changed.code == 1);
+    CHECK_THAT(changed.err, Contains("growing.l has changed since the run began"));
+    write("growing.l", growing);
+    const std::string bytes = text_of(path() / "again" / "checkpoint");
+    write("again/checkpoint", bytes.substr(0, bytes.size() / 2));
+    CHECK(run("resume again").code != 0);
+    fs::remove(path() / "again" / "checkpoint");
+    CHECK_THAT(run("resume again").err, Contains("holds no checkpoint"));
+}
