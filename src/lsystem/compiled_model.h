@@ -45,7 +45,7 @@ struct CompiledProduction {
     std::vector<std::uint16_t> arities;
     std::vector<Descent> descents;
     std::vector<std::uint32_t> places;  ///< of the descents, padded to whole blocks
-    std::vector<std::uint32_t> heirs;  ///< of each strict module the place in the successor, or Descent::none
+    std::vector<std::uint32_t> heirs;   ///< of each strict module the place in the successor, or Descent::none
     std::size_t length = 0;
     std::size_t parameters = 0;
     Lanes lanes;
