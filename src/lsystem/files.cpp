@@ -1,8 +1,8 @@
 #include "files.h"
 
+#include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
 
-#include "bytes.h"
 #include "functions.h"
 #include "limits.h"
 

@@ -1,7 +1,8 @@
 // The instances of sub-L-systems that live in a string: each occurrence of ?(id) owns variables.
 #pragma once
 
-#include "bytes.h"
+#include "espalier/base/bytes.h"
+
 #include "scopes.h"
 
 #include <map>

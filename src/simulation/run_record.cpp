@@ -1,6 +1,7 @@
 #include "run_record.h"
 
-#include "lsystem/bytes.h"
+#include "espalier/base/bytes.h"
+
 #include "run_inputs.h"
 
 #include <fmt/chrono.h>

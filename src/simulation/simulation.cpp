@@ -1,8 +1,8 @@
 #include "espalier/simulation/simulation.h"
 
+#include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
 
-#include "lsystem/bytes.h"
 #include "run_record.h"
 
 #include <fmt/format.h>

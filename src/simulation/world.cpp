@@ -1,6 +1,7 @@
 #include "espalier/simulation/world.h"
 
-#include "lsystem/bytes.h"
+#include "espalier/base/bytes.h"
+
 #include "memory.h"
 #include "string_checkpoint.h"
 

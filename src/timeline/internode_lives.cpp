@@ -1,9 +1,8 @@
 #include "timeline/internode_lives.h"
 
+#include "espalier/base/bytes.h"
 #include "espalier/base/error.h"
 #include "espalier/base/random.h"
-
-#include "lsystem/bytes.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "espalier/timeline/timeline.h"
 
+#include "espalier/base/bytes.h"
 #include "espalier/base/error.h"
 
-#include "lsystem/bytes.h"
 #include "timeline/frame_writer.h"
 
 #include <fmt/format.h>

@@ -7,9 +7,9 @@
 // (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
 // cell arrays besides: texture (index into texture_files) and back_colour; point arrays besides: Normals, TCoords,
 // radius and the chosen parameters. Field data: the texts of the labels, in the order of their vertices.
+#include "espalier/base/bytes.h"
 #include "espalier/timeline/recorder.h"
 
-#include "lsystem/bytes.h"
 #include "timeline/attribute_arrays.h"
 #include "timeline/chosen_parameters.h"
 #include "timeline/collection_file.h"

@@ -5,11 +5,10 @@
 // included); length (m, of all internodes); height (m, highest point above the base of the first internode); volume
 // (m3, of all internodes); born, died (modules since the step before, brackets included); then the processes'
 // quantities.
+#include "espalier/base/bytes.h"
 #include "espalier/base/text.h"
 #include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/recorder.h"
-
-#include "lsystem/bytes.h"
 
 #include <fmt/format.h>
 
