@@ -1,0 +1,57 @@
+// How a frame of a run is drawn: colours, fields, ground, light and background.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// A field as a cloud whose density follows its values, as colours on a plane, or as the surface of one value.
+struct FieldLook {
+    enum class Kind { volume, slice, surface };
+
+    std::string name;
+    Kind kind = Kind::volume;
+    char axis = 'z';              ///< of a slice: the plane's normal
+    std::optional<double> place;  ///< metres along `axis`; none: through the middle of the plants
+    std::optional<double> level;  ///< of a surface; none: halfway between the field's extremes
+};
+
+struct Background {
+    std::array<std::uint8_t, 3> rgb{255, 255, 255};
+    bool transparent = false;
+
+    bool is_dark() const { return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2] < 110; }
+};
+
+inline constexpr Background light_background{{255, 255, 255}, false}, dark_background{{24, 26, 30}, false};
+
+struct PictureStyle {
+    /// "natural": the model's colours and textures; else an array of the plants (birth, age, order, plant, symbol,
+    /// kind, colour, identity, radius, height, a chosen parameter), or a recorded field, sampled at the organs
+    /// ("light"; "field.light" where a parameter bears that name too).
+    std::string colour_by = "natural";
+    std::optional<std::array<double, 2>> range;  ///< of `colour_by`; none: what the surveyed frames hold
+    std::optional<std::uint32_t> plant;          ///< this one alone, by its number; none: all
+    std::vector<FieldLook> fields;
+    Background background = light_background;
+    bool ground = false;  ///< a disc at height 0
+    bool shading = true;  ///< shadows and what hides in corners; false: lit surfaces only
+    bool textures = true;
+    bool legend = true;  ///< colour bars of arrays and fields
+    bool scale_bar = false;
+    bool time_label = false;
+    std::string title;
+    int triangles = 3'000'000;  ///< of axes, about: they have fewer sides where there are many
+};
+
+/// From where a camera looks at the middle of what it frames.
+struct CameraPlace {
+    double azimuth = 30, elevation = 12;  ///< degrees; azimuth 0 looks against z, elevation 90 from above
+    double zoom = 1;                      ///< 1: everything fits
+};
+
+}  // namespace espalier
