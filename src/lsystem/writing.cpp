@@ -57,12 +57,15 @@ struct Cursor {
     double* out_values;
     std::uint64_t next = 0;  ///< Plan::next of what was written since the stretch began
 
+    template <bool Valued = true, bool LooksAhead = true>
     void pass(const Plan& plan) {
         ++in;
-        values += plan.arity;
         out += plan.length;
-        out_values += plan.parameters;
-        next += plan.next;
+        if constexpr (Valued) {
+            values += plan.arity;
+            out_values += plan.parameters;
+        }
+        if constexpr (LooksAhead) next += plan.next;
     }
 };
 
@@ -150,11 +153,14 @@ void Writer::write_round(std::size_t count) {
         if constexpr (Choosing) {
             plan = plan->choices + choices[at.in - letters];
         }
-        if (plan->kind == Plan::Kind::copy) {
-            *at.out = *at.in;
-            if constexpr (Valued) copy_values(at.values, at.out_values);
-            at.pass(*plan);
-            continue;
+        // Choices are as good as random: where nothing else depends on it, whether a module lives on is no branch.
+        if constexpr (Valued || !Choosing) {
+            if (plan->kind == Plan::Kind::copy) {
+                *at.out = *at.in;
+                if constexpr (Valued) copy_values(at.values, at.out_values);
+                at.pass<Valued, !Choosing>(*plan);
+                continue;
+            }
         }
         copy_letters(plan->block.data(), at.out);
         if (plan->length > letter_block) {
@@ -175,7 +181,7 @@ void Writer::write_round(std::size_t count) {
                 if (!write_lanes(*plan, at.values, at.out_values) || !write_rest(*plan, at)) break;
             }
         }
-        at.pass(*plan);
+        at.pass<Valued, !Choosing>(*plan);
     }
     const bool whole = at.in == at_.in + count;
     at_ = at;
