@@ -13,6 +13,7 @@ TEST_CASE("a run read back has its frames, plants and settings", "[reading]") {
     const RecordedFolder recorded;
     const RecordedRun run(recorded.folder.path);
     CHECK(run.scene() == "handmade");
+    CHECK(run.exit() == "done");
     CHECK(run.time_unit() == "day");
     REQUIRE(run.frames().size() == 2);
     CHECK(run.frames()[0].step == 0);

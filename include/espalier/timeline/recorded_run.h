@@ -110,14 +110,18 @@ struct RecordedField {
     }
 };
 
-/// statistics.csv: a number per row and column; NaN where a cell is empty.
+/// statistics.csv and its like: a number per row and column; NaN where a cell is empty.
 struct RecordedTable {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
 
     /// The column's index. Throws UserError naming the nearest, if there is none.
     std::size_t column(const std::string& name) const;
+    /// Those of the last step, a row a plant.
+    std::vector<std::vector<double>> last_rows() const;
 };
+/// Throws UserError naming the file if it is missing or damaged; a row that is being written is none yet.
+RecordedTable read_table(const std::filesystem::path& file);
 
 struct RecordedPlant {
     std::uint32_t number = 0;
@@ -140,6 +144,8 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
     const std::string& scene() const { return scene_; }  ///< its name
+    /// How it ended: "done", "interrupted", "failed: why"; "running" if it is going still, or was killed.
+    const std::string& exit() const { return exit_; }
     const std::string& time_unit() const { return time_unit_; }
     double dt() const { return dt_; }  ///< of a step, in time units
     const std::vector<RecordedPlant>& plants() const { return plants_; }
@@ -158,7 +164,7 @@ public:
 
 private:
     std::filesystem::path folder_;
-    std::string scene_, time_unit_ = "step";
+    std::string scene_, exit_, time_unit_ = "step";
     double dt_ = 1;
     std::vector<RecordedPlant> plants_;
     std::vector<RecordedFrame> frames_;

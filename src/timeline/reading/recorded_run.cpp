@@ -124,6 +124,7 @@ RecordedRun::RecordedRun(fs::path folder) : folder_(std::move(folder)) {
     const Json run = read_run_json(folder_);
     try {
         scene_ = run.at("scene").at("name").get<std::string>();
+        exit_ = run.at("exit").get<std::string>();
         time_unit_ = run.at("time_unit").get<std::string>();
         dt_ = run.at("dt").get<double>();
         for (const Json& plant : run.at("plants")) {
@@ -192,7 +193,10 @@ RecordedField RecordedRun::field(const RecordedFrame& frame, const std::string& 
 }
 
 RecordedTable RecordedRun::statistics() const {
-    const fs::path file = folder_ / "statistics.csv";
+    return read_table(folder_ / "statistics.csv");
+}
+
+RecordedTable read_table(const fs::path& file) {
     const std::string text = read_text(file);
     RecordedTable table;
     for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
@@ -221,6 +225,14 @@ std::size_t RecordedTable::column(const std::string& name) const {
     if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
     throw UserError(fmt::format("statistics.csv has no column '{}'{}; it has {}", name, did_you_mean(name, columns),
                                 fmt::join(columns, ", ")));
+}
+
+std::vector<std::vector<double>> RecordedTable::last_rows() const {
+    std::vector<std::vector<double>> last = rows;
+    if (rows.empty()) return last;
+    const std::size_t step = column("step");
+    std::erase_if(last, [&](const std::vector<double>& row) { return row[step] != rows.back()[step]; });
+    return last;
 }
 
 }  // namespace espalier
