@@ -76,21 +76,6 @@ private:
     vtkNew<Listener> listener_;
 };
 
-/// True if there is an X display that answers: VTK aborts the program where none does.
-bool has_display() {
-    if (!std::getenv("DISPLAY")) return false;
-    void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
-    if (!library) return false;
-    using Open = void* (*)(const char*);
-    using Close = int (*)(void*);
-    const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
-    const auto close = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
-    void* display = open && close ? open(nullptr) : nullptr;
-    if (display) close(display);
-    dlclose(library);
-    return display != nullptr;
-}
-
 }  // namespace
 
 #if ESPALIER_HAS_EGL
@@ -169,6 +154,20 @@ public:
 };
 
 #endif
+
+bool has_display() {
+    if (!std::getenv("DISPLAY")) return false;
+    void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
+    if (!library) return false;
+    using Open = void* (*)(const char*);
+    using Close = int (*)(void*);
+    const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
+    const auto close = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
+    void* display = open && close ? open(nullptr) : nullptr;
+    if (display) close(display);
+    dlclose(library);
+    return display != nullptr;
+}
 
 std::string why_no_pictures() {
     try {

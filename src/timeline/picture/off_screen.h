@@ -15,6 +15,9 @@ namespace espalier {
 /// Why nothing can be drawn here, and what to install; "" if it can.
 std::string why_no_pictures();
 
+/// True if there is an X display that answers: VTK ends the program where none does.
+bool has_display();
+
 /// Draws by EGL without any display where that works, else on the X display there is.
 /// What is put into the window must be gone before it, because it frees its memory on the graphics card. One thread
 /// makes, uses and destroys it.
