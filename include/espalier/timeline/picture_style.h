@@ -45,13 +45,15 @@ struct PictureStyle {
     bool scale_bar = false;
     bool time_label = false;
     std::string title;
-    int triangles = 3'000'000;  ///< of axes, about: they have fewer sides where there are many
+    double sun_azimuth = -20, sun_elevation = 50;  ///< degrees, as a camera's place
+    int triangles = 3'000'000;                     ///< of axes, about: they have fewer sides where there are many
 };
 
 /// From where a camera looks at the middle of what it frames.
 struct CameraPlace {
     double azimuth = 30, elevation = 12;  ///< degrees; azimuth 0 looks against z, elevation 90 from above
     double zoom = 1;                      ///< 1: everything fits
+    bool turns = false;                   ///< everything fits from every azimuth, at one distance
 };
 
 }  // namespace espalier

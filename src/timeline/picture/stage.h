@@ -5,10 +5,13 @@
 #include "espalier/timeline/picture_style.h"
 #include "espalier/timeline/recorded_run.h"
 
+#include "timeline/picture/camera_fit.h"
+
 #include <vtkType.h>
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,7 +26,9 @@ namespace espalier {
 /// What frames have in common, so that neither camera nor colours jump between them.
 struct StageSurvey {
     Box box;                                     ///< of the plants that are shown; empty where nothing is
+    Outline outline;                             ///< of plants and fields
     std::optional<std::array<double, 2>> range;  ///< of `colour_by`, if it is a number
+    std::map<std::string, std::array<double, 2>> field_ranges;
 };
 
 /// Something of a frame that was pointed at.

@@ -1,0 +1,61 @@
+// How much of the sky and of the sun reaches points among triangles. It does not depend on where one looks from.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace espalier {
+
+/// Depths of what a direction sees first, in parallel projection.
+class DepthMap {
+public:
+    /// `towards`: the unit vector to the light. `texels` along a side.
+    DepthMap(const glm::vec3& towards, int texels, const glm::vec3& lower, const glm::vec3& upper);
+
+    void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+    /// The share of `reach` texels to each side, and the one in the middle, that see past the point's own surroundings.
+    float open(const glm::vec3& point, int reach) const;
+
+    const glm::vec3& towards() const { return towards_; }
+    float texel() const { return texel_; }  ///< its side
+
+private:
+    glm::vec3 place(const glm::vec3& point) const;
+
+    glm::vec3 towards_, right_, up_;
+    glm::vec2 origin_{0};
+    float texel_;
+    int texels_;
+    std::vector<float> depths_;
+};
+
+/// Triangles whose corners index points.
+struct Occluder {
+    std::span<const glm::vec3> points;
+    std::span<const std::int32_t> corners;  ///< three a triangle
+};
+
+/// The unit vector to a light at so many degrees round the vertical (0: from +z) and above the horizon.
+glm::vec3 direction_at(double azimuth, double elevation);
+
+class Daylight {
+public:
+    /// `sun`: the unit vector to it. Equal triangles give equal light, with any number of threads.
+    Daylight(std::span<const Occluder> occluders, const glm::vec3& sun);
+
+    /// Of the sky above a surface, what is not covered: 0 to 1. What is lit from both sides takes the light of both.
+    float sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const;
+    /// Of the sun's disc, what is not covered; nothing is said of the angle at which it shines.
+    float sun(const glm::vec3& point) const;
+
+private:
+    std::vector<DepthMap> sky_;
+    std::vector<DepthMap> sun_;  ///< one
+};
+
+}  // namespace espalier

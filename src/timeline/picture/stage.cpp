@@ -1,0 +1,516 @@
+#include "timeline/picture/stage.h"
+
+#include "espalier/base/error.h"
+
+#include "timeline/picture/colouring.h"
+#include "timeline/picture/field_props.h"
+#include "timeline/picture/ground.h"
+#include "timeline/picture/legend.h"
+#include "timeline/picture/stage_mesh.h"
+#include "timeline/picture/stage_texture.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+#include <vtkBillboardTextActor3D.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkContextActor.h>
+#include <vtkContextScene.h>
+#include <vtkFloatArray.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextProperty.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+constexpr Rgb bright{255, 60, 0};
+constexpr std::size_t most_labels = 300;
+
+std::span<const glm::vec3> points_of(const StageMesh& mesh) {
+    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPoints()->GetData());
+    return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
+}
+
+std::span<const glm::vec3> normals_of(const StageMesh& mesh) {
+    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPointData()->GetNormals());
+    return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
+}
+
+std::span<const std::int32_t> corners_of(const StageMesh& mesh) {
+    auto* array = vtkTypeInt32Array::SafeDownCast(mesh.data->GetPolys()->GetConnectivityArray());
+    return {array->GetPointer(0), 3 * mesh.row_of_triangle.size()};
+}
+
+bool is_flat_box(const Box& box) {
+    if (box.empty()) return false;
+    const glm::dvec3 size = box.upper - box.lower;
+    return size.z <= 1e-6 * std::max(size.x, size.y);
+}
+
+bool is_drawn(Kind kind) {
+    return kind != Kind::query && kind != Kind::label;
+}
+
+void add_light(vtkRenderer& renderer, const glm::vec3& from, double intensity) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->PositionalOff();
+    light->SetFocalPoint(0, 0, 0);
+    light->SetPosition(from.x, from.y, from.z);
+    light->SetIntensity(intensity);
+    renderer.AddLight(light);
+}
+
+/// The time as a reader wants it: "step 12", or "6 days" where a scene says how long a step is.
+std::string time_text(const RecordedRun& run, const RecordedFrame& frame) {
+    if (run.time_unit() == "step") return fmt::format("step {}", frame.step);
+    return fmt::format("{} {:.6g}", run.time_unit(), frame.time);
+}
+
+}  // namespace
+
+class Stage::Body {
+public:
+    Body(const RecordedRun& run, PictureStyle style) : run_(&run) {
+        restyle(std::move(style));
+        renderer_->AddActor(legend_actor_);
+        legend_actor_->GetScene()->AddItem(legend_);
+    }
+
+    const RecordedRun* run_;
+    PictureStyle style_;
+    std::optional<Colouring> colouring_;
+    std::optional<RecordedFrame> frame_;
+    std::shared_ptr<const RecordedGeometry> geometry_ = std::make_shared<RecordedGeometry>();
+    std::optional<StageSurvey> survey_;  ///< what `settle` was given
+    StageSurvey here_;                   ///< of the frame that is shown
+    std::optional<Highlight> highlighted_;
+
+    struct Part {
+        StageMesh mesh;
+        vtkSmartPointer<vtkActor> actor;
+    };
+    std::vector<Part> parts_;
+    std::vector<vtkSmartPointer<vtkProp>> others_;  ///< fields, ground, labels
+    std::vector<vtkSmartPointer<vtkActor>> highlight_actors_;
+    std::optional<CameraView> view_;
+    vtkNew<vtkRenderer> renderer_;
+    vtkNew<vtkContextActor> legend_actor_;
+    vtkNew<LegendItem> legend_;
+
+    void restyle(PictureStyle style) {
+        Colouring colouring(*run_, style.colour_by);
+        for (const FieldLook& look : style.fields) check_field(*run_, look);
+        const bool same_range = style.colour_by == style_.colour_by;
+        if (survey_ && !same_range) survey_->range.reset();
+        style_ = std::move(style);
+        colouring_ = std::move(colouring);
+        set_background();
+        if (frame_) rebuild();
+    }
+
+    void show(const RecordedFrame& frame) {
+        geometry_ = load(frame);
+        frame_ = frame;
+        rebuild();
+    }
+
+    std::shared_ptr<const RecordedGeometry> load(const RecordedFrame& frame) const {
+        if (frame_ && frame_->plants == frame.plants && !frame.plants.empty()) return geometry_;
+        if (frame.plants.empty()) return std::make_shared<RecordedGeometry>();
+        return std::make_shared<RecordedGeometry>(run_->geometry(frame));
+    }
+
+    StageSurvey survey(std::span<const RecordedFrame* const> frames) const {
+        StageSurvey all;
+        const std::filesystem::path* last = nullptr;
+        std::shared_ptr<const RecordedGeometry> geometry;
+        for (const RecordedFrame* frame : frames) {
+            const bool is_new = !last || *last != frame->plants;
+            if (is_new) {
+                geometry = load(*frame);
+                add_plants(*geometry, all);
+            }
+            last = &frame->plants;
+            add_range(*frame, *geometry, all);
+            add_fields(*frame, all);
+        }
+        return all;
+    }
+
+    void place_camera(const CameraPlace& place, bool follow) {
+        const StageSurvey& framed = survey_ && !follow ? *survey_ : here_;
+        std::vector<glm::dvec3> points = framed.outline.points();
+        const int* size = renderer_->GetSize();
+        const double width = std::max(1, size[0]), height = std::max(1, size[1]);
+        Margins margins;
+        margins.right += legend_->legend.width(static_cast<int>(height)) / width;
+        if (!style_.title.empty()) margins.top += 0.04;
+        if (style_.scale_bar) margins.bottom += 0.05;
+        view_ = fitted(points, place, place.turns, is_flat(), width / height, margins);
+        vtkCamera& camera = *renderer_->GetActiveCamera();
+        camera.SetFocalPoint(&view_->focus.x);
+        camera.SetPosition(&view_->position.x);
+        camera.SetViewUp(&view_->up.x);
+        camera.SetParallelProjection(view_->is_parallel);
+        camera.SetParallelScale(view_->half_height);
+        camera.SetViewAngle(view_->view_angle);
+        camera.SetWindowCenter(-view_->shift.x, -view_->shift.y);
+        renderer_->ResetCameraClippingRange();
+        if (!style_.scale_bar) return;
+        legend_->legend.metres_per_pixel = 2 * view_->half_height / height;
+        legend_actor_->GetScene()->SetDirty(true);
+    }
+
+    bool is_flat() const { return is_flat_box(survey_ ? survey_->box : here_.box); }
+
+    void show_highlight() {
+        for (const auto& actor : highlight_actors_) renderer_->RemoveActor(actor);
+        highlight_actors_.clear();
+        if (!highlighted_) return;
+        for (const Part& part : parts_) add_highlight(part);
+    }
+
+    const RecordedAttributes& attributes(const StageMesh& mesh) const {
+        return mesh.is_of_axes ? geometry_->of_points : geometry_->of_cells;
+    }
+
+    StageModule module_of(const StageMesh& mesh, std::size_t triangle) const {
+        const std::size_t row = mesh.row_of_triangle[triangle];
+        const RecordedAttributes& of = attributes(mesh);
+        StageModule module{of.plants[row], of.identities[row], row, mesh.is_of_axes, glm::dvec3(0)};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto corner = static_cast<std::size_t>(corners_of(mesh)[3 * triangle + k]);
+            module.position += glm::dvec3(points_of(mesh)[corner]) / 3.0;
+        }
+        return module;
+    }
+
+private:
+    void set_background() {
+        const Rgb& rgb = style_.background.rgb;
+        renderer_->SetBackground(rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+        renderer_->SetBackgroundAlpha(style_.background.transparent ? 0 : 1);
+    }
+
+    void add_plants(const RecordedGeometry& geometry, StageSurvey& survey) const {
+        for (std::size_t i = 0; i < geometry.points.size(); ++i) {
+            const bool shown = !style_.plant || geometry.of_points.plants[i] == *style_.plant;
+            if (!shown || !is_drawn(geometry.of_points.kinds[i])) continue;
+            const glm::dvec3 point(geometry.points[i]);
+            if (!std::isfinite(point.x + point.y + point.z)) continue;
+            survey.box.add(point);
+            survey.outline.add(point, std::isfinite(geometry.radii[i]) ? geometry.radii[i] : 0);
+        }
+    }
+
+    void add_range(const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) const {
+        if (!colouring_->is_number()) return;
+        const auto range = range_of(colouring_->values(*run_, frame, geometry));
+        if (!range) return;
+        if (!survey.range) survey.range = range;
+        (*survey.range)[0] = std::min((*survey.range)[0], (*range)[0]);
+        (*survey.range)[1] = std::max((*survey.range)[1], (*range)[1]);
+    }
+
+    void add_fields(const RecordedFrame& frame, StageSurvey& survey) const {
+        for (const FieldLook& look : style_.fields) {
+            if (!frame.fields.contains(look.name)) continue;
+            const RecordedField field = run_->field(frame, look.name);
+            add_field_range(field, survey.field_ranges);
+            const glm::dvec3 lower = field.origin - 0.5 * field.voxel, size = field.voxel * glm::dvec3(field.size);
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 share(corner & 1, corner >> 1 & 1, corner >> 2);
+                survey.outline.add(lower + share * size, 0);
+            }
+        }
+    }
+
+    static void add_field_range(const RecordedField& field, std::map<std::string, std::array<double, 2>>& ranges) {
+        const auto range = range_of({field.values.begin(), field.values.end()});
+        if (!range) return;
+        auto& all = ranges.try_emplace(field.name, *range).first->second;
+        all = {std::min(all[0], (*range)[0]), std::max(all[1], (*range)[1])};
+    }
+
+    std::array<double, 2> colour_range() const {
+        if (style_.range) return *style_.range;
+        if (survey_ && survey_->range) return *survey_->range;
+        return here_.range.value_or(std::array<double, 2>{0, 1});
+    }
+
+    void rebuild() {
+        for (const Part& part : parts_) renderer_->RemoveActor(part.actor);
+        for (const auto& prop : others_) renderer_->RemoveViewProp(prop);
+        parts_.clear();
+        others_.clear();
+        const RecordedFrame* const frames[] = {&*frame_};
+        here_ = survey(frames);
+        legend_->legend = {};
+        build_meshes();
+        add_lights_and_colours();
+        add_field_props();
+        add_labels();
+        write_legend();
+        show_highlight();
+    }
+
+    double size() const {
+        const Box& box = here_.box;
+        return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
+    }
+
+    void build_meshes() {
+        StageMeshOptions options;
+        options.plant = style_.plant;
+        options.triangles = static_cast<std::size_t>(std::max(0, style_.triangles));
+        options.size = size();
+        std::vector<StageMesh> meshes = surfaces_of(*geometry_, options);
+        meshes.push_back(tubes_of(*geometry_, options));
+        for (StageMesh& mesh : meshes) {
+            if (mesh.row_of_triangle.empty()) continue;
+            parts_.push_back({std::move(mesh), vtkSmartPointer<vtkActor>::New()});
+        }
+    }
+
+    void add_lights_and_colours() {
+        renderer_->RemoveAllLights();
+        renderer_->AutomaticLightCreationOff();
+        const glm::vec3 sun = direction_at(style_.sun_azimuth, style_.sun_elevation);
+        add_light(*renderer_, sun, 0.75);
+        add_light(*renderer_, glm::vec3(0, 1, 0), 0.2);
+        vtkNew<vtkLight> fill_in;
+        fill_in->SetLightTypeToHeadlight();
+        fill_in->SetIntensity(0.35);
+        renderer_->AddLight(fill_in);
+
+        std::optional<Daylight> daylight;
+        if (style_.shading && !is_flat()) {
+            std::vector<Occluder> occluders;
+            for (const Part& part : parts_) occluders.push_back({points_of(part.mesh), corners_of(part.mesh)});
+            daylight.emplace(occluders, sun);
+        }
+        const std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
+        for (Part& part : parts_) dress(part, colours, daylight ? &*daylight : nullptr);
+        if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
+    }
+
+    void dress(Part& part, const std::vector<Rgb>& colours, const Daylight* daylight) {
+        const StageMesh& mesh = part.mesh;
+        const auto points = points_of(mesh), normals = normals_of(mesh);
+        vtkNew<vtkUnsignedCharArray> rgb;
+        rgb->SetNumberOfComponents(3);
+        rgb->SetNumberOfTuples(static_cast<vtkIdType>(points.size()));
+        unsigned char* const to = rgb->GetPointer(0);
+        // Colours that mean a number are only tinged, or nobody could read them.
+        const float strength = colouring_->is_natural() ? 1.0f : 0.5f;
+        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+            float light = 1;
+            if (daylight) {
+                light = brightness(daylight->sky(points[i], normals[i], !mesh.is_of_axes), daylight->sun(points[i]));
+                light = 1 - strength * (1 - light);
+            }
+            const Rgb& colour = colours[mesh.row_of_point[i]];
+            for (std::size_t k = 0; k < 3; ++k) {
+                to[3 * i + k] = static_cast<unsigned char>(std::lround(light * static_cast<float>(colour[k])));
+            }
+        });
+        mesh.data->GetPointData()->SetScalars(rgb);
+        vtkNew<vtkPolyDataMapper> mapper;
+        mapper->SetInputData(mesh.data);
+        part.actor->SetMapper(mapper);
+        vtkProperty& property = *part.actor->GetProperty();
+        property.SetAmbient(0.1);
+        property.SetDiffuse(0.9);
+        property.SetSpecular(mesh.is_of_axes ? 0.03 : 0.1);
+        property.SetSpecularPower(15);
+        property.SetLighting(!is_flat());
+        if (mesh.texture > 0 && style_.textures && colouring_->is_natural()) {
+            part.actor->SetTexture(texture_of(run_->folder(), geometry_->texture_files[mesh.texture]));
+        }
+        renderer_->AddActor(part.actor);
+    }
+
+    void add_ground(const Daylight* daylight) {
+        const Box& box = survey_ && !survey_->box.empty() ? survey_->box : here_.box;
+        if (box.empty()) return;
+        const glm::dvec3 half = (box.upper - box.lower) / 2.0;
+        const glm::dvec3 middle = box.lower + half;
+        const double radius = 1.6 * std::max({half.x, half.z, 0.5 * half.y});
+        others_.push_back(ground_actor(middle, radius, daylight, style_.background));
+        renderer_->AddViewProp(others_.back());
+    }
+
+    void add_field_props() {
+        const auto& ranges = survey_ && !survey_->field_ranges.empty() ? survey_->field_ranges : here_.field_ranges;
+        const glm::dvec3 middle = here_.box.empty() ? glm::dvec3(0) : (here_.box.lower + here_.box.upper) / 2.0;
+        std::size_t number = 0;
+        for (const FieldLook& look : style_.fields) {
+            const auto colours = field_colours(number++, style_.background.is_dark());
+            if (!frame_->fields.contains(look.name)) continue;
+            const RecordedField field = run_->field(*frame_, look.name);
+            const auto range = ranges.find(look.name);
+            if (range == ranges.end()) continue;
+            FieldProp made = field_prop(field, look, range->second, middle, colours);
+            others_.push_back(made.prop);
+            renderer_->AddViewProp(made.prop);
+            legend_->legend.keys.push_back(std::move(made.key));
+        }
+    }
+
+    void add_labels() {
+        const double ink = style_.background.is_dark() ? 0.9 : 0.15;
+        for (std::size_t cell = 0, label = 0; cell < geometry_->vertices.size(); ++cell) {
+            if (geometry_->of_cells.kinds[geometry_->vertices.first + cell] != Kind::label) continue;
+            if (label >= std::min(most_labels, geometry_->label_texts.size())) return;
+            vtkNew<vtkBillboardTextActor3D> text;
+            text->SetInput(geometry_->label_texts[label++].c_str());
+            const glm::dvec3 at(geometry_->points[static_cast<std::size_t>(geometry_->vertices[cell].front())]);
+            text->SetPosition(at.x, at.y, at.z);
+            text->GetTextProperty()->SetColor(ink, ink, ink);
+            text->GetTextProperty()->SetFontSize(18);
+            others_.emplace_back(text);
+            renderer_->AddViewProp(text);
+        }
+    }
+
+    void write_legend() {
+        Legend& legend = legend_->legend;
+        const auto key = colouring_->key(*run_, *geometry_, colour_range());
+        if (key) legend.keys.insert(legend.keys.begin(), *key);
+        if (!style_.legend) legend.keys.clear();
+        legend.title = style_.title;
+        if (style_.time_label) legend.time = time_text(*run_, *frame_);
+        legend.dark = style_.background.is_dark();
+        if (style_.scale_bar && view_) {
+            legend.metres_per_pixel = 2 * view_->half_height / std::max(1, renderer_->GetSize()[1]);
+        }
+        legend_actor_->GetScene()->SetDirty(true);
+    }
+
+    void add_highlight(const Part& part) {
+        const RecordedAttributes& of = attributes(part.mesh);
+        vtkNew<vtkCellArray> triangles;
+        for (std::size_t i = 0; i < part.mesh.row_of_triangle.size(); ++i) {
+            const std::size_t row = part.mesh.row_of_triangle[i];
+            if (of.identities[row] != highlighted_->identity || of.plants[row] != highlighted_->plant) continue;
+            const auto corners = corners_of(part.mesh).subspan(3 * i, 3);
+            triangles->InsertNextCell({corners[0], corners[1], corners[2]});
+        }
+        if (triangles->GetNumberOfCells() == 0) return;
+        vtkNew<vtkPolyData> data;
+        data->SetPoints(part.mesh.data->GetPoints());
+        data->SetPolys(triangles);
+        vtkNew<vtkPolyDataMapper> mapper;
+        mapper->SetInputData(data);
+        mapper->SetResolveCoincidentTopologyToPolygonOffset();
+        mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2);
+        const auto actor = vtkSmartPointer<vtkActor>::New();
+        actor->SetMapper(mapper);
+        actor->PickableOff();
+        actor->GetProperty()->SetColor(bright[0] / 255.0, bright[1] / 255.0, bright[2] / 255.0);
+        actor->GetProperty()->LightingOff();
+        renderer_->AddActor(actor);
+        highlight_actors_.push_back(actor);
+    }
+};
+
+Stage::Stage(const RecordedRun& run, PictureStyle style) : body_(std::make_unique<Body>(run, std::move(style))) {}
+
+Stage::~Stage() = default;
+
+vtkRenderer& Stage::renderer() {
+    return *body_->renderer_;
+}
+
+void Stage::use(const RecordedRun& run) {
+    body_->run_ = &run;
+}
+
+void Stage::show(const RecordedFrame& frame) {
+    body_->show(frame);
+}
+
+const RecordedFrame* Stage::shown() const {
+    return body_->frame_ ? &*body_->frame_ : nullptr;
+}
+
+const RecordedGeometry& Stage::geometry() const {
+    return *body_->geometry_;
+}
+
+StageSurvey Stage::survey(std::span<const RecordedFrame* const> frames) const {
+    return body_->survey(frames);
+}
+
+void Stage::settle(const StageSurvey& survey) {
+    body_->survey_ = survey;
+    if (body_->frame_) body_->show(RecordedFrame(*body_->frame_));
+}
+
+const PictureStyle& Stage::style() const {
+    return body_->style_;
+}
+
+void Stage::restyle(PictureStyle style) {
+    body_->restyle(std::move(style));
+}
+
+std::vector<std::string> Stage::colour_names() const {
+    return Colouring::names(*body_->run_);
+}
+
+bool Stage::is_flat() const {
+    return body_->is_flat();
+}
+
+void Stage::place_camera(const CameraPlace& place, bool follow) {
+    body_->place_camera(place, follow);
+}
+
+std::optional<StageModule> Stage::module_at(vtkProp* prop, vtkIdType cell) const {
+    for (const Body::Part& part : body_->parts_) {
+        if (part.actor != prop || cell < 0) continue;
+        const auto triangle = static_cast<std::size_t>(cell);
+        if (triangle < part.mesh.row_of_triangle.size()) return body_->module_of(part.mesh, triangle);
+    }
+    return std::nullopt;
+}
+
+std::vector<StageModule> Stage::places_of(std::uint32_t plant, std::uint64_t identity) const {
+    std::vector<StageModule> places;
+    for (const Body::Part& part : body_->parts_) {
+        const RecordedAttributes& of = body_->attributes(part.mesh);
+        std::map<std::size_t, std::pair<glm::dvec3, int>> middles;
+        for (std::size_t i = 0; i < part.mesh.row_of_triangle.size(); ++i) {
+            const std::size_t row = part.mesh.row_of_triangle[i];
+            if (of.identities[row] != identity || of.plants[row] != plant) continue;
+            auto& [sum, count] = middles.try_emplace(row, glm::dvec3(0), 0).first->second;
+            sum += body_->module_of(part.mesh, i).position;
+            ++count;
+        }
+        for (const auto& [row, middle] : middles) {
+            places.push_back({plant, identity, row, part.mesh.is_of_axes, middle.first / double(middle.second)});
+        }
+    }
+    return places;
+}
+
+void Stage::highlight(std::optional<Highlight> module) {
+    body_->highlighted_ = module;
+    body_->show_highlight();
+}
+
+}  // namespace espalier
