@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "timeline/picture/chart_look.h"
+#include "timeline/picture/heat_map.h"
 #include "timeline/picture/off_screen.h"
 
 #include <fmt/format.h>
@@ -17,6 +19,7 @@
 #include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
+#include <vtkPlotArea.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -28,34 +31,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <span>
+#include <utility>
 
 namespace espalier {
 namespace {
-
-using Colour = vtkColor4ub;
-
-/// Colours of a page. Those of lines are Okabe & Ito's (2008), without the one that fades on the background.
-struct Look {
-    Colour background, text, axis, grid;
-    std::array<Colour, Key::colour_count> lines;
-};
-
-Look look_of(const ChartPage& page) {
-    if (page.dark) {
-        return {Colour(24, 26, 30),
-                Colour(230, 230, 230),
-                Colour(150, 150, 155),
-                Colour(52, 55, 61),
-                {Colour(86, 180, 233), Colour(230, 159, 0), Colour(0, 190, 140), Colour(224, 142, 186),
-                 Colour(240, 228, 66), Colour(237, 109, 40), Colour(200, 200, 200)}};
-    }
-    return {Colour(255, 255, 255),
-            Colour(40, 40, 40),
-            Colour(120, 120, 120),
-            Colour(230, 230, 230),
-            {Colour(0, 114, 178), Colour(213, 94, 0), Colour(0, 158, 115), Colour(204, 121, 167), Colour(230, 159, 0),
-             Colour(86, 180, 233), Colour(70, 70, 70)}};
-}
 
 constexpr std::array<int, Key::dash_count> dashes{vtkPen::SOLID_LINE, vtkPen::DASH_LINE, vtkPen::DOT_LINE,
                                                   vtkPen::DASH_DOT_LINE};
@@ -117,14 +98,6 @@ Layout layout_of(const ChartPage& page, const PictureSize& size) {
     return layout;
 }
 
-void set_text(vtkTextProperty& text, const Colour& colour, float size) {
-    text.SetFontFamilyToArial();
-    text.SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
-    text.SetFontSize(static_cast<int>(size));
-    text.SetBold(0);
-    text.SetItalic(0);
-}
-
 /// The page's title and legend, and the background.
 class Heading final : public vtkContextItem {
 public:
@@ -139,7 +112,7 @@ public:
     }
 
     bool Paint(vtkContext2D* painter) override {
-        const Look look = look_of(*page_);
+        const ChartLook look = look_of(*page_);
         painter->GetPen()->SetLineType(vtkPen::NO_PEN);
         painter->GetBrush()->SetColor(look.background);
         painter->DrawRect(0, 0, static_cast<float>(size_.width), static_cast<float>(size_.height));
@@ -182,7 +155,7 @@ struct Span {
     }
 };
 
-void set_axis(vtkAxis& axis, const Look& look, float font, const std::string& title, const Ticks& ticks) {
+void set_axis(vtkAxis& axis, const ChartLook& look, float font, const std::string& title, const Ticks& ticks) {
     vtkNew<vtkDoubleArray> places;
     vtkNew<vtkStringArray> labels;
     for (std::size_t i = 0; i < ticks.places.size(); ++i) {
@@ -201,43 +174,86 @@ void set_axis(vtkAxis& axis, const Look& look, float font, const std::string& ti
     axis.GetGridPen()->SetWidth(1);
 }
 
-/// A stretch of a line without gaps, of one point as a dot.
-void add_stretch(vtkChartXY& chart, const Series& series, std::size_t first, std::size_t last, const Key& key,
-                 const Look& look, float font) {
-    vtkNew<vtkDoubleArray> x, y;
-    x->SetName("x");
-    y->SetName("y");
-    for (std::size_t i = first; i < last; ++i) {
-        x->InsertNextValue(series.x[i]);
-        y->InsertNextValue(series.y[i]);
+vtkSmartPointer<vtkTable> table_of(std::initializer_list<std::pair<const char*, std::span<const double>>> columns) {
+    auto table = vtkSmartPointer<vtkTable>::New();
+    for (const auto& [name, values] : columns) {
+        vtkNew<vtkDoubleArray> column;
+        column->SetName(name);
+        for (const double value : values) column->InsertNextValue(value);
+        table->AddColumn(column);
     }
-    vtkNew<vtkTable> table;
-    table->AddColumn(x);
-    table->AddColumn(y);
-    auto* line = vtkPlotPoints::SafeDownCast(chart.AddPlot(last - first > 1 ? vtkChart::LINE : vtkChart::POINTS));
-    line->SetInputData(table, 0, 1);
-    const Colour& colour = look.lines[static_cast<std::size_t>(key.colour)];
+    return table;
+}
+
+struct Stretch {
+    const Series& series;
+    std::size_t first, count;
+
+    std::span<const double> of(const std::vector<double>& values) const { return {values.data() + first, count}; }
+};
+
+void add_band(vtkChartXY& chart, const Stretch& stretch, const ChartColour& colour) {
+    const Series& series = stretch.series;
+    auto* band = vtkPlotArea::SafeDownCast(chart.AddPlot(vtkChart::AREA));
+    band->SetInputData(
+        table_of({{"x", stretch.of(series.x)}, {"low", stretch.of(series.low)}, {"high", stretch.of(series.high)}}));
+    band->SetInputArray(0, "x");
+    band->SetInputArray(1, "low");
+    band->SetInputArray(2, "high");
+    band->GetBrush()->SetColor(colour);
+    band->GetBrush()->SetOpacity(45);
+    band->GetPen()->SetLineType(vtkPen::NO_PEN);
+}
+
+/// A stretch of a line without gaps, of one point as a dot.
+void add_stretch(vtkChartXY& chart, const Stretch& stretch, const Key& key, const ChartLook& look, float font) {
+    const bool joined = stretch.series.joined && stretch.count > 1;
+    const ChartColour& colour = look.lines[static_cast<std::size_t>(key.colour)];
+    if (!stretch.series.low.empty() && joined) add_band(chart, stretch, colour);
+    auto* line = vtkPlotPoints::SafeDownCast(chart.AddPlot(joined ? vtkChart::LINE : vtkChart::POINTS));
+    line->SetInputData(table_of({{"x", stretch.of(stretch.series.x)}, {"y", stretch.of(stretch.series.y)}}), 0, 1);
     line->GetPen()->SetColor(colour);
     line->GetPen()->SetWidth(font / 7);
     line->GetPen()->SetLineType(dashes[static_cast<std::size_t>(key.dash)]);
     line->GetBrush()->SetColor(colour);
     // A short stretch shows its points.
-    line->SetMarkerStyle(last - first <= 12 ? vtkPlotPoints::CIRCLE : vtkPlotPoints::NONE);
-    line->SetMarkerSize(font / 2.4F);
+    line->SetMarkerStyle(stretch.count <= 12 || !joined ? vtkPlotPoints::CIRCLE : vtkPlotPoints::NONE);
+    line->SetMarkerSize(stretch.series.joined ? font / 2.4F : font / 4);
 }
 
-void add_line(vtkChartXY& chart, const Series& series, const Key& key, const Look& look, float font) {
+void add_line(vtkChartXY& chart, const Series& series, const Key& key, const ChartLook& look, float font) {
     const auto shown = [&](std::size_t i) { return std::isfinite(series.x[i]) && std::isfinite(series.y[i]); };
     for (std::size_t first = 0; first < series.x.size();) {
         std::size_t last = first;
         while (last < series.x.size() && shown(last)) ++last;
-        if (last > first) add_stretch(chart, series, first, last, key, look, font);
+        if (last > first) add_stretch(chart, {series, first, last - first}, key, look, font);
         first = last + 1;
     }
 }
 
+/// Along x the lines fill the chart, but for dots, which are not cut in two.
+Ticks ticks_along(const Chart& chart, const Span& x, int count) {
+    Ticks ticks = ticks_over(x.low, x.high, count);
+    if (!chart.x_names.empty()) {
+        ticks = {{}, chart.x_names, -0.5, static_cast<double>(chart.x_names.size()) - 0.5};
+        for (std::size_t i = 0; i < chart.x_names.size(); ++i) ticks.places.push_back(static_cast<double>(i));
+        return ticks;
+    }
+    if (!(x.low < x.high)) return ticks;
+    const bool dots = std::any_of(chart.series.begin(), chart.series.end(), [](const Series& s) { return !s.joined; });
+    const double room = dots ? 0.03 * (x.high - x.low) : 0;
+    ticks.low = x.low - room;
+    ticks.high = x.high + room;
+    for (std::size_t i = ticks.places.size(); i-- > 0;) {
+        if (ticks.places[i] >= ticks.low - 1e-9 && ticks.places[i] <= ticks.high + 1e-9) continue;
+        ticks.places.erase(ticks.places.begin() + static_cast<std::ptrdiff_t>(i));
+        ticks.labels.erase(ticks.labels.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    return ticks;
+}
+
 vtkSmartPointer<vtkChartXY> chart_of(const ChartPage& page, const Chart& chart, const vtkRectf& place, float font) {
-    const Look look = look_of(page);
+    const ChartLook look = look_of(page);
     auto drawn = vtkSmartPointer<vtkChartXY>::New();
     drawn->SetAutoSize(false);
     drawn->SetSize(place);
@@ -247,23 +263,14 @@ vtkSmartPointer<vtkChartXY> chart_of(const ChartPage& page, const Chart& chart, 
     for (const Series& series : chart.series) {
         x.add(series.x);
         y.add(series.y);
+        y.add(series.low);
+        y.add(series.high);
         add_line(*drawn, series, page.keys.at(series.key), look, font);
     }
     if (y.low > 0 && y.low < 0.6 * y.high) y.low = 0;  // sizes are compared from 0 on
     const int across = std::max(2, static_cast<int>(place.GetWidth() / (4.5F * font)));
     const int up = std::max(2, static_cast<int>(place.GetHeight() / (3.2F * font)));
-    Ticks below = ticks_over(x.low, x.high, across);
-    if (x.low < x.high) {  // along x the lines fill the chart
-        below.low = x.low;
-        below.high = x.high;
-        const auto outside = [&](double at) { return at < x.low - 1e-9 || at > x.high + 1e-9; };
-        for (std::size_t i = below.places.size(); i-- > 0;) {
-            if (!outside(below.places[i])) continue;
-            below.places.erase(below.places.begin() + static_cast<std::ptrdiff_t>(i));
-            below.labels.erase(below.labels.begin() + static_cast<std::ptrdiff_t>(i));
-        }
-    }
-    set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), look, font, chart.x_title, below);
+    set_axis(*drawn->GetAxis(vtkAxis::BOTTOM), look, font, chart.x_title, ticks_along(chart, x, across));
     Ticks beside = ticks_over(y.low, y.high, up);
     const double room = 0.015 * (beside.high - beside.low);  // half a line's width, so that none is cut
     if (y.high > beside.high - room) beside.high += room;
@@ -305,7 +312,12 @@ void write_picture(const ChartPage& page, const PictureSize& size, const std::fi
     heading->set(page, layout, size);
     actor->GetScene()->AddItem(heading);
     for (std::size_t i = 0; i < page.charts.size(); ++i) {
-        actor->GetScene()->AddItem(chart_of(page, page.charts[i], layout.charts[i], layout.font));
+        const Chart& chart = page.charts[i];
+        if (chart.map) {
+            actor->GetScene()->AddItem(heat_map_item(page, chart, layout.charts[i], layout.font));
+        } else {
+            actor->GetScene()->AddItem(chart_of(page, chart, layout.charts[i], layout.font));
+        }
     }
     vtkNew<vtkRenderer> renderer;
     renderer->AddActor(actor);

@@ -138,9 +138,9 @@ float Daylight::sky(const glm::vec3& point, const glm::vec3& normal, bool both_s
     return reached / all;
 }
 
-float Daylight::sun(const glm::vec3& point) const {
+float Daylight::sun(const glm::vec3& point, int softness) const {
     const DepthMap& map = sun_.front();
-    return map.open(point + 3 * map.texel() * map.towards(), 2);
+    return map.open(point + 3 * map.texel() * map.towards(), softness);
 }
 
 }  // namespace espalier

@@ -50,8 +50,9 @@ public:
 
     /// Of the sky above a surface, what is not covered: 0 to 1. What is lit from both sides takes the light of both.
     float sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const;
-    /// Of the sun's disc, what is not covered; nothing is said of the angle at which it shines.
-    float sun(const glm::vec3& point) const;
+    /// Of the sun, what is not covered; nothing is said of the angle at which it shines. Shadows fade over `softness`
+    /// texels of the sun's map to either side.
+    float sun(const glm::vec3& point, int softness) const;
 
 private:
     std::vector<DepthMap> sky_;

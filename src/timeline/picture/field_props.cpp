@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkAutoInit.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkContourFilter.h>
 #include <vtkFloatArray.h>
@@ -22,6 +23,9 @@
 
 #include <algorithm>
 #include <cmath>
+
+// Chosen at run time, so it must be named.
+VTK_MODULE_INIT(vtkRenderingVolumeOpenGL2);
 
 namespace espalier {
 namespace {

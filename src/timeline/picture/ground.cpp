@@ -14,7 +14,7 @@
 namespace espalier {
 namespace {
 
-constexpr int texels = 768;
+constexpr int texels = 640;
 
 std::array<float, 3> soil_of(const Background& background) {
     return background.is_dark() ? std::array{74.0f, 76.0f, 80.0f} : std::array{226.0f, 222.0f, 214.0f};
@@ -29,7 +29,7 @@ float presence(float distance) {
 }  // namespace
 
 float brightness(float sky, float sun) {
-    return 0.25f + 0.45f * sky + 0.3f * sun;
+    return 0.36f + 0.36f * sky + 0.28f * sun;
 }
 
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
@@ -44,7 +44,7 @@ vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, 
             const double x = (column + 0.5) / texels * 2 - 1, z = (row + 0.5) / texels * 2 - 1;
             const glm::vec3 point(middle.x + radius * x, 0, middle.z + radius * z);
             const float light =
-                daylight ? brightness(daylight->sky(point, glm::vec3(0, 1, 0), false), daylight->sun(point)) : 1;
+                daylight ? brightness(daylight->sky(point, glm::vec3(0, 1, 0), false), daylight->sun(point, 2)) : 1;
             unsigned char* pixel = pixels + 4 * (static_cast<std::ptrdiff_t>(row) * texels + column);
             for (const float part : soil) *pixel++ = static_cast<unsigned char>(std::lround(light * part));
             *pixel = static_cast<unsigned char>(std::lround(255 * presence(static_cast<float>(std::hypot(x, z)))));

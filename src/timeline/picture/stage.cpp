@@ -86,6 +86,10 @@ public:
     Body(const RecordedRun& run, PictureStyle style) : run_(&run) {
         restyle(std::move(style));
         renderer_->AddActor(legend_actor_);
+        // What is seen through is drawn in its order; VTK's quicker way draws it over what stands before it.
+        renderer_->SetUseDepthPeeling(1);
+        renderer_->SetMaximumNumberOfPeels(6);
+        renderer_->SetOcclusionRatio(0);
         legend_actor_->GetScene()->AddItem(legend_);
     }
 
@@ -121,8 +125,8 @@ public:
         if (frame_) rebuild();
     }
 
-    void show(const RecordedFrame& frame) {
-        geometry_ = load(frame);
+    void show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry) {
+        geometry_ = std::move(geometry);
         frame_ = frame;
         rebuild();
     }
@@ -133,21 +137,10 @@ public:
         return std::make_shared<RecordedGeometry>(run_->geometry(frame));
     }
 
-    StageSurvey survey(std::span<const RecordedFrame* const> frames) const {
-        StageSurvey all;
-        const std::filesystem::path* last = nullptr;
-        std::shared_ptr<const RecordedGeometry> geometry;
-        for (const RecordedFrame* frame : frames) {
-            const bool is_new = !last || *last != frame->plants;
-            if (is_new) {
-                geometry = load(*frame);
-                add_plants(*geometry, all);
-            }
-            last = &frame->plants;
-            add_range(*frame, *geometry, all);
-            add_fields(*frame, all);
-        }
-        return all;
+    void add_survey(const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) const {
+        add_plants(geometry, survey);
+        add_range(frame, geometry, survey);
+        add_fields(frame, survey);
     }
 
     void place_camera(const CameraPlace& place, bool follow) {
@@ -256,8 +249,8 @@ private:
         for (const auto& prop : others_) renderer_->RemoveViewProp(prop);
         parts_.clear();
         others_.clear();
-        const RecordedFrame* const frames[] = {&*frame_};
-        here_ = survey(frames);
+        here_ = {};
+        add_survey(*frame_, *geometry_, here_);
         legend_->legend = {};
         build_meshes();
         add_lights_and_colours();
@@ -289,11 +282,11 @@ private:
         renderer_->RemoveAllLights();
         renderer_->AutomaticLightCreationOff();
         const glm::vec3 sun = direction_at(style_.sun_azimuth, style_.sun_elevation);
-        add_light(*renderer_, sun, 0.75);
-        add_light(*renderer_, glm::vec3(0, 1, 0), 0.2);
+        add_light(*renderer_, sun, 0.8);
+        add_light(*renderer_, glm::vec3(0, 1, 0), 0.25);
         vtkNew<vtkLight> fill_in;
         fill_in->SetLightTypeToHeadlight();
-        fill_in->SetIntensity(0.35);
+        fill_in->SetIntensity(0.5);
         renderer_->AddLight(fill_in);
 
         std::optional<Daylight> daylight;
@@ -319,7 +312,7 @@ private:
         tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
             float light = 1;
             if (daylight) {
-                light = brightness(daylight->sky(points[i], normals[i], !mesh.is_of_axes), daylight->sun(points[i]));
+                light = brightness(daylight->sky(points[i], normals[i], !mesh.is_of_axes), daylight->sun(points[i], 1));
                 light = 1 - strength * (1 - light);
             }
             const Rgb& colour = colours[mesh.row_of_point[i]];
@@ -440,7 +433,11 @@ void Stage::use(const RecordedRun& run) {
 }
 
 void Stage::show(const RecordedFrame& frame) {
-    body_->show(frame);
+    body_->show(frame, body_->load(frame));
+}
+
+void Stage::show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry) {
+    body_->show(frame, std::move(geometry));
 }
 
 const RecordedFrame* Stage::shown() const {
@@ -452,12 +449,19 @@ const RecordedGeometry& Stage::geometry() const {
 }
 
 StageSurvey Stage::survey(std::span<const RecordedFrame* const> frames) const {
-    return body_->survey(frames);
+    StageSurvey survey;
+    for (const RecordedFrame* frame : frames) body_->add_survey(*frame, *body_->load(*frame), survey);
+    return survey;
+}
+
+StageSurvey Stage::survey(const RecordedFrame& frame, const RecordedGeometry& geometry) const {
+    StageSurvey survey;
+    body_->add_survey(frame, geometry, survey);
+    return survey;
 }
 
 void Stage::settle(const StageSurvey& survey) {
     body_->survey_ = survey;
-    if (body_->frame_) body_->show(RecordedFrame(*body_->frame_));
 }
 
 const PictureStyle& Stage::style() const {

@@ -56,13 +56,16 @@ public:
     void use(const RecordedRun& run);
     /// Replaces what is shown. Throws UserError if files are damaged.
     void show(const RecordedFrame& frame);
+    /// The same with plants that were read already, by another thread for instance.
+    void show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry);
     const RecordedFrame* shown() const;
     /// What is shown; empty before `show`.
     const RecordedGeometry& geometry() const;
 
-    /// Reads frames for what they have in common. `settle` uses it for colours and `place_camera`; without it they fit
-    /// the frame that is shown.
+    /// Reads frames for what they have in common. Without `settle`, colours and `place_camera` fit the frame that is
+    /// shown; after it, from the next `show` on, what was surveyed.
     StageSurvey survey(std::span<const RecordedFrame* const> frames) const;
+    StageSurvey survey(const RecordedFrame& frame, const RecordedGeometry& geometry) const;
     void settle(const StageSurvey& survey);
 
     const PictureStyle& style() const;

@@ -1,26 +1,14 @@
 #include "espalier/timeline/table_charts.h"
 
-#include "espalier/base/error.h"
-#include "espalier/base/text.h"
-
-#include <fmt/format.h>
+#include "timeline/picture/quantity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 
 namespace espalier {
 namespace {
-
-/// Units of the columns of statistics.csv.
-std::string statistics_title(const std::string& column) {
-    if (column == "length" || column == "height") return column + " (m)";
-    if (column == "volume") return "volume (m³)";
-    if (column == "born" || column == "died") return column + " in the step";
-    return column;
-}
 
 std::optional<std::size_t> column_of(const RecordedTable& table, const std::string& name) {
     const auto found = std::find(table.columns.begin(), table.columns.end(), name);
@@ -48,46 +36,6 @@ std::string main_quantity(const std::vector<std::string>& of_process) {
     }
     return of_process.front();
 }
-
-/// Several plants' values of one step in one.
-class Merged {
-public:
-    explicit Merged(const std::string& quantity) : way_(way_of(quantity)) {}
-
-    void add(double value) {
-        if (std::isnan(value)) return;
-        if (count_ == 0)
-            value_ = value;
-        else if (way_ == Way::greatest)
-            value_ = std::max(value_, value);
-        else if (way_ == Way::least)
-            value_ = std::min(value_, value);
-        else
-            value_ += value;
-        ++count_;
-    }
-    double value() const {
-        if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
-        return way_ == Way::mean ? value_ / static_cast<double>(count_) : value_;
-    }
-
-private:
-    enum class Way { sum, mean, greatest, least };
-
-    static Way way_of(const std::string& quantity) {
-        static const std::set<std::string> sums{"modules",   "queries", "internodes", "organs", "length",
-                                                "volume",    "born",    "died",       "tips",   "forks",
-                                                "leaf_area", "leaves",  "surface"};
-        if (sums.contains(quantity)) return Way::sum;
-        if (quantity == "height" || quantity.ends_with(".max") || quantity.ends_with(".maximum")) return Way::greatest;
-        if (quantity.ends_with(".min") || quantity.ends_with(".minimum")) return Way::least;
-        return Way::mean;
-    }
-
-    Way way_;
-    double value_ = 0;
-    std::size_t count_ = 0;
-};
 
 std::string species_of(const RecordedPlant& plant) {
     const std::string stem = std::filesystem::path(plant.model).stem().string();
@@ -173,18 +121,7 @@ void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const 
 
 std::string title_of(const std::string& column, const PlotOptions& options) {
     const auto title = options.titles.find(column);
-    return title == options.titles.end() ? statistics_title(column) : title->second;
-}
-
-void require_known(std::span<const PlottedTable> tables, const std::string& quantity) {
-    std::vector<std::string> names;
-    for (const PlottedTable& table : tables) {
-        for (const std::string& name : table.table.columns) {
-            if (name == quantity) return;
-            if (name != "step" && name != "plant") names.push_back(name);
-        }
-    }
-    throw UserError(fmt::format("there is no quantity '{}'{}", quantity, did_you_mean(quantity, names)));
+    return title == options.titles.end() ? quantity_title(column) : title->second;
 }
 
 }  // namespace
@@ -227,7 +164,7 @@ ChartPage chart_page(std::span<const PlottedTable> tables, const PlotOptions& op
     const std::vector<std::string> quantities =
         options.quantities.empty() ? default_quantities(tables) : options.quantities;
     for (const std::string& quantity : quantities) {
-        require_known(tables, quantity);
+        require_quantity(tables, quantity);
         Chart chart{title_of(options.x, options), title_of(quantity, options), {}};
         for (std::size_t run = 0; run < tables.size(); ++run) {
             add_series(chart, tables[run], run, quantity, keys, options.x, lines);
