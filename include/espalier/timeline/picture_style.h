@@ -20,14 +20,14 @@ struct FieldLook {
     std::optional<double> level;  ///< of a surface; none: halfway between the field's extremes
 };
 
-struct Background {
+struct PictureBackground {
     std::array<std::uint8_t, 3> rgb{255, 255, 255};
     bool transparent = false;
 
     bool is_dark() const { return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2] < 110; }
 };
 
-inline constexpr Background light_background{{255, 255, 255}, false}, dark_background{{24, 26, 30}, false};
+inline constexpr PictureBackground light_background{{255, 255, 255}, false}, dark_background{{24, 26, 30}, false};
 
 struct PictureStyle {
     /// "natural": the model's colours and textures; else an array of the plants (birth, age, order, plant, symbol,
@@ -37,7 +37,7 @@ struct PictureStyle {
     std::optional<std::array<double, 2>> range;  ///< of `colour_by`; none: what the surveyed frames hold
     std::optional<std::uint32_t> plant;          ///< this one alone, by its number; none: all
     std::vector<FieldLook> fields;
-    Background background = light_background;
+    PictureBackground background = light_background;
     bool ground = false;  ///< a disc at height 0
     bool shading = true;  ///< shadows and what hides in corners; false: lit surfaces only
     bool textures = true;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int texels = 640;
 
-std::array<float, 3> soil_of(const Background& background) {
+std::array<float, 3> soil_of(const PictureBackground& background) {
     return background.is_dark() ? std::array{74.0f, 76.0f, 80.0f} : std::array{226.0f, 222.0f, 214.0f};
 }
 
@@ -33,7 +33,7 @@ float brightness(float sky, float sun) {
 }
 
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
-                                       const Background& background) {
+                                       const PictureBackground& background) {
     vtkNew<vtkImageData> image;
     image->SetDimensions(texels, texels, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);

@@ -12,7 +12,7 @@ namespace espalier {
 
 /// At height 0, round a middle. `daylight`: whose shadows lie on it; null: none.
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
-                                       const Background& background);
+                                       const PictureBackground& background);
 
 /// How bright something is, as a share of what it would be in the open.
 float brightness(float sky, float sun);
