@@ -17,10 +17,9 @@ void interpret(const Model& model, const SymbolTable& symbols, const ModuleStrin
     const WalkInput input{model, symbols, string, settings, pictured ? derivation : nullptr, options.plant};
     result.clear();
     if (walk_in_parallel(input, options.chunk, result)) return;
-    result.clear();
-    StringWalk walk(input, result);
-    walk.run(0, string.size(), 0);
-    walk.finish();
+    const LentWalk walk(input, result);
+    walk->run(0, string.size(), 0);
+    walk->finish();
 }
 
 Interpretation interpret(const Model& model, const ModuleString& string, const TurtleSettings& settings,

@@ -65,11 +65,11 @@ struct Stretch {
 void Stretch::walk(const WalkInput& input, Interpretation& result) {
     const Walk::Room room{internodes(result), std::span(result.queries).subspan(before.queries, plan.counts().queries)};
     try {
-        StringWalk walk(input, rest, &room);
-        walk.state() = start;
-        walk.run(plan.begin(), plan.end(), before.parameters);
-        end = walk.state();
-        as_foreseen = walk.filled_room() && end.is_between_drawings();
+        const LentWalk walk(input, rest, &room);
+        walk->state() = start;
+        walk->run(plan.begin(), plan.end(), before.parameters);
+        end = walk->state();
+        as_foreseen = walk->filled_room() && end.is_between_drawings();
     } catch (const WrongPlan&) {
     } catch (const RunError&) {  // the walk in one piece meets it too, if it is one
     }
@@ -96,7 +96,7 @@ bool foresee(const WalkInput& input, std::deque<Stretch>& stretches) {
     for (std::size_t k = 0; k + 1 < stretches.size(); ++k) ahead += stretches[k].plan.kept();
     if (ahead > input.string.size() / least_share) return false;
     Interpretation scratch;
-    stretches[0].start = StringWalk(input, scratch).state();
+    stretches[0].start = LentWalk(input, scratch)->state();
     scratch.geometry.axes = taken_over;
     try {
         for (std::size_t k = 1; k < stretches.size(); ++k) {
@@ -184,6 +184,7 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
     });
     if (!as_foreseen) {
         input.symbols.unpredictable = true;
+        result.clear();
         return false;
     }
     result.geometry.shapes = input.settings.shapes;

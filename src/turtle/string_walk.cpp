@@ -2,11 +2,56 @@
 #include "turtle/string_walk.h"
 
 #include <cassert>
+#include <utility>
 
 namespace espalier {
+namespace {
+
+std::vector<std::unique_ptr<StringWalk>>& spare_walks() {
+    thread_local std::vector<std::unique_ptr<StringWalk>> spare;
+    return spare;
+}
+
+}  // namespace
+
+LentWalk::LentWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room) {
+    std::vector<std::unique_ptr<StringWalk>>& spare = spare_walks();
+    if (spare.empty()) {
+        walk_ = std::make_unique<StringWalk>();
+    } else {
+        walk_ = std::move(spare.back());
+        spare.pop_back();
+    }
+    walk_->begin(input, result, room);
+}
+
+LentWalk::~LentWalk() {
+    walk_->end();
+    spare_walks().push_back(std::move(walk_));
+}
+
+void StringWalk::begin(const WalkInput& input, Interpretation& result, const Walk::Room* room) {
+    string_ = &input.string;
+    symbols_ = &input.symbols;
+    derivation_ = input.derivation;
+    model_ = &input.model;
+    offsets_.clear();
+    walk_.begin(input.model, input.string, input.settings, input.plant, result, room);
+    walk_.processes_ = &input.symbols.processes;
+}
+
+void StringWalk::end() {
+    constexpr std::size_t most_kept = std::size_t{1} << 20;  // entries
+    walk_.end();
+    if (offsets_.capacity() > most_kept) {
+        offsets_ = {};
+        links_ = {};
+    }
+    if (picture_.parameters.capacity() + picture_.letters.capacity() > most_kept) picture_ = {};
+}
 
 void StringWalk::run(std::size_t begin, std::size_t end, std::size_t at) {
-    if (input_.derivation) {
+    if (derivation_) {
         run_along<true>(begin, end, at);
     } else {
         run_along<false>(begin, end, at);
@@ -15,17 +60,18 @@ void StringWalk::run(std::size_t begin, std::size_t end, std::size_t at) {
 
 template <bool with_pictures>
 void StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t at) {
-    const LetterId* const letters = input_.string.letters.data();
-    const LetterMeaning* const meanings = input_.symbols.levels[0].data();
+    const LetterId* const letters = string_->letters.data();
+    const LetterMeaning* const meanings = symbols_->levels[0].data();
+    const char* const pictured = symbols_->pictured.data();
     if (begin == end) return;
     const LetterMeaning* next = &meanings[letters[begin]];
     for (std::size_t i = begin; i < end && !walk_.stopped; ++i) {
-        assert(letters[i] < input_.symbols.levels[0].size());
+        assert(letters[i] < symbols_->levels[0].size());
         const LetterMeaning& meaning = *next;
         // Known before this one acts: then the processor need not wait to know where it goes on.
         if (i + 1 < end) next = &meanings[letters[i + 1]];
         if constexpr (with_pictures) {
-            if (const std::size_t replaced = pictured_[letters[i]] ? draw_picture(i, at) : 0) {
+            if (const std::size_t replaced = pictured[letters[i]] ? draw_picture(i, at) : 0) {
                 for (std::size_t k = 0; k < replaced; ++k) at += meanings[letters[i + k]].arity;
                 i += replaced - 1;
                 if (i + 1 < end) next = &meanings[letters[i + 1]];
@@ -33,7 +79,7 @@ void StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t at) {
             }
         }
         if (meaning.level) {
-            const SymbolMatch match = input_.symbols.match(input_.string, i);
+            const SymbolMatch match = symbols_->match(*string_, i);
             if (match.module > i) {
                 i = match.module;
                 if (i + 1 < end) next = &meanings[letters[i + 1]];
@@ -48,15 +94,15 @@ void StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t at) {
 }
 
 std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
-    const ModuleString& string = input_.string;
-    const bool looks_around = input_.symbols.pictures_look_around;
+    const ModuleString& string = *string_;
+    const bool looks_around = symbols_->pictures_look_around;
     if (looks_around && offsets_.empty()) {
         link_branches(string, links_);
-        offsets_ = parameter_offsets(string, input_.model.alphabet);
+        offsets_ = parameter_offsets(string, model_->alphabet);
     }
     picture_.clear();
     const std::size_t replaced =
-        input_.derivation->picture(string, looks_around ? &offsets_ : nullptr, links_, module, at, picture_);
+        derivation_->picture(string, looks_around ? &offsets_ : nullptr, links_, module, at, picture_);
     if (replaced == 0) return 0;
 
     walk_.module_ = std::uint32_t(module);
@@ -64,7 +110,7 @@ std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
     walk_.in_picture_ = true;
     const double* values = picture_.parameters.data();
     for (std::size_t i = 0; i < picture_.size() && !walk_.stopped; ++i) {
-        const SymbolMatch match = input_.symbols.match(picture_, i);
+        const SymbolMatch match = symbols_->match(picture_, i);
         i = match.module;
         walk_.letter_ = picture_.letters[i];
         if (match.meaning.action) match.meaning.action(walk_, {values, match.meaning.arity});

@@ -3,6 +3,8 @@
 
 #include "turtle/symbol_table.h"
 
+#include <memory>
+
 namespace espalier {
 
 /// Whose string is walked along.
@@ -18,19 +20,13 @@ struct WalkInput {
 /// Modules that neither act nor have a picture cost one look-up.
 class StringWalk {
 public:
-    StringWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room = nullptr)
-        : input_(input), walk_(input.model, input.string, input.settings, input.plant, result, room) {
-        walk_.processes_ = &input.symbols.processes;
-        if (!input.derivation) return;
-        pictured_.resize(input.model.alphabet.size());
-        for (std::size_t letter = 0; letter < pictured_.size(); ++letter) {
-            pictured_[letter] = input.derivation->may_have_picture(LetterId(letter));
-        }
-    }
-
+    /// Stands at the beginning of a string. With `room`, rows that were counted go there.
+    void begin(const WalkInput& input, Interpretation& result, const Walk::Room* room);
     /// Walks from module `begin`, whose parameters begin at `at`, to module `end`.
     void run(std::size_t begin, std::size_t end, std::size_t at);
     void finish() { walk_.finish(); }
+    /// Leaves the result as it is, and gives back what memory is much.
+    void end();
 
     Walk& walk() { return walk_; }
     /// Where the walk is; it goes on from what is put there.
@@ -45,17 +41,34 @@ private:
         walk_.module_ = std::uint32_t(module);
         walk_.parameters_at_ = at;
         walk_.letter_ = letter;
-        meaning.action(walk_, {input_.string.parameters.data() + at, meaning.arity});
+        meaning.action(walk_, {string_->parameters.data() + at, meaning.arity});
     }
     /// Returns how many modules the picture stands for, 0 if there is none.
     std::size_t draw_picture(std::size_t module, std::size_t at);
 
-    WalkInput input_;
+    const ModuleString* string_ = nullptr;
+    const SymbolTable* symbols_ = nullptr;
+    const Derivation* derivation_ = nullptr;
+    const Model* model_ = nullptr;
     Walk walk_;
-    std::vector<char> pictured_;  // by letter
     BranchLinks links_;
     std::vector<std::size_t> offsets_;
     ModuleString picture_;
+};
+
+/// A walk of this thread's: plants are many, and its memory and the angles it knows are those of the next.
+class LentWalk {
+public:
+    LentWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room = nullptr);
+    ~LentWalk();
+    LentWalk(const LentWalk&) = delete;
+    LentWalk& operator=(const LentWalk&) = delete;
+
+    StringWalk& operator*() const { return *walk_; }
+    StringWalk* operator->() const { return walk_.get(); }
+
+private:
+    std::unique_ptr<StringWalk> walk_;
 };
 
 }  // namespace espalier

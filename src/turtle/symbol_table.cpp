@@ -44,11 +44,12 @@ const std::map<std::string, const Symbol*>& symbols() {
     return registry();
 }
 
-SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), -1) {
+SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), -1), pictured(model.alphabet.size()) {
     add_level(model.alphabet, "");
 
     for (const LSystem& system : model.systems) {
         for (const Production& production : system.homomorphism.productions) {
+            if (!production.strict.empty()) pictured[production.strict[0].letter] = true;
             pictures_look_around |= !production.left.empty() || !production.right.empty();
         }
     }

@@ -42,6 +42,8 @@ public:
     std::vector<std::vector<LetterMeaning>> levels;
     /// Index into Model::processes of letters such as ?light, -1 for all others.
     std::vector<std::int16_t> processes;
+    /// Letters that a homomorphism production may begin with.
+    std::vector<char> pictured;
     /// Pictures depend on modules around the one that is pictured.
     bool pictures_look_around = false;
     /// Set once a string of this model could not be walked by several threads: then all are walked in one piece.

@@ -33,20 +33,6 @@ bool same(const TurtleState& a, const TurtleState& b) {
            std::memcmp(&first, &second, sizeof(first)) == 0;
 }
 
-/// States of finished walks: plants are many, and their memory is that of the next.
-std::vector<WalkState>& spare_states() {
-    thread_local std::vector<WalkState> spare;
-    return spare;
-}
-
-WalkState spare_state() {
-    std::vector<WalkState>& spare = spare_states();
-    if (spare.empty()) return {};
-    WalkState state = std::move(spare.back());
-    spare.pop_back();
-    return state;
-}
-
 }  // namespace
 
 void TurtleStack::make_room() {
@@ -82,48 +68,58 @@ bool WalkState::stands_like(const WalkState& other) const {
            std::equal(systems.begin(), systems.end(), other.systems.begin(), other.systems.end(), same_scale);
 }
 
-Walk::Walk(const Model& model, const ModuleString& string, const TurtleSettings& settings_, std::uint32_t plant,
-           Interpretation& result, const Room* room)
-    : WalkState(spare_state()),
-      settings(settings_),
-      model_(model),
-      string_(string),
-      geometry_(result.geometry),
-      internodes_(room ? RowWriter<Column<Internode>>(room->internodes)
-                       : RowWriter<Column<Internode>>(result.geometry.internodes)),
-      queries_(room ? RowWriter<QueryColumn>(room->queries) : RowWriter<QueryColumn>(result.queries)),
-      plant_(plant),
-      radius_of_width_(settings_.line_style == LineStyle::pixel ? 0 : 0.5),
-      default_rotation_(settings_.angle),
-      older_tropism_(glm::normalize(settings_.tropism_direction)) {
+void Walk::begin(const Model& model, const ModuleString& string, const TurtleSettings& settings, std::uint32_t plant,
+                 Interpretation& result, const Room* room) {
     WalkState::clear();
-    turtle().pose = settings.pose;
-    turtle().width = turtle().node_width = settings.line_width;
-    turtle().scale = settings.scale;
-    turtle().colour = settings.colour;
-    turtle().back_colour = settings.back_colour.value_or(-1);
-    turtle().elasticity = settings.initial_elasticity;
+    model_ = &model;
+    string_ = &string;
+    settings_ = &settings;
+    geometry_ = &result.geometry;
+    plant_ = plant;
+    module_ = 0;
+    parameters_at_ = 0;
+    letter_ = no_letter;
+    in_picture_ = false;
+    if (room) {
+        internodes_.open(room->internodes);
+        queries_.open(room->queries);
+    } else {
+        internodes_.open(result.geometry.internodes);
+        queries_.open(result.queries);
+    }
+    radius_of_width_ = settings.line_style == LineStyle::pixel ? 0 : 0.5;
+    if (settings.angle != default_angle_) {
+        default_angle_ = settings.angle;
+        default_rotation_ = Rotation(settings.angle);
+    }
+    TurtleState& turtle = turtles.top();
+    turtle.pose = settings.pose;
+    turtle.width = turtle.node_width = settings.line_width;
+    turtle.scale = settings.scale;
+    turtle.colour = settings.colour;
+    turtle.back_colour = settings.back_colour.value_or(-1);
+    turtle.elasticity = settings.initial_elasticity;
     for (const Tropism& tropism : settings.tropisms) elasticities.push_back(tropism.elasticity);
-    known_rotations_.fill({0, Rotation()});
-    Brush brush;
+    Brush& brush = brushes.emplace_back();
     brush.sides = std::max(settings.contour_sides, 3);
     brush.follows_roll = settings.twist_of_cylinders;
-    brushes.push_back(brush);
-    geometry_.shapes = settings.shapes;
+    // Plants share their shapes, and threads would wait for each other to count them.
+    if (geometry_->shapes != settings.shapes) geometry_->shapes = settings.shapes;
 }
 
-Walk::~Walk() {
-    constexpr std::size_t most_spare = 4;
-    std::vector<WalkState>& spare = spare_states();
-    if (spare.size() < most_spare) spare.push_back(std::move(*this));
+void Walk::end() {
+    internodes_.close();
+    queries_.close();
 }
 
 void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
     TurtleState& turtle = turtles.top();
-    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings.tropisms, elasticities);
+    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings_->tropisms, elasticities);
     const glm::dvec3 base = turtle.pose.position;
     turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
-    if (turtle.elasticity != 0) apply_older_tropism(turtle.pose, older_tropism_, turtle.elasticity);
+    if (turtle.elasticity != 0) {
+        apply_older_tropism(turtle.pose, glm::normalize(settings_->tropism_direction), turtle.elasticity);
+    }
     require_number(turtle.pose.position);
     if (records_vertex) record_vertex();
     if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
@@ -133,8 +129,8 @@ void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
     }
     draw_segment(turtle, base, turtle.pose.position);
     if (turtle.texture != 0) {
-        geometry_.textures.resize(internodes_.size());
-        geometry_.textures.back() = turtle.texture;
+        geometry_->textures.resize(internodes_.size());
+        geometry_->textures.back() = turtle.texture;
     }
 }
 
@@ -179,11 +175,11 @@ void Walk::close_polygon() {
     open_polygons.pop_back();
     const std::size_t count = open_vertices.size() - polygon.first;
     if (polygon.filled && count >= 3) {
-        geometry_.polygons.push_back({polygon.module, std::uint32_t(geometry_.vertices.size()), std::uint32_t(count),
-                                      turtle().order, std::uint16_t(turtle().colour), look()});
+        geometry_->polygons.push_back({polygon.module, std::uint32_t(geometry_->vertices.size()), std::uint32_t(count),
+                                       turtle().order, std::uint16_t(turtle().colour), look()});
         for (std::size_t i = polygon.first; i < open_vertices.size(); ++i) {
-            geometry_.vertices.push_back(open_vertices[i]);
-            geometry_.bounds.add(open_vertices[i]);
+            geometry_->vertices.push_back(open_vertices[i]);
+            geometry_->bounds.add(open_vertices[i]);
         }
     }
     open_vertices.resize(polygon.first);
@@ -191,8 +187,8 @@ void Walk::close_polygon() {
 
 void Walk::place(Organ::Shape shape, const Pose& pose, double diameter) {
     if (!std::isfinite(diameter)) fail("the size of an organ is not a number");
-    geometry_.organs.push_back({module_, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
-                                glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
+    geometry_->organs.push_back({module_, shape, turtle().order, std::uint16_t(turtle().colour), 0, pose,
+                                 glm::dvec3(diameter), look(), std::uint16_t(brush().sides)});
     add_ball(pose.position, std::abs(diameter) / 2);
 }
 
@@ -216,30 +212,30 @@ void Walk::leave_system() {
 }
 
 void Walk::ask(QueryKind kind) {
-    const std::size_t arity = model_.alphabet.arity(letter_);
+    const std::size_t arity = model_->alphabet.arity(letter_);
     if (in_picture_ || arity == 0) return;
     const std::size_t next = std::size_t(module_) + 1;
-    const bool last = next >= string_.size(), known = string_.has_lineage();
-    const double* const values = string_.parameters.data() + parameters_at_;
+    const bool last = next >= string_->size(), known = string_->has_lineage();
+    const double* const values = string_->parameters.data() + parameters_at_;
     Query& query = queries_.add();  // unwritten: every member is set
     query.kind = kind;
     query.process = kind == QueryKind::communication && processes_ ? (*processes_)[letter_] : std::int16_t(-1);
-    query.following = last ? no_letter : string_.letters[next];
+    query.following = last ? no_letter : string_->letters[next];
     query.plant = plant_;
     query.module = module_;
     query.parameters_at = parameters_at_;
     query.parameters = {values, arity};
     query.following_parameters = {};
-    if (!last) query.following_parameters = {values + arity, std::size_t(model_.alphabet.arity(query.following))};
-    query.identity = known ? string_.identities[module_] : 0;
-    query.following_identity = known && !last ? string_.identities[next] : 0;
+    if (!last) query.following_parameters = {values + arity, std::size_t(model_->alphabet.arity(query.following))};
+    query.identity = known ? string_->identities[module_] : 0;
+    query.following_identity = known && !last ? string_->identities[next] : 0;
     query.pose = turtle().pose;
     query.width = turtle().width;
     query.scale = turtle().scale;
 }
 
 const std::string& Walk::symbol() const {
-    return model_.alphabet.name(letter_);
+    return model_->alphabet.name(letter_);
 }
 
 void Walk::fail(const char* what) const {
@@ -249,18 +245,18 @@ void Walk::fail(const char* what) const {
 void Walk::fail(const std::string& what) const {
     constexpr std::size_t before = 12, after = 4;
     const std::size_t first = module_ > before ? module_ - before : 0;
-    const std::size_t last = std::min(string_.size(), std::size_t(module_) + after);
+    const std::size_t last = std::min(string_->size(), std::size_t(module_) + after);
     std::size_t at = parameters_at_;
-    for (std::size_t i = first; i < module_; ++i) at -= std::size_t(model_.alphabet.arity(string_.letters[i]));
+    for (std::size_t i = first; i < module_; ++i) at -= std::size_t(model_->alphabet.arity(string_->letters[i]));
     ModuleString context;
     for (std::size_t i = first; i < last; ++i) {
-        const auto arity = std::size_t(model_.alphabet.arity(string_.letters[i]));
-        context.append(string_.letters[i], {string_.parameters.data() + at, arity});
+        const auto arity = std::size_t(model_->alphabet.arity(string_->letters[i]));
+        context.append(string_->letters[i], {string_->parameters.data() + at, arity});
         at += arity;
     }
-    throw RunError(fmt::format("{}: {}, at module {} of plant {}{}: {}{}{}", model_.name, what, module_, plant_,
+    throw RunError(fmt::format("{}: {}, at module {} of plant {}{}: {}{}{}", model_->name, what, module_, plant_,
                                in_picture_ ? " (in its picture)" : "", first > 0 ? "..." : "",
-                               to_text(context, model_.alphabet), last < string_.size() ? "..." : ""));
+                               to_text(context, model_->alphabet), last < string_->size() ? "..." : ""));
 }
 
 }  // namespace espalier

@@ -25,9 +25,9 @@ bool same_place(const CylinderPoint& a, const CylinderPoint& b) {
 }  // namespace
 
 const Contour* Walk::contour() const {
-    if (!settings.shapes) return nullptr;
-    const auto found = settings.shapes->contours.find(brush().contour);
-    return found == settings.shapes->contours.end() ? nullptr : &found->second;
+    if (!settings_->shapes) return nullptr;
+    const auto found = settings_->shapes->contours.find(brush().contour);
+    return found == settings_->shapes->contours.end() ? nullptr : &found->second;
 }
 
 void Walk::begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double> strips) {
@@ -35,8 +35,8 @@ void Walk::begin_cylinder(GeneralizedCylinder::Curve curve, std::optional<double
     OpenCylinder open;
     open.cylinder.curve = curve;
     open.cylinder.sides = brush().sides;
-    if (settings.shapes && turtle().texture >= 1 && turtle().texture <= settings.shapes->textures.size()) {
-        const double ratio = settings.shapes->textures[turtle().texture - 1u].ratio;
+    if (settings_->shapes && turtle().texture >= 1 && turtle().texture <= settings_->shapes->textures.size()) {
+        const double ratio = settings_->shapes->textures[turtle().texture - 1u].ratio;
         if (ratio > 0 && std::isfinite(ratio)) open.cylinder.texture_ratio = ratio;
     }
     open.strips = strips_of(strips, 1);
@@ -121,7 +121,7 @@ void Walk::end_cylinder(std::optional<double> strips) {
 
 void Walk::draw_cylinder(std::int32_t number) {
     GeneralizedCylinder& cylinder = cylinders[std::size_t(number)].cylinder;
-    draw(cylinder, geometry_);
+    draw(cylinder, *geometry_);
     cylinder.points = {};
     require_room();
 }
@@ -129,7 +129,7 @@ void Walk::draw_cylinder(std::int32_t number) {
 /// A plant whose mesh no timeline could hold ends here instead of in the memory of the machine.
 void Walk::require_room() const {
     constexpr std::size_t most_vertices = std::size_t{1} << 27;
-    if (geometry_.mesh.vertices.size() > most_vertices)
+    if (geometry_->mesh.vertices.size() > most_vertices)
         fail("the plant's surfaces have more than 134 million vertices");
 }
 

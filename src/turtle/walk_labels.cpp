@@ -24,13 +24,13 @@ std::string filled(const Model& model, const std::string& format, std::span<cons
 }  // namespace
 
 void Walk::write_label(std::span<const double> values) {
-    const std::string* format = values.empty() ? nullptr : text_at(model_, values[0]);
+    const std::string* format = values.empty() ? nullptr : text_at(*model_, values[0]);
     if (!format) return;
-    std::string text = filled(model_, *format, values.subspan(1));
+    std::string text = filled(*model_, *format, values.subspan(1));
     if (text.size() > longest_label) text.resize(longest_label);
-    geometry_.labels.push_back(
+    geometry_->labels.push_back(
         {module_, turtle().order, std::uint16_t(turtle().colour), turtle().pose.position, std::move(text)});
-    geometry_.bounds.add(turtle().pose.position);
+    geometry_->bounds.add(turtle().pose.position);
 }
 
 }  // namespace espalier

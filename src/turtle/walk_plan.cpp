@@ -79,7 +79,7 @@ void WalkPlan::read(const WalkInput& input, const LetterCounts& letter_counts) {
     const LetterId* const letters = input.string.letters.data();
     const std::uint64_t* const counts = letter_counts.of.data();
     blocks_.reserve((end_ - begin_) / block_size + 1);
-    std::size_t symbols_end = begin_;  // of those that were looked at one by one
+    std::size_t symbols_end = begin_;  // of those of several modules
     for (std::size_t first = begin_; first < end_; first += block_size) {
         const std::size_t last = std::min(end_, first + block_size);
         const Sum block = last - first == block_size ? sum_of_block(letters + first, counts)
@@ -87,26 +87,37 @@ void WalkPlan::read(const WalkInput& input, const LetterCounts& letter_counts) {
         blocks_.push_back({counts_.parameters, depth_, depth_ + (block.least >> depth_at)});
         depth_ += static_cast<std::int64_t>(block.all) >> depth_at;
         counts_.parameters += field(block.all, 0, internodes_at);
+        counts_.internodes += field(block.all, internodes_at, 8);
+        counts_.queries += field(block.all, queries_at, 8);
         if (field(block.all, beginnings_at, 8) > 0 || symbols_end > first) {
-            symbols_end = count_rows(input, std::max(first, symbols_end), last);
-        } else {
-            counts_.internodes += field(block.all, internodes_at, 8);
-            counts_.queries += field(block.all, queries_at, 8);
+            symbols_end = correct_rows(input, counts, {first, last}, symbols_end);
         }
     }
     find_runs(input);
 }
 
-/// Counts symbols that begin before module `end`; returns where the last of them ends.
-std::size_t WalkPlan::count_rows(const WalkInput& input, std::size_t from, std::size_t end) {
-    std::size_t i = from;
-    for (; i < end; ++i) {
+/// The modules of a block were counted one by one: counts symbols of several modules that begin there as what they are.
+/// Returns where the last of them ends.
+std::size_t WalkPlan::correct_rows(const WalkInput& input, const std::uint64_t* counts, Range block,
+                                   std::size_t symbols_end) {
+    const LetterId* const letters = input.string.letters.data();
+    const auto take_back = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < std::min(end, block.end); ++i) {
+            counts_.internodes -= field(counts[letters[i]], internodes_at, 1);
+            counts_.queries -= field(counts[letters[i]], queries_at, 1);
+        }
+    };
+    take_back(block.begin, symbols_end);
+    for (std::size_t i = std::max(block.begin, symbols_end); i < block.end; ++i) {
+        if (field(counts[letters[i]], beginnings_at, 1) == 0) continue;
         const SymbolMatch match = input.symbols.match(input.string, i);
         counts_.internodes += match.meaning.effect == Symbol::Effect::draws;
         counts_.queries += match.meaning.effect == Symbol::Effect::asks;
+        symbols_end = match.module + 1;
+        take_back(i + 1, symbols_end);
         i = match.module;
     }
-    return i;
+    return symbols_end;
 }
 
 // Backwards from the end, over each branch that ends here to where it began.
@@ -172,13 +183,13 @@ void WalkPlan::advance(const WalkInput& input, std::size_t parameters, WalkState
     const std::uint32_t axes = scratch.geometry.axes;
     scratch.clear();
     scratch.geometry.axes = axes;
-    StringWalk walk(input, scratch);
-    walk.state() = state;
-    for (std::size_t pop = 0; pop < pops_; ++pop) walk.walk().pop();
+    const LentWalk walk(input, scratch);
+    walk->state() = state;
+    for (std::size_t pop = 0; pop < pops_; ++pop) walk->walk().pop();
     for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
-        walk.run(run->begin, run->end, parameters + run->parameters);
+        walk->run(run->begin, run->end, parameters + run->parameters);
     }
-    state = walk.state();
+    state = walk->state();
 }
 
 }  // namespace espalier

@@ -51,12 +51,15 @@ private:
         std::size_t parameters;
         std::int64_t depth, least;
     };
+    struct Range {
+        std::size_t begin, end;
+    };
     /// A run of modules that advance() walks.
     struct Run {
         std::size_t begin, end, parameters;
     };
 
-    std::size_t count_rows(const WalkInput& input, std::size_t from, std::size_t end);
+    std::size_t correct_rows(const WalkInput& input, const std::uint64_t* counts, Range block, std::size_t symbols_end);
     void find_runs(const WalkInput& input);
     std::size_t opening_of(const ModuleString& string, std::size_t closing, std::int64_t depth) const;
     std::size_t parameters_before(const WalkInput& input, std::size_t module) const;

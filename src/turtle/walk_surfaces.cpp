@@ -27,13 +27,13 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
     if (!std::isfinite(size.x + size.y + size.z)) fail("the size of a surface is not a number");
     Organ organ{module_, Organ::Shape::surface, turtle().order, std::uint16_t(turtle().colour),
                 id,      turtle().pose,         size,           look()};
-    if (!settings.shapes) {  // nobody said what surfaces look like: the organ shows where they would be
-        geometry_.organs.push_back(organ);
-        geometry_.bounds.add(turtle().pose.position);
+    if (!settings_->shapes) {  // nobody said what surfaces look like: the organ shows where they would be
+        geometry_->organs.push_back(organ);
+        geometry_->bounds.add(turtle().pose.position);
         return;
     }
-    const auto found = settings.shapes->surfaces.find(id);
-    if (found == settings.shapes->surfaces.end()) return;
+    const auto found = settings_->shapes->surfaces.find(id);
+    if (found == settings_->shapes->surfaces.end()) return;
     const Surface& surface = found->second;
     const Pose pose = turtle().pose;
     const auto in_world = [&](const glm::dvec3& point, const glm::dvec3& scale) {
@@ -42,14 +42,14 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
     };
     if (size.x * size.y * size.z != 0) {
         if (surface.texture) organ.look.texture = std::uint16_t(std::max(*surface.texture, 0));
-        geometry_.organs.push_back(organ);
+        geometry_->organs.push_back(organ);
         for (const BicubicPatch& patch : surface.patches) {
             for (const auto& row : patch.points) {
-                for (const glm::dvec3& point : row) geometry_.bounds.add(in_world(point, size));
+                for (const glm::dvec3& point : row) geometry_->bounds.add(in_world(point, size));
             }
         }
         for (const auto& triangle : surface.triangles) {
-            for (const SurfaceVertex& vertex : triangle) geometry_.bounds.add(in_world(vertex.position, size));
+            for (const SurfaceVertex& vertex : triangle) geometry_->bounds.add(in_world(vertex.position, size));
         }
     }
     // All three coordinates go with the first factor.
@@ -93,12 +93,12 @@ void Walk::draw_patch(double id, double rows, double columns) {
     surface.precision_t = precision(columns);
 
     const SurfaceMesh mesh = mesh_of(surface);
-    DrawnMesh& drawn = geometry_.mesh;
+    DrawnMesh& drawn = geometry_->mesh;
     const auto origin = std::uint32_t(drawn.vertices.size());
     const auto first_index = std::uint32_t(drawn.triangles.size());
     for (const SurfaceVertex& vertex : mesh.vertices) {
         drawn.vertices.push_back(vertex);
-        geometry_.bounds.add(vertex.position);
+        geometry_->bounds.add(vertex.position);
     }
     for (std::size_t i = 0; i < mesh.indices.size(); i += 4) {
         const auto corner = [&](std::size_t k) { return origin + mesh.indices[i + k]; };

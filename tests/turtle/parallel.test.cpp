@@ -11,6 +11,7 @@
 #include <cstring>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace espalier;
@@ -242,4 +243,22 @@ TEST_CASE("branches that end before they began, and that never end, are walked a
         INFO(text);
         for (const std::size_t chunk : {1, 30}) CHECK(walked(drawing, chunk) == walked(drawing, 0));
     }
+}
+
+TEST_CASE("a walk finds nothing of the one before it in the same thread", "[turtle]") {
+    RandomString random(11);
+    const auto left_open = [&] { return random.of(both(), 200) + "[{F@Gs+F@PS(1)@Tx(3)_(0.1)[!(3)"; };
+    int failed = 0, compared = 0;
+    for (int round = 0; round < 40; ++round) {
+        Drawing drawing(left_open() + (round % 4 == 0 ? "!(1e999)" : ""));
+        if (round % 2 == 0) drawing.settings = busy_settings();
+        drawing.settings.angle = 0.1 * (round % 3);
+        Outcome fresh;
+        std::thread([&] { fresh = walked(drawing, 0); }).join();
+        CHECK(walked(drawing, 0) == fresh);
+        failed += !fresh.failure.empty();
+        compared += fresh.failure.empty() && fresh.bytes.size() > 1000;
+    }
+    CHECK(failed >= 1);
+    CHECK(compared >= 20);
 }

@@ -16,15 +16,25 @@ class RowWriter {
 public:
     using Row = typename Rows::value_type;
 
-    /// Writes from the column's beginning; close() cuts off what was not written.
-    explicit RowWriter(Rows& rows) : rows_(&rows) {
-        rows.resize(rows.capacity());
-        begin_ = next_ = rows.data();
-        end_ = begin_ + rows.size();
-    }
-    explicit RowWriter(std::span<Row> room) : begin_(room.data()), next_(begin_), end_(begin_ + room.size()) {}
+    RowWriter() = default;
     RowWriter(const RowWriter&) = delete;
-    ~RowWriter() { close(); }
+    RowWriter& operator=(const RowWriter&) = delete;
+
+    /// Writes from the column's beginning; close() cuts off what was not written.
+    void open(Rows& rows) {
+        rows.resize(rows.capacity());
+        open(std::span<Row>(rows));
+        rows_ = &rows;
+    }
+    void open(std::span<Row> room) {
+        rows_ = nullptr;
+        begin_ = next_ = room.data();
+        end_ = begin_ + room.size();
+    }
+    void close() {
+        if (rows_) rows_->resize(size());
+        rows_ = nullptr;
+    }
 
     Row& add() {
         if (next_ == end_) make_room();
@@ -32,9 +42,6 @@ public:
     }
     std::size_t size() const { return std::size_t(next_ - begin_); }
     bool full() const { return next_ == end_; }
-    void close() {
-        if (rows_) rows_->resize(size());
-    }
 
 private:
     void make_room() {

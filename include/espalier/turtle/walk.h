@@ -115,13 +115,17 @@ public:
         std::span<Query> queries;
     };
 
-    /// As a turtle begins, into an empty result; with `room`, rows that were counted go there instead.
-    Walk(const Model& model, const ModuleString& string, const TurtleSettings& settings, std::uint32_t plant,
-         Interpretation& result, const Room* room = nullptr);
+    Walk() = default;
     Walk(const Walk&) = delete;
-    ~Walk();
+    Walk& operator=(const Walk&) = delete;
 
-    const TurtleSettings& settings;
+    /// As a turtle begins, into an empty result; with `room`, rows that were counted go there instead.
+    void begin(const Model& model, const ModuleString& string, const TurtleSettings& settings, std::uint32_t plant,
+               Interpretation& result, const Room* room = nullptr);
+    /// Leaves the result as it is; the walk may begin anew.
+    void end();
+
+    const TurtleSettings& settings() const { return *settings_; }
     using WalkState::elasticities;
     using WalkState::stopped;
     TurtleState& turtle() { return turtles.top(); }
@@ -200,7 +204,7 @@ public:
 private:
     friend class StringWalk;
     struct KnownRotation {
-        double degrees;
+        double degrees = 0;
         Rotation rotation;
     };
 
@@ -219,16 +223,17 @@ private:
     Look look() const;
     double radius(double width) const { return radius_of_width_ * width; }
     void add_ball(const glm::dvec3& centre, double radius) {
-        geometry_.bounds.lower = glm::min(geometry_.bounds.lower, centre - radius);
-        geometry_.bounds.upper = glm::max(geometry_.bounds.upper, centre + radius);
+        geometry_->bounds.lower = glm::min(geometry_->bounds.lower, centre - radius);
+        geometry_->bounds.upper = glm::max(geometry_->bounds.upper, centre + radius);
     }
 
-    const Model& model_;
-    const ModuleString& string_;
-    PlantGeometry& geometry_;
+    const Model* model_ = nullptr;
+    const ModuleString* string_ = nullptr;
+    const TurtleSettings* settings_ = nullptr;
+    PlantGeometry* geometry_ = nullptr;
     RowWriter<Column<Internode>> internodes_;
     RowWriter<QueryColumn> queries_;
-    const std::uint32_t plant_;
+    std::uint32_t plant_ = 0;
     const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
 
     std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn
@@ -236,20 +241,21 @@ private:
     LetterId letter_ = no_letter;    // of the module that acts: module_'s own, or one of its picture
     bool in_picture_ = false;
 
-    const double radius_of_width_;
-    const Rotation default_rotation_;
-    const glm::dvec3 older_tropism_;
-    std::array<KnownRotation, 16> known_rotations_;  // angles repeat; sines are dear
+    double radius_of_width_ = 0.5;
+    // Kept from walk to walk: angles repeat, and sines are dear.
+    double default_angle_ = 0;  // radians
+    Rotation default_rotation_;
+    std::array<KnownRotation, 16> known_rotations_;
 };
 
 // --- what the letters of every tree do ------------------------------------------------------------------------------
 
 inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip) {
-    const bool continues = turtle.on_axis && settings.tapered_lines;
+    const bool continues = turtle.on_axis && settings_->tapered_lines;
     const double width = turtle.width;
     const double base_radius = radius(continues ? turtle.node_width : width), tip_radius = radius(width);
     if (!turtle.on_axis) {
-        turtle.axis = geometry_.axes++;
+        turtle.axis = geometry_->axes++;
         turtle.on_axis = true;
     }
     turtle.node_width = width;
@@ -268,7 +274,7 @@ inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, cons
 
 inline void Walk::move(double distance, bool draws, bool records_vertex) {
     TurtleState& turtle = turtles.top();
-    const bool draws_only = draws && settings.tropisms.empty() && turtle.elasticity == 0 && open_polygons.empty() &&
+    const bool draws_only = draws && settings_->tropisms.empty() && turtle.elasticity == 0 && open_polygons.empty() &&
                             turtle.cylinder < 0 && turtle.texture == 0 && !internodes_.full();
     if (!draws_only) return move_and_mark(distance, draws, records_vertex);
     const glm::dvec3 base = turtle.pose.position;

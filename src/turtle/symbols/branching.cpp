@@ -14,7 +14,7 @@ const Symbol cut{"%",
                  {0},
                  "%: cut the rest of the branch off in the next step; what follows may be left undrawn",
                  [](Walk& walk, std::span<const double>) {
-                     if (!walk.settings.past_cut) walk.stopped = true;
+                     if (!walk.settings().past_cut) walk.stopped = true;
                  }};
 
 }  // namespace

@@ -29,24 +29,24 @@ const Symbol next{";",
                   {},
                   ";(index): set the colour index; without parameter, add the increment",
                   [](Walk& walk, std::span<const double> parameters) {
-                      change_colour(walk, walk.turtle().colour, parameters, walk.settings.colour_increment);
+                      change_colour(walk, walk.turtle().colour, parameters, walk.settings().colour_increment);
                   }};
 
 const Symbol previous{",",
                       {},
                       ",(index): set the colour index; without parameter, subtract the increment",
                       [](Walk& walk, std::span<const double> parameters) {
-                          change_colour(walk, walk.turtle().colour, parameters, -walk.settings.colour_increment);
+                          change_colour(walk, walk.turtle().colour, parameters, -walk.settings().colour_increment);
                       }};
 
 const Symbol next_back{
     "@;", {}, "@;(index): as ; for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
-        change_back(walk, parameters, walk.settings.back_colour_increment);
+        change_back(walk, parameters, walk.settings().back_colour_increment);
     }};
 
 const Symbol previous_back{
     "@,", {}, "@,(index): as , for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
-        change_back(walk, parameters, -walk.settings.back_colour_increment);
+        change_back(walk, parameters, -walk.settings().back_colour_increment);
     }};
 
 const Symbol texture{"@Tx",

@@ -5,7 +5,7 @@ namespace espalier {
 namespace {
 
 double factor(const Walk& walk, std::span<const double> parameters) {
-    return parameters.empty() ? walk.settings.scale_multiplier : parameters[0];
+    return parameters.empty() ? walk.settings().scale_multiplier : parameters[0];
 }
 
 const Symbol set{"@D", {1}, "@D(scale): set the scale", [](Walk& walk, std::span<const double> parameters) {

@@ -8,7 +8,7 @@ void increase(Walk& walk, std::span<const double> parameters, double sign) {
     double* elasticity = walk.elasticity(parameters[0]);
     if (!elasticity) return;
     const auto index = std::size_t(elasticity - walk.elasticities.data());
-    *elasticity += sign * (parameters.size() > 1 ? parameters[1] : walk.settings.tropisms[index].elasticity_step);
+    *elasticity += sign * (parameters.size() > 1 ? parameters[1] : walk.settings().tropisms[index].elasticity_step);
 }
 
 const Symbol set{
@@ -37,7 +37,7 @@ const Symbol older{"_",
                    [](Walk& walk, std::span<const double> parameters) {
                        double& elasticity = walk.turtle().elasticity;
                        elasticity =
-                           parameters.empty() ? elasticity + walk.settings.elasticity_increment : parameters[0];
+                           parameters.empty() ? elasticity + walk.settings().elasticity_increment : parameters[0];
                    }};
 
 }  // namespace

@@ -12,14 +12,14 @@ const Symbol wider{"#",
                    {},
                    "#(width): set the line width, times the scale; without parameter, widen by the increment",
                    [](Walk& walk, std::span<const double> parameters) {
-                       change_width(walk, parameters, walk.settings.line_width_increment);
+                       change_width(walk, parameters, walk.settings().line_width_increment);
                    }};
 
 const Symbol narrower{"!",
                       {},
                       "!(width): set the line width, times the scale; without parameter, narrow by the increment",
                       [](Walk& walk, std::span<const double> parameters) {
-                          change_width(walk, parameters, -walk.settings.line_width_increment);
+                          change_width(walk, parameters, -walk.settings().line_width_increment);
                       }};
 
 }  // namespace
