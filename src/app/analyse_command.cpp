@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "frame_option.h"
+#include "options.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
@@ -108,10 +109,10 @@ public:
         app()
             .add_option("--layer", layer_,
                         "thickness of the layers of heights and depths, m; default: about 20 a plant")
-            ->check(CLI::PositiveNumber);
+            ->check(above_zero());
         app()
             .add_option("--voxel", voxel_, "edge of the voxels a crown fills, m; default: 1/32 of its largest extent")
-            ->check(CLI::PositiveNumber);
+            ->check(above_zero());
         app().add_flag("--no-picture", no_picture_, "draw nothing");
         app().footer(
             R"(Writes analysis.csv with a row per step and plant; orders.csv (streams of each Strahler order), ramification.csv,

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "options.h"
+#include "temporary_folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <set>
-#include <unistd.h>
 
 namespace espalier {
 namespace {
@@ -31,24 +31,6 @@ std::vector<std::string> turtle_symbols() {
     for (const auto& entry : symbols()) names.push_back(entry.first);
     return names;
 }
-
-// A folder for the recorders to be made in, and gone afterwards.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "espalier-check-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw RunError("cannot make a folder in " + fs::temp_directory_path().string());
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings& findings) {
     const Model& model = source_of(*compiled);
@@ -74,7 +56,7 @@ void review_notes(const SceneNotes& notes, Findings& findings) {
 // Makes everything a run would make, except steps.
 void review_scene(const Scene& scene, Findings& findings) {
     const World world(scene);
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("check");  // for the recorders to be made in
     const Timeline timeline(folder.path(), scene.timeline, scene.steps);
     std::set<const CompiledModel*> seen;
     for (const PlantDescription& plant : scene.plants) {

@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "command.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +27,20 @@ namespace {
 std::atomic<int> signals{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
-void count_signal(int) {
-    ++signals;
+// A terminal that is closed may say so twice.
+void count_signal(int signal) {
+    if (signal != SIGHUP || signals == 0) ++signals;
+}
+
+/// The end to read from of a pipe that nobody writes to. The other end is this program's alone and closes with it.
+int lifeline() {
+    static const int end = [] {
+        int ends[2];
+        if (::pipe(ends) != 0) throw RunError("cannot make a pipe: " + std::generic_category().message(errno));
+        for (const int descriptor : ends) ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+        return ends[0];
+    }();
+    return end;
 }
 
 /// A process group of its own: a terminal sends Ctrl-C to its whole group, and with what is passed on that would be
@@ -59,6 +73,7 @@ public:
     void change_folder(const std::filesystem::path& folder) {
         posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
     }
+    void read_from(int descriptor) { posix_spawn_file_actions_adddup2(&actions_, descriptor, STDIN_FILENO); }
     void write_to(const std::filesystem::path& log) {
         posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
         posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
@@ -75,33 +90,24 @@ int code_of(int status) {
 
 }  // namespace
 
-SignalCounter::SignalCounter() {
-    signals = 0;
-    struct sigaction action = {};
-    action.sa_handler = count_signal;
-    for (std::size_t i = 0; i < std::size(signals_); ++i) {
-        sigaction(signals_[i], &action, &before_[i]);
-        const bool by_nohup = signals_[i] == SIGHUP && before_[i].sa_handler == SIG_IGN;
-        if (by_nohup) sigaction(signals_[i], &before_[i], nullptr);
-    }
-}
-
-SignalCounter::~SignalCounter() {
-    for (std::size_t i = 0; i < std::size(signals_); ++i) sigaction(signals_[i], &before_[i], nullptr);
-}
+SignalCounter::SignalCounter() : signals_((signals = 0, count_signal), /*only_once=*/false) {}
 
 int SignalCounter::count() const {
     return signals;
 }
 
-int start_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                  const std::filesystem::path& log) {
+int start_run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+              const std::filesystem::path& log) {
     const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-    std::vector<char*> words{const_cast<char*>(program.c_str())};
-    for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+    std::vector<std::string> command{program, "run"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    command.emplace_back(child_flag);
+    std::vector<char*> words;
+    for (std::string& word : command) words.push_back(word.data());
     words.push_back(nullptr);
     const SpawnAttributes attributes;
     SpawnActions actions;
+    actions.read_from(lifeline());
     if (!log.empty()) actions.write_to(log);
     actions.change_folder(folder);
     pid_t child = 0;
@@ -110,6 +116,15 @@ int start_program(const std::vector<std::string>& arguments, const std::filesyst
         throw RunError(fmt::format("cannot start {}: {}", program, std::generic_category().message(error)));
     }
     return child;
+}
+
+void end_with_parent() {
+    std::thread([] {
+        char byte = 0;
+        while (::read(STDIN_FILENO, &byte, 1) < 0 && errno == EINTR) {
+        }
+        _exit(exit_code::interrupted);
+    }).detach();
 }
 
 int wait_for_program(int child, const SignalCounter& signals_so_far) {

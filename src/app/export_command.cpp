@@ -24,8 +24,8 @@ std::vector<std::string> known_formats() {
 
 void print_file(const ExportedFile& file) {
     std::string line = file.path.string();
-    if (file.triangles > 0) line += fmt::format(": {} vertices, {} triangles", file.vertices, file.triangles);
-    if (!file.noun.empty()) line += fmt::format("{} {} {}", file.triangles > 0 ? "," : ":", file.elements, file.noun);
+    if (file.vertices > 0) line += fmt::format(": {} vertices, {} triangles", file.vertices, file.triangles);
+    if (!file.noun.empty()) line += fmt::format("{} {} {}", file.vertices > 0 ? "," : ":", file.elements, file.noun);
     fmt::print("{}\n", line);
 }
 

@@ -1,5 +1,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/timeline/csv_file.h"
+#include "espalier/timeline/recorded_run.h"
 
 #include "command.h"
 #include "progress.h"
@@ -8,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <sstream>
 
 namespace espalier {
 namespace {
@@ -21,29 +22,14 @@ struct InfoArguments {
     bool json = false;
 };
 
-std::vector<std::string> cells(const std::string& line) {
-    std::vector<std::string> result;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) result.push_back(cell);
-    return result;
-}
-
-// The rows of statistics.csv that belong to its last step: column name to cell, one object per plant.
+// The rows of the last step: column name to value, one object per plant.
 Json last_statistics(const fs::path& file) {
-    if (!fs::exists(file)) return Json::array();
-    std::istringstream in(read_text(file));
-    std::string line;
-    std::getline(in, line);
-    const std::vector<std::string> columns = cells(line);
     Json rows = Json::array();
-    std::string step;
-    while (std::getline(in, line)) {
-        const std::vector<std::string> values = cells(line);
-        if (values.size() != columns.size()) continue;
-        if (values.front() != step) rows = Json::array();
-        step = values.front();
+    if (!fs::exists(file)) return rows;
+    const RecordedTable table = read_table(file);
+    for (const std::vector<double>& values : table.last_rows()) {
         Json row;
-        for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = values[i];
+        for (std::size_t i = 0; i < values.size(); ++i) row[table.columns[i]] = csv_number(values[i]);
         rows.push_back(std::move(row));
     }
     return rows;

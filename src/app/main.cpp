@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <fcntl.h>
+#include <filesystem>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -99,6 +100,12 @@ int parse_and_run(int argc, char** argv) {
         return run_whole(command);
     } catch (const UserError& error) {
         return fail(error.what(), exit_code::user_error, json);
+    } catch (const std::filesystem::filesystem_error& error) {
+        // A path that cannot be looked at: too long a name, a loop of links, a folder without permission.
+        const bool disk = error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error ||
+                          error.code() == std::errc::read_only_file_system;
+        return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()),
+                    disk ? exit_code::run_failed : exit_code::user_error, json);
     } catch (const std::bad_alloc&) {
         return fail("the machine has no memory left; --memory sets a limit below that", exit_code::run_failed, json);
     } catch (const std::exception& error) {

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace espalier {
 namespace {
@@ -44,6 +46,16 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+CLI::Validator above_zero() {
+    const auto check = [](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+        return is_number && value > 0 ? std::string() : fmt::format("a number above 0 is expected, not {}", text);
+    };
+    return {check, "ABOVE 0"};
+}
+
 ModelOptions::ModelOptions(CLI::App& command, const std::string& name, const std::string& help, Files files) {
     command.add_option(name, model_.file, help)->required();
     command.add_option("--view", model_.view, "a view file (.v): turtle, surfaces, contours, functions");
@@ -80,7 +92,7 @@ GrowthOptions::GrowthOptions(CLI::App& command) {
     command.add_option("--steps", steps_, "derivations; default: what the scene or the model says")
         ->check(CLI::Range(0, 1000000000));
     command.add_option("--seed", seed_, "of all random numbers; the same seed gives the same bytes")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
     command.add_option("--memory", memory_, "what it may take, such as 4G; default: half of the machine");
 }
 

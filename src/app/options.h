@@ -15,6 +15,9 @@ namespace espalier {
 /// `--option KEY=VALUE`; throws UserError if there is no '='.
 std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option);
 
+/// Accepts finite numbers above 0. CLI11's own tells of all of the range of a double.
+CLI::Validator above_zero();
+
 /// A scene, a model or an object, with the side files given beside it.
 class ModelOptions {
 public:

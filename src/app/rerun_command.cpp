@@ -4,11 +4,12 @@
 
 #include "child.h"
 #include "command.h"
+#include "temporary_folder.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 namespace espalier {
 namespace {
@@ -16,26 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_listed = 20;
-
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string pattern = (fs::temp_directory_path() / "espalier-rerun-XXXXXX").string();
-        if (!mkdtemp(pattern.data())) throw RunError("cannot make a temporary folder");
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 class Rerun final : public Command {
 public:
@@ -62,8 +43,9 @@ Examples:
             fmt::print(stderr, "warning: the run was made by espalier {}, this is {}\n", command.version,
                        ESPALIER_VERSION);
         }
+        require_apart();
         const SignalCounter signals;
-        const TemporaryFolder temporary;
+        const TemporaryFolder temporary("rerun");
         const fs::path output = output_.empty() ? temporary.path() / "timeline" : fs::absolute(output_);
         if (!repeat(command, temporary.path() / "inputs", output, signals)) return exit_code::interrupted;
         return report(timeline_differences(run_, output));
@@ -76,17 +58,30 @@ private:
                                     run_.string(), command.exit));
     }
 
+    // A timeline within the other would be compared with itself.
+    void require_apart() const {
+        if (output_.empty()) return;
+        const auto folder = [](const fs::path& path) {
+            return (fs::weakly_canonical(fs::absolute(path)) / "").string();
+        };
+        const std::string before = folder(run_), after = folder(output_);
+        if (before.starts_with(after) || after.starts_with(before)) {
+            throw UserError(fmt::format("--output {}: the new timeline must lie outside the run's own folder {}",
+                                        output_.string(), run_.string()));
+        }
+    }
+
     // False if it was interrupted.
     bool repeat(const RecordedCommand& command, const fs::path& root, const fs::path& output,
                 const SignalCounter& signals) const {
         const fs::path folder = lay_out_inputs(command, root);
         std::vector<std::string> arguments = arguments_below(command, root);
-        arguments.insert(arguments.begin(), "run");
         arguments.insert(arguments.end(), {"--output", output.string()});
         if (threads_ > 0) arguments.insert(arguments.end(), {"--threads", std::to_string(threads_)});
         if (quiet_) arguments.push_back("--quiet");
-        const int code = wait_for_program(start_program(arguments, folder, {}), signals);
+        const int code = wait_for_program(start_run(arguments, folder, {}), signals);
         if (signals.count() > 0 && code != 0) return false;
+        if (code == exit_code::user_error) throw UserError("the run could not be repeated: see above");
         if (code != 0) throw RunError(fmt::format("the run could not be repeated: it ended with code {}", code));
         return true;
     }

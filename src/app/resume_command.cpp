@@ -1,6 +1,5 @@
 // resume: goes on with a run that was interrupted, killed, or stopped by a full disk.
 #include "espalier/base/error.h"
-#include "espalier/base/file.h"
 #include "espalier/simulation/recorded_command.h"
 #include "espalier/simulation/simulation.h"
 
@@ -16,11 +15,6 @@ namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool has_changed(const fs::path& path, const ReadLog::File& file) {
-    std::error_code error;
-    return !fs::is_regular_file(path, error) || digest(read_text(path)) != file.digest;
-}
 
 class Resume final : public Command {
 public:
@@ -53,7 +47,7 @@ Examples:
                             run_.string()));
         }
         for (const auto& [path, file] : command.inputs) {
-            if (has_changed(path, file)) {
+            if (!is_unchanged(path, file)) {
                 throw UserError(
                     fmt::format("{} has changed since the run began, so it cannot go on as it was", path.string()));
             }

@@ -2,7 +2,9 @@
 
 #include "espalier/simulation/simulation.h"
 
+#include "child.h"
 #include "command.h"
+#include "end_signals.h"
 #include "options.h"
 #include "progress.h"
 
@@ -31,26 +33,6 @@ void request_interrupt(int) {
     if (silent) return;
     static const char message[] = "\nfinishing this step (once more to stop at once)\n";
     [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, sizeof message - 1);
-}
-
-// The first signal asks, the second kills.
-void listen_for_interrupts() {
-    struct sigaction action = {};
-    action.sa_handler = request_interrupt;
-    action.sa_flags = SA_RESETHAND | SA_RESTART;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    // Progress that nobody reads any more must not end a run.
-    std::signal(SIGPIPE, SIG_IGN);
-}
-
-// output/<scene>-<time>, numbered if two runs of a scene begin in the same second.
-fs::path default_output(const std::string& scene) {
-    const fs::path base =
-        fs::path("output") / fmt::format("{}-{:%Y%m%d-%H%M%S}", scene, fmt::localtime(std::time(nullptr)));
-    fs::path output = base;
-    for (int number = 2; fs::exists(output); ++number) output = fmt::format("{}-{}", base.string(), number);
-    return output;
 }
 
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
@@ -91,6 +73,14 @@ Scene scene_of(const RunArguments& arguments) {
 
 }  // namespace
 
+fs::path default_output(const std::string& scene) {
+    const fs::path base =
+        fs::path("output") / fmt::format("{}-{:%Y%m%d-%H%M%S}", scene, fmt::localtime(std::time(nullptr)));
+    fs::path output = base;
+    for (int number = 2; fs::exists(output); ++number) output = fmt::format("{}-{}", base.string(), number);
+    return output;
+}
+
 std::vector<std::string> words_of(const RunArguments& arguments) {
     const ModelArguments& model = arguments.model;
     std::vector<std::string> words{model.file.string()};
@@ -116,7 +106,10 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
 
 int run_command(const RunArguments& arguments) {
     silent = arguments.quiet;
-    listen_for_interrupts();
+    // The first signal asks, the second kills.
+    const EndSignals signals(request_interrupt, /*only_once=*/true);
+    // Progress that nobody reads any more must not end a run.
+    std::signal(SIGPIPE, SIG_IGN);
     std::optional<tbb::global_control> threads;
     if (arguments.threads > 0) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
@@ -165,6 +158,7 @@ public:
                         "N steps; `espalier resume` goes on from the last; default: only when interrupted")
             ->check(CLI::Range(1, 1000000000));
         app().add_flag("--resume", arguments_.resume)->group("");  // what `resume` starts
+        app().add_flag(child_flag, is_child_)->group("");
         app().add_flag("--quiet", arguments_.quiet, "print nothing but errors");
         add_json_flag("print the result as JSON");
         app().footer(R"(Examples:
@@ -183,6 +177,7 @@ Ctrl-C ends the run after the step at hand and keeps what was recorded; once mor
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
         arguments_.json = wants_json();
+        if (is_child_) end_with_parent();
         return run_command(arguments_);
     }
 
@@ -191,6 +186,7 @@ private:
     SetOptions sets_;
     GrowthOptions growth_;
     RunArguments arguments_;
+    bool is_child_ = false;
 };
 
 const RegisteredCommand<RunCommand> entry{10};

@@ -2,7 +2,6 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/simulation/recorded_command.h"
 #include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/recorded_run.h"
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <sys/wait.h>
 #include <thread>
@@ -24,19 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_still(const fs::path& path, const ReadLog::File& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != file.size) return false;
-    return digest(read_text(path)) == file.digest;
-}
-
 // Ended by itself, told the same at the same place, and everything it read is still what it was.
 bool is_done(const SweepRun& run) {
     try {
         const RecordedCommand command = read_command(run.folder);
         return command.exit == "done" && command.arguments == run.words && command.folder == fs::current_path() &&
                std::all_of(command.inputs.begin(), command.inputs.end(),
-                           [](const auto& input) { return is_still(input.first, input.second); });
+                           [](const auto& input) { return is_unchanged(input.first, input.second); });
     } catch (const UserError&) {
         return false;  // no run, or half of one
     }
@@ -55,7 +47,7 @@ public:
         fs::create_directories(run.folder, error);
         if (error) throw RunError(fmt::format("cannot make the folder {}: {}", run.folder.string(), error.message()));
         const std::vector<std::string> command = sweep_.command(run);
-        running_[start_program({command.begin() + 1, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
+        running_[start_run({command.begin() + 2, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
     }
     /// None is left behind, even where the next cannot be started.
     ~Crew() {
@@ -98,28 +90,16 @@ private:
     bool quiet_;
 };
 
-std::string cell(double value) {
-    return std::isnan(value) ? "" : format_exact(value);
-}
-
 // A row's cell for each of `columns`; empty where the table has none of that name.
 std::string cells(const RecordedTable& table, const std::vector<double>& row, const std::vector<std::string>& columns) {
     std::string text;
     for (const std::string& column : columns) {
         const auto found = std::find(table.columns.begin(), table.columns.end(), column);
         text += ",";
-        if (found != table.columns.end()) text += cell(row[static_cast<std::size_t>(found - table.columns.begin())]);
+        if (found != table.columns.end())
+            text += csv_number(row[static_cast<std::size_t>(found - table.columns.begin())]);
     }
     return text;
-}
-
-// The rows of the last step, one a plant.
-std::vector<std::vector<double>> last_rows(const RecordedTable& table) {
-    std::vector<std::vector<double>> rows = table.rows;
-    if (rows.empty()) return rows;
-    const double last = rows.back().front();
-    std::erase_if(rows, [&](const auto& row) { return row.front() != last; });
-    return rows;
 }
 
 }  // namespace
@@ -187,7 +167,7 @@ fs::path Sweep::write_table() const {
         for (const std::string& column : table.columns) {
             if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
         }
-        table.rows = last_rows(table);
+        table.rows = table.last_rows();
         tables.emplace_back(&run, std::move(table));
     }
     std::string text = "run";

@@ -49,6 +49,9 @@ Examples:
     }
 
     int run() override {
+        std::error_code error;
+        const fs::path what = model_.arguments().file;
+        if (!fs::exists(what, error)) throw UserError(fmt::format("cannot read {}: no such file", what.string()));
         const Sweep sweep(base(), variations(), folder());
         if (list_) {
             for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));

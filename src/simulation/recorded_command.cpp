@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 
 #include "run_inputs.h"
+#include "written_files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -23,11 +24,10 @@ std::string bytes_on_disk(const fs::path& path, const ReadLog::File& file) {
     if (!fs::is_regular_file(path, error)) {
         throw UserError(fmt::format("{} was too large for run.json and is no longer there", path.string()));
     }
-    std::string bytes = read_text(path);
-    if (bytes.size() != file.size || digest(bytes) != file.digest) {
+    if (!is_unchanged(path, file)) {
         throw UserError(fmt::format("{} was too large for run.json and has changed since", path.string()));
     }
-    return bytes;
+    return read_text(path);
 }
 
 std::string bytes_of(const fs::path& path, const ReadLog::File& file) {
@@ -36,16 +36,31 @@ std::string bytes_of(const fs::path& path, const ReadLog::File& file) {
     throw UserError(fmt::format("run.json was changed: {} is not what its digest says", path.string()));
 }
 
+// As ReadLog notes them; no disk takes longer names.
+bool is_absolute_path(const fs::path& path) {
+    constexpr std::size_t longest_name = 255;
+    return path.is_absolute() && std::all_of(path.begin(), path.end(),
+                                             [](const fs::path& name) { return name.native().size() <= longest_name; });
+}
+
+void make_folder_below(const fs::path& root, const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!error) return;
+    const std::string name = folder.lexically_relative(root).string();
+    if (error == std::errc::not_a_directory || error == std::errc::filename_too_long) {
+        throw UserError(fmt::format("run.json was changed: there can be no folder /{}: {}", name, error.message()));
+    }
+    throw RunError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
+
 bool tells_of_the_run(const fs::path& file) {
     return file == "run.json" || file == "timings.csv" || file == ".lock";
 }
 
-std::set<fs::path> files_below(const fs::path& folder) {
-    std::set<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        const fs::path name = entry.path().lexically_relative(folder);
-        if (entry.is_regular_file() && !tells_of_the_run(name)) files.insert(name);
-    }
+std::set<fs::path> timeline_files(const fs::path& folder) {
+    std::set<fs::path> files = files_below(folder);
+    std::erase_if(files, tells_of_the_run);
     return files;
 }
 
@@ -53,7 +68,8 @@ std::set<fs::path> files_below(const fs::path& folder) {
 
 RecordedCommand read_command(const fs::path& run) {
     const fs::path file = run / "run.json";
-    if (!fs::exists(file)) {
+    std::error_code error;
+    if (!fs::exists(file, error)) {
         throw UserError(fmt::format("{} holds no run: there is no run.json in it", run.string()));
     }
     try {
@@ -64,10 +80,16 @@ RecordedCommand read_command(const fs::path& run) {
         command.checkpoint_every = json.value("checkpoint_every", 0);
         command.folder = json.at("command").at("folder").get<std::string>();
         command.arguments = json.at("command").at("arguments").get<std::vector<std::string>>();
+        if (!is_absolute_path(command.folder)) {
+            throw UserError(fmt::format("{}: the run was started in the folder '{}', which is no absolute path",
+                                        file.string(), command.folder.string()));
+        }
         if (command.arguments.empty()) throw UserError(file.string() + " does not say how the run was started");
         for (const Json& input : json.at("inputs")) {
             const fs::path path = fs::path(input.at("path").get<std::string>()).lexically_normal();
-            if (!path.is_absolute()) throw UserError(fmt::format("{}: input '{}'", file.string(), path.string()));
+            if (!is_absolute_path(path) || !path.has_filename()) {
+                throw UserError(fmt::format("{}: input '{}' is no path of a file", file.string(), path.string()));
+            }
             command.inputs.emplace(path, input_of(input));
         }
         return command;
@@ -76,14 +98,20 @@ RecordedCommand read_command(const fs::path& run) {
     }
 }
 
+bool is_unchanged(const fs::path& path, const ReadLog::File& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error) || fs::file_size(path, error) != file.size) return false;
+    return digest(read_text(path)) == file.digest;
+}
+
 fs::path lay_out_inputs(const RecordedCommand& command, const fs::path& root) {
     for (const auto& [path, file] : command.inputs) {
         const fs::path place = root / path.relative_path();
-        fs::create_directories(place.parent_path());
+        make_folder_below(root, place.parent_path());
         write_text(place, bytes_of(path, file));
     }
     const fs::path folder = root / command.folder.lexically_normal().relative_path();
-    fs::create_directories(folder);
+    make_folder_below(root, folder);
     return folder;
 }
 
@@ -92,13 +120,14 @@ std::vector<std::string> arguments_below(const RecordedCommand& command, const f
     for (std::string& argument : arguments) {
         const fs::path path = fs::path(argument).lexically_normal();
         const fs::path there = root / path.relative_path();
-        if (path.is_absolute() && fs::exists(there)) argument = there.string();
+        std::error_code ignored;
+        if (path.is_absolute() && fs::exists(there, ignored)) argument = there.string();
     }
     return arguments;
 }
 
 std::vector<std::string> timeline_differences(const fs::path& before, const fs::path& after) {
-    const std::set<fs::path> old_files = files_below(before), new_files = files_below(after);
+    const std::set<fs::path> old_files = timeline_files(before), new_files = timeline_files(after);
     std::vector<std::string> differences;
     for (const fs::path& file : old_files) {
         if (!new_files.contains(file)) {

@@ -41,6 +41,12 @@ Json overrides_json(const Scene& scene) {
     return overrides;
 }
 
+Json names_json(const std::set<std::filesystem::path>& files) {
+    Json names = Json::array();
+    for (const std::filesystem::path& file : files) names.push_back(file.string());
+    return names;
+}
+
 }  // namespace
 
 RunRecord::RunRecord(const Scene& scene, const RunOptions& options)
@@ -99,6 +105,7 @@ std::string RunRecord::json(const World& world, const std::string& exit, double 
     json["peak_memory"] = peak_memory();
     json["started"] = started_;
     json["checkpoint_every"] = checkpoint_every_;
+    json["files_before"] = names_json(files_before_);
     json["plants"] = plants_json(scene_, world);
     json["processes"] = processes_json(scene_);
     json["timings"] = {{"total", seconds},

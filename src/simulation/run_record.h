@@ -5,8 +5,10 @@
 #include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/timeline.h"
 
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace espalier {
@@ -15,6 +17,8 @@ class RunRecord {
 public:
     RunRecord(const Scene& scene, const RunOptions& options);
 
+    /// What lies where the models will write, though none of them wrote it.
+    void note_files_before(std::set<std::filesystem::path> files) { files_before_ = std::move(files); }
     /// Makes timings.csv, which then grows by a row a step.
     void begin(const Timeline& timeline);
     /// Goes on with it as save() left it.
@@ -35,6 +39,7 @@ private:
     std::vector<std::string> arguments_;
     std::string folder_;  ///< where the run was started
     std::string started_;
+    std::set<std::filesystem::path> files_before_;
     StageTimes total_;
     std::optional<CsvFile> timings_;
     int steps_ = 0;  ///< recorded so far

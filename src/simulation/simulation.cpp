@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 
 #include "run_record.h"
+#include "written_files.h"
 
 #include <fmt/format.h>
 
@@ -47,13 +48,14 @@ public:
 
 private:
     static std::filesystem::path files_folder(const RunOptions& options) {
-        return options.output.empty() ? std::filesystem::path() : options.output / "files";
+        return options.output.empty() ? std::filesystem::path() : files_folder_of(options.output);
     }
 
     // A mistake in the scene's [timeline] should not leave an empty folder behind.
     void open_timeline() {
         if (options_.resume) return resume_timeline();
         const bool existed = std::filesystem::exists(options_.output);
+        const auto files_before = files_before_run(options_.output);
         try {
             timeline_.emplace(options_.output, scene_.timeline, scene_.steps, options_.overwrite);
         } catch (const UserError&) {
@@ -61,6 +63,8 @@ private:
             throw;
         }
         remove_checkpoint();
+        if (options_.overwrite && files_before) remove_written_files(options_.output, *files_before);
+        record_.note_files_before(files_below(files_folder_of(options_.output)));
         if (scene_.frames) timeline_->choose(*scene_.frames);
         write_record("running");
         record_.begin(*timeline_);
@@ -68,6 +72,7 @@ private:
 
     void resume_timeline() {
         const std::filesystem::path path = checkpoint_of(options_.output);
+        record_.note_files_before(files_before_run(options_.output).value_or(std::set<std::filesystem::path>{}));
         std::ifstream in(path, std::ios::binary);
         if (!in) throw UserError(fmt::format("there is no {} to go on from", path.string()));
         if (get<std::uint64_t>(in) != signature) throw RunError(fmt::format("{} is no checkpoint", path.string()));

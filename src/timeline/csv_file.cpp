@@ -2,10 +2,12 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/base/text.h"
 
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cmath>
 #include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
@@ -63,6 +65,10 @@ std::string csv_text(std::string_view text) {
         quoted += c;
     }
     return quoted + '"';
+}
+
+std::string csv_number(double value) {
+    return std::isfinite(value) ? format_exact(value) : "";
 }
 
 }  // namespace espalier

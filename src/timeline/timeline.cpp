@@ -36,19 +36,30 @@ bool is_frame_file(const fs::path& path) {
     return numbered && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
 }
 
-void remove_frame_files(const fs::path& folder) {
-    if (!fs::is_directory(folder)) return;
-    for (const auto& item : fs::recursive_directory_iterator(folder)) {
-        if (item.is_regular_file() && is_frame_file(item.path())) fs::remove(item.path());
-    }
+// What a killed run was writing.
+bool is_half_written(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with('.') && name.find(".part") != std::string::npos;
 }
 
-// What a killed run was writing.
+// Folders that then hold nothing go, too.
+void remove_frame_files(const fs::path& folder) {
+    if (!fs::is_directory(folder)) return;
+    std::vector<fs::path> folders{folder};
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+        if (item.is_directory()) folders.push_back(item.path());
+        if (item.is_regular_file() && (is_frame_file(item.path()) || is_half_written(item.path()))) {
+            fs::remove(item.path());
+        }
+    }
+    std::error_code holds_something;
+    for (; !folders.empty(); folders.pop_back()) fs::remove(folders.back(), holds_something);
+}
+
 void remove_half_written(const fs::path& folder) {
     std::vector<fs::path> halves;
     for (const auto& item : fs::recursive_directory_iterator(folder)) {
-        const std::string name = item.path().filename().string();
-        if (name.starts_with('.') && name.find(".part") != std::string::npos) halves.push_back(item.path());
+        if (is_half_written(item.path())) halves.push_back(item.path());
     }
     for (const fs::path& path : halves) fs::remove(path);
 }

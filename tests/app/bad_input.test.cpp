@@ -49,6 +49,12 @@ TEST_CASE_METHOD(BadInput, "mistakes on the command line exit with 1 and offer t
     CHECK(run("run bush.l --steps -1").code == 1);
     CHECK(run("run bush.l --steps many").code == 1);
     CHECK(run("run bush.l --threads 0").code == 1);
+    CHECK_THAT(run("run bush.l --seed -1").err, Contains("not in range 0 to 9223372036854775807"));
+    for (const std::string layer : {"0", "-1", "nan", "inf", "1m"}) {
+        const Outcome outcome = run("analyse out --layer " + layer);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("--layer: a number above 0 is expected, not " + layer));
+    }
     CHECK_THAT(run("run bush.l --memory lots").err, Contains("512M or 4G"));
     CHECK(run("run bush.l --memory -1G").code == 1);
     CHECK_THAT(run("run bush.l --set steps").err, Contains("KEY=VALUE"));
@@ -249,6 +255,17 @@ TEST_CASE_METHOD(BadInput, "a run that is killed leaves a collection of whole fr
     CHECK(exit_of("out") == "running");
     const std::string collection = text_of(path() / "out/plants.pvd");
     CHECK_THAT(collection, Contains("plants/0002.vtp") && Contains("</VTKFile>"));
+}
+
+TEST_CASE_METHOD(BadInput, "names that no disk takes are mistakes of the user", "[app]") {
+    const std::string name(300, 'x');
+    for (const std::string command : {"check", "run", "derive", "info", "rerun", "resume", "plot", "analyse",
+                                      "export --format obj", "sweep --vary a=1,2"}) {
+        INFO(command);
+        const Outcome outcome = run(command + " " + name);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, !Contains("filesystem error"));
+    }
 }
 
 TEST_CASE_METHOD(BadInput, "with --json a failure is an object too", "[app]") {

@@ -47,6 +47,13 @@ TEST_CASE("export takes chosen steps into a folder, and says what it wrote as JS
     CHECK(!exists(place, "run/export"));
 }
 
+TEST_CASE("export says how many vertices and triangles it wrote", "[export]") {
+    const RunPlace place;
+    CHECK(place.run("export run --format usd").out.find(" vertices, 0 triangles, 1 time samples") != std::string::npos);
+    CHECK(place.run("export run --format usd").out.find(": 0 vertices") == std::string::npos);
+    CHECK(place.run("export run --format csv").out.find("vertices") == std::string::npos);
+}
+
 TEST_CASE("export explains what it cannot do", "[export]") {
     const RunPlace place;
     const auto refused = [&](const std::string& arguments, const std::string& words) {

@@ -40,9 +40,11 @@ public:
     }
 
     /// Starts the program, waits until `ready` and calls `act` with its process id; returns how it ended.
+    enum class Group { of_the_tests, own };
     Outcome run_until(const std::vector<std::string>& arguments, const std::function<bool()>& ready,
-                      const std::function<void(pid_t)>& act) const {
+                      const std::function<void(pid_t)>& act, Group group = Group::of_the_tests) const {
         const pid_t child = fork();
+        if (child == 0 && group == Group::own) setpgid(0, 0);
         if (child == 0) become_program(arguments);
         for (int i = 0; i < 2000 && !ready(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
         act(child);

@@ -2,10 +2,13 @@
 #include "catch.h"
 #include "program.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <filesystem>
 
 using Catch::Matchers::Contains;
+using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
@@ -55,12 +58,70 @@ TEST_CASE_METHOD(Workplace, "what cannot be repeated is refused in words", "[app
     CHECK(run("rerun nowhere").code == 1);
     write("shrub.l", shrub);
     REQUIRE(run("run shrub.l --quiet --output first").code == 0);
-    std::string json = text_of(path() / "first" / "run.json");
-    const std::string changed = json.replace(json.find("A(x*0.5)"), 8, "A(x*0.6)");
+    std::string text = text_of(path() / "first" / "run.json");
+    const std::string changed = text.replace(text.find("A(x*0.5)"), 8, "A(x*0.6)");
     write("first/run.json", changed);
     const Outcome outcome = run("rerun first");
     CHECK(outcome.code == 1);
     CHECK_THAT(outcome.err, Contains("is not what its digest says"));
+}
+
+TEST_CASE_METHOD(Workplace, "a run.json that was tampered with makes nothing outside the temporary folder", "[app]") {
+    write("shrub.l", shrub);
+    REQUIRE(run("run shrub.l --quiet --output first").code == 0);
+    const json original = json::parse(text_of(path() / "first" / "run.json"));
+    const auto refused = [&](const std::string& pointer, const json& forgery) {
+        json forged = original;
+        forged[json::json_pointer(pointer)] = forgery;
+        write("first/run.json", forged.dump());
+        const Outcome outcome = run("rerun first");
+        INFO(pointer << " " << forgery << ": " << outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, !Contains("filesystem error"));
+    };
+    refused("/command/folder", "../../../../../../../../../../../../" + (path() / "made").string());
+    refused("/command/folder", "relative");
+    refused("/command/folder", "/" + std::string(300, 'x'));
+    refused("/command/folder", original["inputs"][0]["path"]);  // a file
+    refused("/command/arguments", json::array());
+    refused("/command/arguments", json::array({std::string(5000, 'x')}));
+    refused("/command/arguments", json::array({"--frobnicate"}));
+    refused("/inputs/0/path", "shrub.l");
+    refused("/inputs/0/path", "/" + std::string(300, 'x') + "/shrub.l");
+    refused("/inputs/0/path", "/folder/");
+    refused("/inputs", "none");
+    refused("/version", 7);
+    json twice = original["inputs"];
+    twice.push_back(twice[0]);
+    twice[1]["path"] = twice[0]["path"].get<std::string>() + "/below";
+    refused("/inputs", twice);
+    CHECK_FALSE(fs::exists(path() / "made"));
+}
+
+TEST_CASE_METHOD(Workplace, "a run is repeated wherever the temporary folder is", "[app]") {
+    write("shrub.l", shrub);
+    REQUIRE(run("run shrub.l --quiet --output first").code == 0);
+    fs::create_directories(path() / "here");
+    const Outcome again = run("rerun first --quiet", "TMPDIR=here");
+    CHECK(again.err == "");
+    CHECK(again.code == 0);
+    CHECK(fs::is_empty(path() / "here"));
+    const Outcome nowhere = run("rerun first --quiet", "TMPDIR=/no/such/folder");
+    CHECK(nowhere.code == 2);
+    CHECK_THAT(nowhere.err, Contains("cannot make a temporary folder in /no/such/folder"));
+}
+
+TEST_CASE_METHOD(Workplace, "rerun keeps its timeline apart from the one it repeats", "[app]") {
+    write("shrub.l", shrub);
+    REQUIRE(run("run shrub.l --quiet --output runs/first").code == 0);
+    for (const char* output : {"runs/first", "runs/first/again", "runs", "runs/second/../first/x"}) {
+        const Outcome outcome = run(std::string("rerun runs/first --output ") + output);
+        INFO(output);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("must lie outside the run's own folder"));
+    }
+    CHECK(run("rerun runs/first --quiet").code == 0);
+    CHECK(run("rerun runs/first --quiet --output runs/first-again").code == 0);
 }
 
 TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one table of them", "[app]") {
@@ -94,6 +155,22 @@ TEST_CASE_METHOD(Workplace, "the commands a sweep lists are those it would run",
     CHECK(run(command + " --list").out == "");
     CHECK(run(command + " --quiet").code == 0);
     CHECK(lines_in(text_of(path() / "a b" / "sweep.csv")) == 3);
+}
+
+TEST_CASE_METHOD(Workplace, "the script for Slurm runs the line of its task, and says if there is none", "[app]") {
+    write("shrub.l", shrub);
+    write("commands", run("sweep shrub.l --vary D=1.1,1.2 --output s --list").out);
+    const auto task = [&](int number) {
+        const std::string script = std::string("bash '") + ESPALIER_SOURCE_DIR + "/docs/sweep.slurm'";
+        return code_of(std::system(("cd '" + path().string() + "' && SLURM_ARRAY_TASK_ID=" + std::to_string(number) +
+                                    " " + script + " >.out 2>.err")
+                                       .c_str()));
+    };
+    CHECK(task(2) == 0);
+    CHECK(fs::exists(path() / "s" / "D=1.2" / "plants.pvd"));
+    CHECK_FALSE(fs::exists(path() / "s" / "D=1.1"));
+    CHECK(task(3) == 1);
+    CHECK_THAT(text_of(path() / ".err"), Contains("task 3: the file commands has only 2 lines"));
 }
 
 TEST_CASE_METHOD(Workplace, "a run that fails does not keep the others of its sweep", "[app]") {

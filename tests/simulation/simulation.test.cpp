@@ -200,6 +200,24 @@ TEST_CASE_METHOD(Runs, "a folder with a timeline is refused unless it may be ove
     CHECK_NOTHROW(run(scene(), {.output = output("run"), .overwrite = true}));
 }
 
+TEST_CASE_METHOD(Runs, "a run that replaces another reads nothing of what that one wrote", "[simulation]") {
+    const Scene writing = scene_with_model(
+        "lsystem: 1\nStart: { f = fopen(\"log/steps\", \"a\"); fprintf(f, \"begun\\n\"); fclose(f); }\n"
+        "derivation length: 1\naxiom: F\nF --> FF\nendlsystem\n");
+    fs::create_directories(output("run") / "files");
+    std::ofstream(output("run") / "files" / "mine") << "kept";
+    run(writing, {.output = output("run")});
+    CHECK(text_of(output("run") / "files/log/steps") == "begun\n");
+    run(writing, {.output = output("run"), .overwrite = true});
+    CHECK(text_of(output("run") / "files/log/steps") == "begun\n");
+    run(scene(), {.output = output("run"), .overwrite = true});
+    CHECK_FALSE(fs::exists(output("run") / "files/log"));
+    CHECK(text_of(output("run") / "files/mine") == "kept");
+    CHECK(fs::exists(output("run") / "fields/light"));
+    run(writing, {.output = output("run"), .overwrite = true});
+    CHECK_FALSE(fs::exists(output("run") / "fields"));  // nobody records any
+}
+
 TEST_CASE_METHOD(Runs, "a mistake in the timeline's table leaves no folder behind", "[simulation]") {
     const Scene mistaken = scene(std::string(two_bushes) + "evry = 2\n");
     CHECK_THROWS_WITH(run(mistaken, {.output = output("run")}), Contains("did you mean 'every'?"));

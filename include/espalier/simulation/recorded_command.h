@@ -21,6 +21,9 @@ struct RecordedCommand {
 /// Throws UserError if the folder holds no run, or one from before runs could be repeated.
 RecordedCommand read_command(const std::filesystem::path& run);
 
+/// True if an input is still there with the bytes it had.
+bool is_unchanged(const std::filesystem::path& path, const ReadLog::File& file);
+
 /// Writes the inputs below `root`, each at its own absolute path, and returns the folder to start the program in.
 /// Inputs too large for run.json are copied from where they were. Throws UserError if one of those is gone or changed,
 /// or if run.json itself was.

@@ -31,5 +31,7 @@ private:
 
 /// A value as CSV writes it: in quotes if it holds a comma, a quote or a line break.
 std::string csv_text(std::string_view text);
+/// A number so that it reads back exactly; nothing for NaN and infinities.
+std::string csv_number(double value);
 
 }  // namespace espalier

@@ -89,11 +89,10 @@ public:
     template <class... Values>
     void add(Values... values) {
         std::string line;
-        ((line += cell(static_cast<double>(values)) + ","), ...);
+        ((line += csv_number(static_cast<double>(values)) + ","), ...);
         line.back() = '\n';
         text_ += line;
     }
-    static std::string cell(double value) { return std::isfinite(value) ? format_exact(value) : ""; }
     const std::string& text() const { return text_; }
 
 private:
@@ -159,7 +158,7 @@ void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
     for (const std::string& column : measured.columns) text.append(csv_text(column)).append(",");
     text.back() = '\n';
     for (const std::vector<double>& row : measured.rows) {
-        for (const double value : row) text.append(CsvText::cell(value)).append(",");
+        for (const double value : row) text.append(csv_number(value)).append(",");
         text.back() = '\n';
     }
     CsvText orders("step,plant,order,streams,internodes,mean_length,mean_diameter");

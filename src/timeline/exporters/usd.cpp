@@ -115,12 +115,14 @@ public:
         births_.add(step, numbers(curves.births));
         extent_.add(step, extent(curves.points, curves.widest / 2));
         shown_.add(step, visibility(!curves.counts.empty()));
+        vertices_ += curves.points.size();
     }
 
     void add(int step, const ExportMesh& mesh) {
         std::vector<Rgb> rgb;
         for (const std::uint32_t material : mesh.material_of) rgb.push_back(mesh.materials[material].rgb);
         triangles_ += rgb.size();
+        vertices_ += mesh.points.size();
         face_counts_.add(step, numbers(std::vector<int>(rgb.size(), 3)));
         corners_.add(step, list(mesh.triangles, [](std::string& text, const auto& corners) {
                          fmt::format_to(std::back_inserter(text), "{}, {}, {}", corners[0], corners[1], corners[2]);
@@ -135,6 +137,7 @@ public:
         mesh_shown_.add(step, visibility(!rgb.empty()));
     }
 
+    std::size_t vertices() const { return vertices_; }  ///< of curves and surfaces, in all samples
     std::size_t triangles() const { return triangles_; }
 
     void append_to(std::string& text, const std::string& name, const std::string& label) const {
@@ -161,7 +164,7 @@ private:
         mesh_points_{"point3f[] points", ""}, normals_{"normal3f[] normals", "vertex"},
         uvs_{"texCoord2f[] primvars:st", "vertex"}, mesh_colours_{"color3f[] primvars:displayColor", "uniform"},
         mesh_extent_{"float3[] extent", ""}, mesh_shown_{"token visibility", ""};
-    std::size_t triangles_ = 0;
+    std::size_t vertices_ = 0, triangles_ = 0;
 };
 
 /// The axes of every plant.
@@ -210,17 +213,18 @@ public:
             }
         }
         std::string text = head(job);
-        std::size_t triangles = 0;
+        std::size_t vertices = 0, triangles = 0;
         for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
             if (!wanted(plant)) continue;
             const std::string& name = job.run.plants()[plant].name;
             plants[plant].append_to(text, fmt::format("plant_{}", plant), quoted(name));
+            vertices += plants[plant].vertices();
             triangles += plants[plant].triangles();
         }
         text += "}\n";
         const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], "usda") : job.path("usda");
         write_text(path, text);
-        job.report({path, 0, triangles, job.frames.size(), "time samples"});
+        job.report({path, vertices, triangles, job.frames.size(), "time samples"});
     }
 
 private:
