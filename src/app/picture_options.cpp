@@ -1,10 +1,13 @@
 #include "picture_options.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/text.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <vector>
 
 namespace espalier {
 
@@ -14,15 +17,75 @@ PictureOptions::PictureOptions(CLI::App& command) {
 }
 
 PictureSize PictureOptions::size(const PictureSize& otherwise) const {
-    if (size_.empty()) return otherwise;
+    return size_.empty() ? otherwise : picture_size("--size", size_);
+}
+
+PictureSize picture_size(const std::string& option, const std::string& text) {
     PictureSize size;
-    const char* end = size_.data() + size_.size();
-    const auto [cross, wrong_width] = std::from_chars(size_.data(), end, size.width);
+    const char* end = text.data() + text.size();
+    const auto [cross, wrong_width] = std::from_chars(text.data(), end, size.width);
     if (wrong_width == std::errc() && cross != end && *cross == 'x') {
         const auto [rest, wrong_height] = std::from_chars(cross + 1, end, size.height);
         if (wrong_height == std::errc() && rest == end && size.width > 0 && size.height > 0) return size;
     }
-    throw UserError(fmt::format("--size {}: WIDTHxHEIGHT is expected, as 1200x800", size_));
+    throw UserError(option == "--size" ? fmt::format("--size {}: WIDTHxHEIGHT is expected, as 1200x800", text)
+                                       : fmt::format("{} {}: COLUMNSxROWS is expected, as 4x2", option, text));
+}
+
+PictureBackground picture_background(const std::string& text) {
+    if (text == "light") return light_background;
+    if (text == "dark") return dark_background;
+    if (text == "transparent") return {light_background.rgb, true};
+    unsigned number = 0;
+    const char* end = text.data() + text.size();
+    if (text.size() == 7 && text[0] == '#') {
+        const auto [rest, wrong] = std::from_chars(text.data() + 1, end, number, 16);
+        if (wrong == std::errc() && rest == end) {
+            const auto part = [&](unsigned shift) { return static_cast<std::uint8_t>(number >> shift & 255); };
+            return {{part(16), part(8), part(0)}, false};
+        }
+    }
+    throw UserError(fmt::format("--background {}: light, dark, transparent or #rrggbb is expected", text));
+}
+
+FieldLook field_look(const std::string& text) {
+    const auto reject = [&](const std::string& why) { throw UserError(fmt::format("--field {}: {}", text, why)); };
+    FieldLook look;
+    const std::size_t colon = text.rfind(':');
+    look.name = text.substr(0, colon);
+    if (look.name.empty()) reject("the name of a field is expected, as water:slice");
+    if (colon == std::string::npos) return look;
+    const std::string how = text.substr(colon + 1);
+    const std::size_t equals = how.find('=');
+    const std::string kind = how.substr(0, equals);
+    std::string value = equals == std::string::npos ? "" : how.substr(equals + 1);
+    const std::vector<std::string> kinds{"volume", "slice", "iso"};
+    if (kind == "volume" && equals == std::string::npos) {
+        look.kind = FieldLook::Kind::volume;
+    } else if (kind == "slice") {
+        look.kind = FieldLook::Kind::slice;
+        const bool has_axis = !value.empty() && value[0] >= 'x' && value[0] <= 'z';
+        if (has_axis) look.axis = value[0], value.erase(0, 1);
+        look.place = finite_number(value);
+        if ((equals != std::string::npos && !has_axis) || (!value.empty() && !look.place)) {
+            reject("slice=z is expected, or slice=z0.5 with its place in metres");
+        }
+    } else if (kind == "iso") {
+        look.kind = FieldLook::Kind::surface;
+        look.level = finite_number(value);
+        if (equals != std::string::npos && !look.level) reject("iso=0.3 is expected, with the value of its surface");
+    } else {
+        reject(fmt::format("volume, slice[=AXIS[METRES]] or iso[=VALUE] is expected after ':'{}",
+                           did_you_mean(kind, kinds)));
+    }
+    return look;
+}
+
+std::optional<double> finite_number(const std::string& text) {
+    double value = 0;
+    const auto [rest, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (wrong != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 }  // namespace espalier

@@ -1,14 +1,17 @@
-// Options of commands that draw: --size and --dark.
+// Options of commands that draw, and what their words mean.
 #pragma once
 
 #include "espalier/timeline/chart_page.h"
+#include "espalier/timeline/picture_style.h"
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 
 namespace espalier {
 
+/// --size and --dark.
 class PictureOptions {
 public:
     explicit PictureOptions(CLI::App& command);
@@ -21,5 +24,17 @@ private:
     std::string size_;
     bool dark_ = false;
 };
+
+// What these words mean; each throws UserError saying what is expected.
+
+/// "1200x800", of an option.
+PictureSize picture_size(const std::string& option, const std::string& text);
+/// "light", "dark", "transparent" or "#rrggbb".
+PictureBackground picture_background(const std::string& text);
+/// "water", "water:volume", "water:slice", "water:slice=z0.5", "water:iso", "water:iso=0.3".
+FieldLook field_look(const std::string& text);
+
+/// The whole text as a finite number.
+std::optional<double> finite_number(const std::string& text);
 
 }  // namespace espalier

@@ -44,6 +44,7 @@ struct PictureStyle {
     bool legend = true;  ///< colour bars of arrays and fields
     bool scale_bar = false;
     bool time_label = false;
+    bool time_beneath = false;  ///< the time in the middle of the lower edge
     std::string title;
     double sun_azimuth = -20, sun_elevation = 50;  ///< degrees, as a camera's place
     int triangles = 3'000'000;                     ///< of axes, about: they have fewer sides where there are many
@@ -53,6 +54,7 @@ struct PictureStyle {
 struct CameraPlace {
     double azimuth = 30, elevation = 12;  ///< degrees; azimuth 0 looks against z, elevation 90 from above
     double zoom = 1;                      ///< 1: everything fits
+    bool front_if_flat = true;            ///< what lies in a plane across z is seen from the front
     bool turns = false;                   ///< everything fits from every azimuth, at one distance
 };
 

@@ -58,7 +58,8 @@ public:
         if (!legend_.title.empty()) write(legend_.title, font_, height_ - 1.4F * font_, 1.25F);
         if (!legend_.time.empty()) write(legend_.time, font_, font_ * (legend_.metres_per_pixel > 0 ? 3.4F : 1.3F));
         if (legend_.metres_per_pixel > 0) paint_scale_bar();
-        paint_keys();
+        if (!legend_.caption.empty()) write_caption();
+        if (legend_.shows_keys) paint_keys();
     }
 
 private:
@@ -77,6 +78,14 @@ private:
         property.SetJustificationToLeft();
         property.SetVerticalJustificationToCentered();
         painter_.DrawString(x, y, text.c_str());
+    }
+
+    void write_caption() {
+        set_ink();
+        painter_.GetTextProp()->SetFontSize(static_cast<int>(1.4F * font_));
+        painter_.GetTextProp()->SetJustificationToCentered();
+        painter_.GetTextProp()->SetVerticalJustificationToCentered();
+        painter_.DrawString(width_ / 2, 1.2F * font_, legend_.caption.c_str());
     }
 
     void fill(const Rgb& rgb, float x, float y, float width, float height) {
@@ -158,6 +167,7 @@ vtkStandardNewMacro(LegendItem);
 float Legend::width(int picture_height) const {
     const float font = font_of(picture_height);
     float width = 0;
+    if (!shows_keys) return width;
     for (const ColourKey& key : keys) width = std::max(width, width_of(key, font) + 1.2F * font);
     return width;
 }

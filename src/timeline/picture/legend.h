@@ -16,6 +16,8 @@ namespace espalier {
 struct Legend {
     std::vector<ColourKey> keys;
     std::string title, time;
+    std::string caption;  ///< in the middle of the lower edge
+    bool shows_keys = true;
     double metres_per_pixel = 0;  ///< of the scale bar; 0: none
     bool dark = false;
 

@@ -224,11 +224,19 @@ void OffScreenWindow::render() {
 }
 
 vtkSmartPointer<vtkImageData> OffScreenWindow::image() {
+    return read_pixels(VTK_RGB);
+}
+
+vtkSmartPointer<vtkImageData> OffScreenWindow::image_with_alpha() {
+    return read_pixels(VTK_RGBA);
+}
+
+vtkSmartPointer<vtkImageData> OffScreenWindow::read_pixels(int kind) {
     render();
     const Listening listening;
     vtkNew<vtkWindowToImageFilter> reader;
     reader->SetInput(window_);
-    reader->SetInputBufferTypeToRGB();
+    reader->SetInputBufferType(kind);
     reader->ReadFrontBufferOff();
     reader->ShouldRerenderOff();
     reader->Update();

@@ -34,10 +34,14 @@ public:
     void render();
     /// Renders; 8 bits red, green, blue per pixel.
     vtkSmartPointer<vtkImageData> image();
+    /// The same with a fourth part: how opaque each pixel is.
+    vtkSmartPointer<vtkImageData> image_with_alpha();
     /// Renders into a file that appears complete or not at all. Throws RunError.
     void write_png(const std::filesystem::path& path);
 
 private:
+    vtkSmartPointer<vtkImageData> read_pixels(int kind);
+
     class Context;
     std::unique_ptr<Context> context_;  ///< EGL's; null where X draws
     vtkSmartPointer<vtkRenderWindow> window_;

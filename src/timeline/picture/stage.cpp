@@ -151,8 +151,10 @@ public:
         Margins margins;
         margins.right += legend_->legend.width(static_cast<int>(height)) / width;
         if (!style_.title.empty()) margins.top += 0.04;
-        if (style_.scale_bar) margins.bottom += 0.05;
-        view_ = fitted(points, place, place.turns, is_flat(), width / height, margins);
+        if (style_.scale_bar || style_.time_beneath) margins.bottom += 0.05;
+        CameraPlace from = place;
+        if (is_flat() && place.front_if_flat) from.azimuth = from.elevation = 0;
+        view_ = fitted(points, from, place.turns, is_flat(), width / height, margins);
         vtkCamera& camera = *renderer_->GetActiveCamera();
         camera.SetFocalPoint(&view_->focus.x);
         camera.SetPosition(&view_->position.x);
@@ -383,9 +385,10 @@ private:
         Legend& legend = legend_->legend;
         const auto key = colouring_->key(*run_, *geometry_, colour_range());
         if (key) legend.keys.insert(legend.keys.begin(), *key);
-        if (!style_.legend) legend.keys.clear();
+        legend.shows_keys = style_.legend;
         legend.title = style_.title;
         if (style_.time_label) legend.time = time_text(*run_, *frame_);
+        if (style_.time_beneath) legend.caption = time_text(*run_, *frame_);
         legend.dark = style_.background.is_dark();
         if (style_.scale_bar && view_) {
             legend.metres_per_pixel = 2 * view_->half_height / std::max(1, renderer_->GetSize()[1]);
@@ -474,6 +477,10 @@ void Stage::restyle(PictureStyle style) {
 
 std::vector<std::string> Stage::colour_names() const {
     return Colouring::names(*body_->run_);
+}
+
+const Legend& Stage::legend() const {
+    return body_->legend_->legend;
 }
 
 bool Stage::is_flat() const {

@@ -23,6 +23,8 @@ class vtkRenderer;
 
 namespace espalier {
 
+struct Legend;
+
 /// What frames have in common, so that neither camera nor colours jump between them.
 struct StageSurvey {
     Box box;                                     ///< of the plants that are shown; empty where nothing is
@@ -73,6 +75,9 @@ public:
     void restyle(PictureStyle style);
     /// Everything `colour_by` may be for this run, "natural" first.
     std::vector<std::string> colour_names() const;
+
+    /// What is written on the picture of the frame that is shown.
+    const Legend& legend() const;
 
     /// True if all there is lies in a plane across z: it is seen from the front, without perspective.
     bool is_flat() const;
