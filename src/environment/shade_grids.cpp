@@ -88,7 +88,7 @@ void ShadeGrids::Grids::One::require_own() {
     }
     const openvdb::FloatGrid::Ptr copy = field->grid->deepCopy();
     copy->setTransform(field->grid->transformPtr());  // a copied one is written in other bytes
-    field = std::make_shared<FieldGrid>(FieldGrid{copy, field->box});
+    field = std::make_shared<FieldGrid>(FieldGrid{copy, field->box, true});
     openvdb::FloatGrid::Accessor tree = copy->getAccessor();
     for (std::size_t number = 0; number < leaves.size(); ++number) {
         if (leaves[number].values != nullptr) place_leaf(number, *tree.probeLeaf(origin_of(places[number])));
@@ -152,7 +152,7 @@ ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, double voxel)
         const auto grid = openvdb::FloatGrid::create(static_cast<float>(background));
         grid->setTransform(cell_centred_transform(voxel, glm::dvec3(-0.5 * voxel)));
         grid->setName(field);
-        return std::make_shared<FieldGrid>(FieldGrid{grid, {}});
+        return std::make_shared<FieldGrid>(FieldGrid{grid, {}, true});
     };
     grids_->light.field = make(name_, light_under(rule, 0));
     grids_->shade.field = make(name_ + ".shade", 0);

@@ -7,6 +7,7 @@
 #include "espalier/environment/openvdb_grid.h"
 
 #include "timeline/vtk_file.h"
+#include "timeline/written_grid.h"
 #include "timeline/xml_text.h"
 
 #include <fmt/format.h>
@@ -26,6 +27,8 @@ constexpr std::size_t uuid_at = 21;  // magic number, file version, library vers
 // OpenVDB's own File does not notice a full disk; this archive is written to memory.
 class MemoryArchive final : public openvdb::io::Archive {
 public:
+    explicit MemoryArchive(std::uint32_t compression) { setCompression(compression); }
+
     std::string text(const openvdb::GridBase::ConstPtr& grid) const {
         std::ostringstream out(std::ios::binary);
         Archive::write(out, openvdb::GridCPtrVec{grid}, /*seekable=*/true);
@@ -34,6 +37,14 @@ public:
         return bytes;
     }
 };
+
+// Blosc compresses leaf by leaf, which takes longer than writing what there is in small fields.
+std::uint32_t compression_of(const openvdb::FloatGrid& grid) {
+    constexpr std::size_t worth_compressing = std::size_t{1} << 20;
+    const std::size_t bytes =
+        std::size_t{grid.tree().leafCount()} * openvdb::FloatTree::LeafNodeType::SIZE * sizeof(float);
+    return openvdb::io::COMPRESS_ACTIVE_MASK | (bytes < worth_compressing ? 0 : openvdb::io::COMPRESS_BLOSC);
+}
 
 const FieldGrid& grid_of(const Field& field) {
     if (!field.grid || !field.grid->grid) {
@@ -89,8 +100,7 @@ bool same_field(const FieldGrid& a, const FieldGrid& b) {
 
 std::uint64_t digest_of(const FieldGrid& grid) {
     if (!grid.grid) return 0;
-    MemoryArchive archive;
-    archive.setCompression(openvdb::io::COMPRESS_NONE);  // inactive values count, too
+    const MemoryArchive archive(openvdb::io::COMPRESS_NONE);  // inactive values count, too
     const std::string bytes = archive.text(grid.grid->copyGridReplacingMetadata(openvdb::MetaMap()));
     const std::string box = fmt::format("{} {} {} {} {} {}", grid.box.min().x(), grid.box.min().y(), grid.box.min().z(),
                                         grid.box.max().x(), grid.box.max().y(), grid.box.max().z());
@@ -99,16 +109,16 @@ std::uint64_t digest_of(const FieldGrid& grid) {
 
 void write_vdb(const std::filesystem::path& path, const Field& field) {
     initialize_openvdb();
-    const openvdb::FloatGrid& grid = *grid_of(field).grid;
-    openvdb::MetaMap metadata(grid);
+    const FieldGrid& source = grid_of(field);
+    openvdb::MetaMap metadata(*source.grid);
     metadata.insertMeta(openvdb::GridBase::META_GRID_NAME, openvdb::StringMetadata(field.name));
     metadata.insertMeta("unit", openvdb::StringMetadata(field.unit));
     metadata.insertMeta("meaning", openvdb::StringMetadata(field.meaning));
-    MemoryArchive archive;
-    archive.setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
+    const std::uint32_t compression = compression_of(*source.grid);
+    const MemoryArchive archive(compression);
     std::string bytes;
     try {
-        bytes = archive.text(grid.copyGridReplacingMetadata(metadata));
+        bytes = archive.text(written_grid(source, metadata, compression));
     } catch (const openvdb::Exception& error) {
         throw RunError(fmt::format("cannot write {}: {}", path.string(), error.what()));
     }

@@ -108,6 +108,9 @@ public:
         if (!array_.ends.empty()) {
             return compressor_.compress_runs(array_.values, array_.ends, width, first, last, run_, out);
         }
+        if (!array_.parts.empty()) {
+            return compressor_.compress_parts(array_.values, array_.parts, width, first, last, run_, out);
+        }
         const auto* bytes = static_cast<const unsigned char*>(array_.values);
         return compressor_.compress({bytes + first * width, (last - first) * width}, width, out);
     }
@@ -115,11 +118,21 @@ public:
 private:
     const DataArray& array_;
     Lz4Blocks compressor_;
-    std::size_t tuples_;  ///< in a block
-    std::size_t done_ = 0, run_ = 0;
+    std::size_t tuples_;              ///< in a block
+    std::size_t done_ = 0, run_ = 0;  ///< tuples; runs or parts
 };
 
 }  // namespace
+
+bool same_values(const DataArray& a, const DataArray& b) {
+    if (a.tuple_bytes != b.tuple_bytes || a.tuples != b.tuples || a.ends.size() != b.ends.size()) return false;
+    const auto same = [](const void* x, const void* y, std::size_t bytes) {
+        return bytes == 0 || std::memcmp(x, y, bytes) == 0;
+    };
+    const std::size_t values = a.ends.empty() ? a.tuples : a.ends.size();
+    return same(a.values, b.values, values * a.tuple_bytes) &&
+           same(a.ends.data(), b.ends.data(), a.ends.size() * sizeof(std::uint32_t));
+}
 
 void encode(const DataArray& array, Column<char>& text) {
     Blocks blocks(array);

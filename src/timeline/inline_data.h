@@ -20,6 +20,8 @@ struct DataArray {
     std::size_t tuples = 0;
     const void* values = nullptr;         ///< of the tuples, or of the runs if there are any
     std::span<const std::uint32_t> ends;  ///< where runs of equal tuples end; empty: every tuple has its own value
+    /// Without runs: where parts end at whose beginning values are likely to repeat; empty: anywhere.
+    std::span<const std::uint32_t> parts = {};
 
     std::size_t bytes() const { return tuples * tuple_bytes; }
 };
@@ -42,6 +44,19 @@ DataArray data_array(std::string name, std::span<const T> values, int components
     const auto width = static_cast<std::size_t>(components);
     return {std::move(name), vtk_type<T>(), components, sizeof(T) * width, values.size() / width, values.data(), {}};
 }
+
+/// The same with its `parts`.
+template <class T>
+DataArray data_array(std::string name, std::span<const T> values, int components,
+                     std::span<const std::uint32_t> parts) {
+    DataArray array = data_array<T>(std::move(name), values, components);
+    array.parts = parts;
+    return array;
+}
+
+/// True if both are encoded to the same text, also of numbers that are none. Values given otherwise, as runs or one by
+/// one, are not compared.
+bool same_values(const DataArray& a, const DataArray& b);
 
 /// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks.
 void encode(const DataArray& array, Column<char>& text);

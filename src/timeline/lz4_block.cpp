@@ -162,6 +162,53 @@ std::size_t Lz4Blocks::compress(std::span<const unsigned char> bytes, std::size_
     return compress_units<4>(bytes, out);
 }
 
+template <std::size_t Unit>
+std::size_t Lz4Blocks::compress_parts_of(std::span<const unsigned char> bytes, std::span<const std::uint32_t> ends,
+                                         std::size_t first, std::size_t& part, unsigned char* out) {
+    Sequences sequences(out);
+    const unsigned char* const data = bytes.data();
+    const std::size_t end = bytes.size() > without_match ? bytes.size() - without_match : 0, units = end / Unit;
+    const int bits = slot_bits(units);
+    units_.assign(std::size_t{1} << bits, 0);
+    std::uint32_t* const seen = units_.data();
+    std::size_t written = 0;
+    for (std::size_t unit = 0; unit < units; unit = ends[part++] - first) {
+        const std::size_t at = unit * Unit;
+        if (at >= written) {
+            std::uint32_t& slot = seen[hash_of<Unit>(data + at) >> (64 - bits)];
+            const std::size_t before = std::exchange(slot, static_cast<std::uint32_t>(at + 1));
+            const bool is_known =
+                before != 0 && at + 1 - before <= farthest && std::memcmp(data + before - 1, data + at, Unit) == 0;
+            const std::size_t from = is_known ? at : at + Unit, offset = is_known ? at + 1 - before : Unit;
+            const std::size_t length = common(data + from, data + from - offset, data + end);
+            if (length >= Unit) {
+                sequences.add(data + written, from - written, offset, length);
+                written = from + length;
+            }
+        }
+        if (ends[part] - first >= units) break;
+    }
+    const std::size_t last = first + bytes.size() / Unit;
+    while (part < ends.size() && ends[part] <= last) ++part;
+    return sequences.end(data + written, bytes.size() - written);
+}
+
+std::size_t Lz4Blocks::compress_parts(const void* values, std::span<const std::uint32_t> ends, std::size_t tuple_bytes,
+                                      std::size_t first, std::size_t last, std::size_t& part, unsigned char* out) {
+    const auto* const tuples = static_cast<const unsigned char*>(values);
+    const std::span<const unsigned char> bytes(tuples + first * tuple_bytes, (last - first) * tuple_bytes);
+    switch (tuple_bytes) {
+        case 4:
+            return compress_parts_of<4>(bytes, ends, first, part, out);
+        case 8:
+            return compress_parts_of<8>(bytes, ends, first, part, out);
+        case 12:
+            return compress_parts_of<12>(bytes, ends, first, part, out);
+        default:
+            throw RunError("an array of parts with tuples of a width that nobody writes");
+    }
+}
+
 template <std::size_t Width>
 std::size_t Lz4Blocks::compress_runs_of(const void* values, std::span<const std::uint32_t> ends, std::size_t first,
                                         std::size_t last, std::size_t& run, unsigned char* out) {

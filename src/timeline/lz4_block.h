@@ -22,6 +22,12 @@ public:
     /// has written to `out`, which has room for the most.
     std::size_t compress(std::span<const unsigned char> bytes, std::size_t tuple_bytes, unsigned char* out);
 
+    /// The same for tuples [first, last) of an array whose values are likely to repeat where one of these parts begins,
+    /// and within a part from its beginning: only there anybody looks. `part` is that of the first tuple and moves on
+    /// to that of the last's successor. Throws RunError for tuples of a width other than 4, 8 or 12.
+    std::size_t compress_parts(const void* values, std::span<const std::uint32_t> ends, std::size_t tuple_bytes,
+                               std::size_t first, std::size_t last, std::size_t& part, unsigned char* out);
+
     /// The same for tuples [first, last) of an array of runs: run r has the tuple values[r] and ends before ends[r].
     /// `run` is that of the first and moves on to that of the last's successor. Throws RunError for tuples of a width
     /// other than 1, 2, 3, 4 or 8.
@@ -31,6 +37,9 @@ public:
 private:
     template <std::size_t Unit>
     std::size_t compress_units(std::span<const unsigned char> bytes, unsigned char* out);
+    template <std::size_t Unit>
+    std::size_t compress_parts_of(std::span<const unsigned char> bytes, std::span<const std::uint32_t> ends,
+                                  std::size_t first, std::size_t& part, unsigned char* out);
     template <std::size_t Width>
     std::size_t compress_runs_of(const void* values, std::span<const std::uint32_t> ends, std::size_t first,
                                  std::size_t last, std::size_t& run, unsigned char* out);

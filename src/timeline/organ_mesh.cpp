@@ -93,10 +93,11 @@ void place_rhombus(const Organ& organ, std::vector<SurfaceVertex>& vertices) {
     const Pose& pose = organ.pose;
     const glm::dvec3 middle = pose.position + 0.5 * organ.size.y * pose.heading;
     const glm::dvec3 half_width = 0.25 * organ.size.x * pose.left;
-    vertices = {{pose.position, pose.up, {0.5, 0}},
-                {middle + half_width, pose.up, {1, 0.5}},
-                {pose.position + organ.size.y * pose.heading, pose.up, {0.5, 1}},
-                {middle - half_width, pose.up, {0, 0.5}}};
+    vertices.resize(4);
+    vertices[0] = {pose.position, pose.up, {0.5, 0}};
+    vertices[1] = {middle + half_width, pose.up, {1, 0.5}};
+    vertices[2] = {pose.position + organ.size.y * pose.heading, pose.up, {0.5, 1}};
+    vertices[3] = {middle - half_width, pose.up, {0, 0.5}};
 }
 
 /// x and y of the vertices as shares of the box they fill.

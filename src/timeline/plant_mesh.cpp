@@ -62,25 +62,9 @@ constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max() / 8
 
 }  // namespace
 
-bool operator==(const Owner& a, const Owner& b) {
-    return a.module == b.module && a.plant == b.plant && a.order == b.order && a.colour == b.colour &&
-           a.kind == b.kind && a.look.back_colour == b.look.back_colour && a.look.texture == b.look.texture;
-}
-
 void Owners::clear() {
     values.clear();
     ends.clear();
-}
-
-void Owners::add(const Owner& owner, std::size_t count) {
-    if (count == 0) return;
-    const auto end = static_cast<std::uint32_t>(size() + count);
-    if (!values.empty() && values.back() == owner) {
-        ends.back() = end;
-    } else {
-        values.push_back(owner);
-        ends.push_back(end);
-    }
 }
 
 void Owners::add(const Owners& owners) {
@@ -103,46 +87,40 @@ void Cells::close(const Owner& owner) {
 }
 
 void Cells::add(const IndexRuns& runs, std::int32_t origin, const Owner& owner) {
-    for (const std::uint32_t index : runs.indices) connectivity.push_back(origin + static_cast<std::int32_t>(index));
+    if (runs.counts.empty()) return;
+    const std::size_t first = connectivity.size();
+    connectivity.resize(first + runs.indices.size());
+    std::int32_t* corner = connectivity.data() + first;
+    for (const std::uint32_t index : runs.indices) *corner++ = origin + static_cast<std::int32_t>(index);
     for (const std::uint32_t count : runs.counts) offsets.push_back(offsets.back() + static_cast<std::int32_t>(count));
     owners.add(owner, runs.counts.size());
 }
 
 void PlantMesh::clear() {
-    points.clear();
-    normals.clear();
-    uvs.clear();
+    size_ = 0;
     labels.clear();
-    radii.clear();
     owners.clear();
+    parts.clear();
     vertices.clear();
     lines.clear();
     polygons.clear();
 }
 
-std::int32_t PlantMesh::add_points(std::size_t count, const Owner& owner) {
-    const std::size_t first = radii.size();
+void PlantMesh::make_room(std::size_t count) {
     // A sphere's connectivity is several times its points; keep that within 31 bits too.
-    if (count > most_points - first) throw RunError("a frame of the timeline would have more than 268 million points");
-    points.resize(3 * (first + count));
-    normals.resize(3 * (first + count));
-    uvs.resize(2 * (first + count));
-    radii.resize(first + count);
-    owners.add(owner, count);
-    return static_cast<std::int32_t>(first);
+    if (count > most_points - size_) throw RunError("a frame of the timeline would have more than 268 million points");
+    resize(std::max(size_ + count, std::min(2 * size_, most_points)));
 }
 
-void PlantMesh::set_point(std::size_t point, const SurfaceVertex& vertex, double radius) {
-    for (int k = 0; k < 3; ++k) points[3 * point + std::size_t(k)] = static_cast<float>(vertex.position[k]);
-    for (int k = 0; k < 3; ++k) normals[3 * point + std::size_t(k)] = static_cast<float>(vertex.normal[k]);
-    for (int k = 0; k < 2; ++k) uvs[2 * point + std::size_t(k)] = static_cast<float>(vertex.uv[k]);
-    radii[point] = static_cast<float>(radius);
+void PlantMesh::resize(std::size_t count) {
+    points.resize(3 * count);
+    normals.resize(3 * count);
+    uvs.resize(2 * count);
+    radii.resize(count);
 }
 
-std::int32_t PlantMesh::add_point(const SurfaceVertex& vertex, double radius, const Owner& owner) {
-    const std::int32_t point = add_points(1, owner);
-    set_point(static_cast<std::size_t>(point), vertex, radius);
-    return point;
+void PlantMesh::trim() {
+    resize(size_);
 }
 
 bool PlantMesh::same_shape(const PlantMesh& other) const {
@@ -225,7 +203,7 @@ Owner owner_of_patch(Owner owner, const BicubicPatch* patch) {
 void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ& organ, bool as_whole,
                  const Owner& owner) {
     const SurfaceMesh& shape = entry.mesh;
-    const auto origin = static_cast<std::int32_t>(mesh.radii.size());
+    const auto origin = static_cast<std::int32_t>(mesh.size());
     for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
         SurfaceVertex vertex = placed(shape.vertices[i], organ);
         if (as_whole) vertex.uv = entry.whole[i];

@@ -31,9 +31,12 @@ struct Owner {
     std::uint16_t colour;
     Kind kind;
     Look look = {};
-};
 
-bool operator==(const Owner& a, const Owner& b);
+    bool operator==(const Owner& other) const {
+        return module == other.module && plant == other.plant && order == other.order && colour == other.colour &&
+               kind == other.kind && look.back_colour == other.look.back_colour && look.texture == other.look.texture;
+    }
+};
 
 /// The owners of points or cells in their order; neighbours mostly have the same one, so they are kept as runs.
 struct Owners {
@@ -42,7 +45,16 @@ struct Owners {
 
     std::size_t size() const { return ends.empty() ? 0 : ends.back(); }
     void clear();
-    void add(const Owner& owner, std::size_t count = 1);
+    void add(const Owner& owner, std::size_t count = 1) {
+        if (count == 0) return;
+        const auto end = static_cast<std::uint32_t>(size() + count);
+        if (!values.empty() && values.back() == owner) {
+            ends.back() = end;
+        } else {
+            values.push_back(owner);
+            ends.push_back(end);
+        }
+    }
     void add(const Owners& owners);
 };
 
@@ -59,24 +71,52 @@ struct Cells {
     void add(const IndexRuns& runs, std::int32_t origin, const Owner& owner);
 };
 
-/// Reused from frame to frame: clear() keeps the memory.
+/// Reused from frame to frame: clear() keeps the memory. Columns of points are longer than needed until trim().
 struct PlantMesh {
     Column<float> points;   ///< x, y, z of one point after the other
     Column<float> normals;  ///< across the axis on axes
     Column<float> uvs;      ///< two a point
     Column<float> radii;
-    Owners owners;  ///< of the points
+    Owners owners;                ///< of the points
+    Column<std::uint32_t> parts;  ///< where points that were added together end
     Cells vertices, lines, polygons;
     std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
 
     void clear();
+    std::size_t size() const { return size_; }
     /// Makes room for points of one owner, returns the first one's number. Throws RunError beyond 2^28 points.
-    std::int32_t add_points(std::size_t count, const Owner& owner);
-    void set_point(std::size_t point, const SurfaceVertex& vertex, double radius);
+    std::int32_t add_points(std::size_t count, const Owner& owner) {
+        const std::size_t first = size_;
+        if (count > radii.size() - first) make_room(count);
+        size_ = first + count;
+        owners.add(owner, count);
+        if (count > 0) parts.push_back(static_cast<std::uint32_t>(size_));
+        return static_cast<std::int32_t>(first);
+    }
+    void set_point(std::size_t point, const SurfaceVertex& vertex, double radius) {
+        float* const at = points.data() + 3 * point;
+        float* const normal = normals.data() + 3 * point;
+        float* const uv = uvs.data() + 2 * point;
+        for (int k = 0; k < 3; ++k) at[k] = static_cast<float>(vertex.position[k]);
+        for (int k = 0; k < 3; ++k) normal[k] = static_cast<float>(vertex.normal[k]);
+        for (int k = 0; k < 2; ++k) uv[k] = static_cast<float>(vertex.uv[k]);
+        radii[point] = static_cast<float>(radius);
+    }
     /// Returns the point's number.
-    std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner);
+    std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner) {
+        const std::int32_t point = add_points(1, owner);
+        set_point(static_cast<std::size_t>(point), vertex, radius);
+        return point;
+    }
+    void trim();
     /// True if both would be shown the same but for what their owners are.
     bool same_shape(const PlantMesh& other) const;
+
+private:
+    void make_room(std::size_t count);
+    void resize(std::size_t count);
+
+    std::size_t size_ = 0;
 };
 
 /// Meshes of organs as they are needed, kept from frame to frame.

@@ -22,8 +22,15 @@ std::string_view view(const Column<char>& text) {
 
 }  // namespace
 
+void VtkFile::begin_after(std::string_view type) {
+    begin(type);
+    after_ = true;
+}
+
 void VtkFile::begin(std::string_view type) {
+    for (std::size_t i = count_; i < parts_.size(); ++i) parts_[i].encoded = false;  // of files before the last
     count_ = 0;
+    after_ = false;
     open_.clear();
     markup_ = "<?xml version=\"1.0\"?>\n";
     // Inline, not appended: readers older than VTK 9.3 mistake appended data for XML where the system's expat (2.5 of
@@ -71,16 +78,20 @@ VtkFile::Part& VtkFile::add(std::string_view element, const DataArray& array, st
         fmt::format(R"(<{} type="{}" Name="{}" NumberOfComponents="{}" NumberOfTuples="{}" format="binary">)", element,
                     array.type, xml_text(array.name), array.components, tuples);
     part.markup += '\n';
+    part.encoded = after_ && part.encoded && same_values(part.array, array);
     part.array = array;
     return part;
 }
 
 void VtkFile::encode_all() {
     std::size_t bytes = 0;
-    for (std::size_t i = 0; i < count_; ++i) bytes += parts_[i].array.bytes();
+    for (std::size_t i = 0; i < count_; ++i) bytes += parts_[i].encoded ? 0 : parts_[i].array.bytes();
     const auto encode_part = [this](std::size_t i) {
-        parts_[i].text.clear();
-        encode(parts_[i].array, parts_[i].text);
+        Part& part = parts_[i];
+        if (part.encoded) return;
+        part.text.clear();
+        encode(part.array, part.text);
+        part.encoded = true;
     };
     if (bytes < worth_sharing) {
         for (std::size_t i = 0; i < count_; ++i) encode_part(i);

@@ -19,6 +19,8 @@ class VtkFile {
 public:
     /// Forgets the file before. `type` is VTK's name of the kind of data set, "PolyData".
     void begin(std::string_view type);
+    /// The same where the memory of that file's arrays is still as it was: those that come again keep their text.
+    void begin_after(std::string_view type);
     void open(std::string_view element, std::string_view attributes = {});
     void close();
     /// The array's memory is the caller's until the file is written.
@@ -38,12 +40,14 @@ private:
     struct Part {
         std::string markup;  ///< before the array
         DataArray array;
-        std::string values;  ///< the array's, if nobody else keeps them
-        Column<char> text;   ///< the array, encoded
+        std::string values;    ///< the array's, if nobody else keeps them
+        Column<char> text;     ///< the array, encoded
+        bool encoded = false;  ///< the text is that of the array
 
         void own(std::string bytes) {
             values = std::move(bytes);
             array.values = values.data();
+            encoded = false;
         }
     };
 
@@ -56,6 +60,7 @@ private:
     std::string markup_;      ///< since the last array
     std::deque<Part> parts_;  ///< the first `count_` are of this file
     std::size_t count_ = 0;
+    bool after_ = false;  ///< the arrays of the file before can be compared with
 };
 
 }  // namespace espalier

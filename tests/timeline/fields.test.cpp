@@ -3,6 +3,7 @@
 
 #include "catch.h"
 #include "timeline/collections.h"
+#include "timeline/field_file.h"
 #include "timeline/frames.h"
 
 #include <openvdb/io/File.h>
@@ -11,6 +12,8 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkXMLImageDataReader.h>
+
+#include <random>
 
 using namespace espalier;
 
@@ -87,6 +90,34 @@ TEST_CASE("a .vdb holds the field's grid, transform, name and meaning", "[timeli
     CHECK(grid->metaValue<std::string>("meaning") == "relative light");
     // The process's own grid is left as it was.
     CHECK(field.grid->grid->getName().empty());
+}
+
+TEST_CASE("a .vdb of nothing but leaves has the bytes that OpenVDB writes of any tree", "[timeline]") {
+    const RunFolder folder;
+    const auto text = [&](Field field, bool only_leaves) {
+        auto grid = std::make_shared<FieldGrid>(*field.grid);
+        grid->only_leaves = only_leaves;
+        field.grid = grid;
+        write_vdb(folder.path / "a.vdb", field);
+        return bytes_of(folder.path / "a.vdb");
+    };
+    std::mt19937 random(6);
+    // Less and more than is worth compressing; leaves in several nodes of every level.
+    for (const int leaves : {0, 1, 20, 700}) {
+        INFO(leaves << " leaves");
+        const Field field = make_field("light", 0.375f);
+        auto accessor = field.grid->grid->getAccessor();
+        for (int leaf = 0; leaf < leaves; ++leaf) {
+            const auto place = [&] { return static_cast<int>(random() % 20000) - 10000; };
+            const openvdb::Coord at(place(), place(), place());
+            for (int voxel = 0; voxel < 20; ++voxel) accessor.setValue(at.offsetBy(voxel % 8, voxel / 8, 0), 0.125f);
+            accessor.setValueOff(at, 3);
+        }
+        std::filesystem::create_directories(folder.path);
+        const std::string fast = text(field, true);
+        CHECK((fast == text(field, false)));
+        CHECK(read_vdb(folder.path / "a.vdb", "light")->tree().hasSameTopology(field.grid->grid->tree()));
+    }
 }
 
 TEST_CASE("a field without an active voxel gives files that open", "[timeline]") {

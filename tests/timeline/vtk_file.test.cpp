@@ -27,12 +27,10 @@ using namespace espalier;
 
 namespace {
 
-/// A file of points without cells, with these arrays on them.
-void write_points(const std::filesystem::path& path, std::size_t count, const std::vector<DataArray>& arrays,
-                  const std::vector<std::string>& texts = {}) {
+/// Into a file that has begun: points without cells, with these arrays on them.
+void fill_points(VtkFile& file, const std::filesystem::path& path, std::size_t count,
+                 const std::vector<DataArray>& arrays, const std::vector<std::string>& texts = {}) {
     const std::vector<float> points(3 * count, 0.5f);
-    VtkFile file;
-    file.begin("PolyData");
     file.open("PolyData");
     file.open("FieldData");
     file.add_time(2.5, 7);
@@ -45,6 +43,13 @@ void write_points(const std::filesystem::path& path, std::size_t count, const st
     file.open("Points");
     file.add(data_array<float>("points", points, 3));
     file.write(path);
+}
+
+void write_points(const std::filesystem::path& path, std::size_t count, const std::vector<DataArray>& arrays,
+                  const std::vector<std::string>& texts = {}) {
+    VtkFile file;
+    file.begin("PolyData");
+    fill_points(file, path, count, arrays, texts);
 }
 
 vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& path) {
@@ -116,6 +121,59 @@ TEST_CASE("arrays of any type and length read back as they were, whether given a
         check_plain_and_runs<std::uint16_t>(count, random);
         check_plain_and_runs<float>(count, random);
         check_plain_and_runs<std::uint64_t>(count, random);
+    }
+}
+
+TEST_CASE("arrays read back whatever parts they are said to have", "[timeline]") {
+    std::mt19937 random(4);
+    const auto check = [&](auto value, std::size_t count, int components) {
+        const std::vector<decltype(value)> values =
+            mixed_values<decltype(value)>(count * std::size_t(components), random);
+        for (const std::uint32_t longest : {1u, 4u, 100u, 200000u}) {
+            INFO(count << " x " << components << ", parts of up to " << longest);
+            std::vector<std::uint32_t> parts;
+            for (std::uint32_t end = 0; end < count;) {
+                end = static_cast<std::uint32_t>(std::min<std::size_t>(count, end + 1 + random() % longest));
+                parts.push_back(end);
+            }
+            const TemporaryFolder folder;
+            write_points(
+                folder.path() / "a.vtp", count,
+                {data_array<decltype(value)>("values", std::span<const decltype(value)>(values), components, parts)});
+            CHECK((bytes_read(read(folder.path() / "a.vtp"), "values") == bytes_of(values)));
+        }
+    };
+    for (const std::size_t count : {1, 2, 5, 21845, 21846, 65536, 65537, 200000}) {
+        check(0.0f, count, 1);
+        check(0.0f, count, 2);
+        check(0.0f, count, 3);
+        check(0.0, count, 1);
+    }
+}
+
+TEST_CASE("a file written after another has the bytes of one written alone", "[timeline]") {
+    std::mt19937 random(5);
+    constexpr std::size_t count = 1000;
+    // Two lists that take turns, so that the file before is always there to be compared with.
+    std::array<std::vector<std::vector<std::uint32_t>>, 2> values;
+    values[0].assign(6, std::vector<std::uint32_t>(count, 7));
+    const TemporaryFolder folder;
+    VtkFile file;
+    for (int step = 0; step < 30; ++step) {
+        INFO("step " << step);
+        std::vector<std::vector<std::uint32_t>>& now = values[std::size_t(step % 2)];
+        if (step > 0) now = values[std::size_t((step + 1) % 2)];
+        now[random() % now.size()][random() % count] = static_cast<std::uint32_t>(random());
+        std::vector<DataArray> arrays;
+        const std::size_t shown = step % 7 == 3 ? 3 : now.size();  // arrays come and go
+        for (std::size_t i = 0; i < shown; ++i) {
+            arrays.push_back(
+                data_array<std::uint32_t>("a" + std::to_string(i), std::span<const std::uint32_t>(now[i])));
+        }
+        step == 0 ? file.begin("PolyData") : file.begin_after("PolyData");
+        fill_points(file, folder.path() / "after.vtp", count, arrays);
+        write_points(folder.path() / "alone.vtp", count, arrays);
+        CHECK((read_text(folder.path() / "after.vtp") == read_text(folder.path() / "alone.vtp")));
     }
 }
 

@@ -10,6 +10,7 @@ namespace espalier {
 struct FieldGrid {
     openvdb::FloatGrid::Ptr grid;  ///< index space to metres by its transform; voxel centres are at integer indices
     openvdb::CoordBBox box;        ///< the voxels a viewer should be shown (.vti): the domain, or what is active
+    bool only_leaves = false;      ///< what is in no leaf is inactive and the background's: then it is written faster
 };
 
 /// openvdb::initialize(), once.

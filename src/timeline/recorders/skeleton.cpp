@@ -67,15 +67,12 @@ public:
 
     void record(const Frame& frame) override {
         if (written_.empty()) require_known(chosen_, frame.plants);
-        std::swap(now_, before_);
         now_.clear();
         fill_mesh(frame);
         fill_arrays(frame);
         if (!is_written()) {
-            const std::string file = fmt::format("plants/{:04}.vtp", frame.step);
-            written_.clear();  // in case the next line throws
-            write(frame, folder_ / file);
-            written_ = file;
+            write(frame);
+            std::swap(now_, before_);
         }
         collection_.add(frame.time, 0, "plants", written_);
         collection_.write();
@@ -88,7 +85,7 @@ public:
         put_text(out, written_);
         put(out, static_cast<std::uint64_t>(texture_files_.size()));
         for (const std::string& file : texture_files_) put_text(out, file);
-        put(out, restored_ ? *restored_ : digest_of(now_));
+        put(out, restored_ ? *restored_ : digest_of(before_));
     }
 
     void restore(std::istream& in) override {
@@ -106,12 +103,16 @@ private:
     // True if the last file shows what is there now.
     bool is_written() {
         if (written_.empty()) return false;
-        if (const auto digest = std::exchange(restored_, std::nullopt)) return digest_of(now_) == *digest;
-        return now_ == before_;
+        const auto digest = std::exchange(restored_, std::nullopt);
+        if (!digest) return now_ == before_;
+        if (digest_of(now_) != *digest) return false;
+        std::swap(now_, before_);
+        return true;
     }
 
     static std::uint64_t digest_of(const PlantData& data) {
         VtkFile file;
+        file.begin("PolyData");
         fill(file, data, 0, 0);
         return file.digest();
     }
@@ -127,6 +128,7 @@ private:
             add_pieces(mesh, plant.interpretation->geometry, i);
             add_labels(mesh, plant.interpretation->geometry, i);
         }
+        mesh.trim();
         for (const Cells* cells : {&mesh.vertices, &mesh.lines, &mesh.polygons}) now_.cell_owners.add(cells->owners);
     }
 
@@ -155,15 +157,18 @@ private:
         now_.symbol_names = symbols_.names();
     }
 
-    void write(const Frame& frame, const std::filesystem::path& path) {
-        make_folder(path.parent_path());
+    void write(const Frame& frame) {
+        const std::string before = std::exchange(written_, {});  // in case something throws
+        before.empty() ? file_.begin("PolyData") : file_.begin_after("PolyData");
         fill(file_, now_, frame.time, frame.step);
-        file_.write(path);
+        const std::string name = fmt::format("plants/{:04}.vtp", frame.step);
+        make_folder(folder_ / "plants");
+        file_.write(folder_ / name);
+        written_ = name;
     }
 
     static void fill(VtkFile& file, const PlantData& data, double time, int step) {
         const PlantMesh& mesh = data.mesh;
-        file.begin("PolyData");
         file.open("PolyData");
         file.open("FieldData");
         file.add_texts("texture_files", data.texture_files);
@@ -174,18 +179,18 @@ private:
         const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size() - 1; };
         file.open("Piece",
                   fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
-                              mesh.radii.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
+                              mesh.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
         file.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
-        file.add(data_array<float>("radius", mesh.radii));
-        file.add(data_array<float>("Normals", mesh.normals, 3));
-        file.add(data_array<float>("TCoords", mesh.uvs, 2));
+        file.add(data_array<float>("radius", mesh.radii, 1, mesh.parts));
+        file.add(data_array<float>("Normals", mesh.normals, 3, mesh.parts));
+        file.add(data_array<float>("TCoords", mesh.uvs, 2, mesh.parts));
         add_arrays(file, data.of_points);
         file.close();
         file.open("CellData");
         add_arrays(file, data.of_cells);
         file.close();
         file.open("Points");
-        file.add(data_array<float>("points", mesh.points, 3));
+        file.add(data_array<float>("points", mesh.points, 3, mesh.parts));
         file.close();
         add_cells(file, "Verts", mesh.vertices);
         add_cells(file, "Lines", mesh.lines);
@@ -198,7 +203,7 @@ private:
     SymbolNumbers symbols_;
     std::vector<std::string> texture_files_;
     OrganSource organs_;
-    PlantData now_, before_;
+    PlantData now_, before_;                 ///< before: what the last file shows
     std::optional<std::uint64_t> restored_;  ///< what a checkpoint knows of the last file
     std::string written_;                    ///< the last file, relative to the folder; empty before the first
     VtkFile file_;
