@@ -9,6 +9,7 @@
 #include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkRect.h>
+#include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
