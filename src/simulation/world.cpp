@@ -6,7 +6,8 @@
 #include "string_checkpoint.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cctype>
@@ -32,6 +33,29 @@ struct Plant {
     PlantMemory memory = {};
     int length = 0;
     bool stopped = false;
+};
+
+/// What is asked of all plants together after each stage.
+struct Totals {
+    PlantMemory memory;
+    std::size_t modules = 0;
+    int longest = 0;
+    bool stopped = false;
+
+    void add(const Plant& plant) {
+        memory.add(plant.memory);
+        modules += plant.string.size();
+        longest = std::max(longest, plant.length);
+        stopped = stopped || plant.stopped;
+    }
+    Totals plus(const Totals& others) const {
+        Totals sum = *this;
+        sum.memory.add(others.memory);
+        sum.modules += others.modules;
+        sum.longest = std::max(longest, others.longest);
+        sum.stopped = stopped || others.stopped;
+        return sum;
+    }
 };
 
 class Stopwatch {
@@ -68,22 +92,18 @@ struct World::State {
     int step = 0;
     StageTimes times;
     std::vector<Diagnostic> warnings;
-    // Of all plants, as the last derivation and interpretation left them.
-    PlantMemory memory;
-    std::size_t modules = 0;
-    int longest = 0;
-    bool stopped = false;
+    Totals totals;  ///< as the last stage left them
     // Of the step that was asked for last.
     std::vector<PlantFrame> frames;
     int frames_of = -1;
 
     double time() const { return step * scene.dt; }
     template <class Action>
-    void for_every_plant(const Action& action);
+    Totals for_every_plant(const Action& action);
     template <class Rewrite>
     void derive(const Rewrite& rewrite);
     void interpret_and_exchange();
-    void sum_up();
+    void take_derived(const Totals& derived);
     void require_memory(const PlantMemory& needed) const;
     void make_frames();
     DerivationSettings settings_of(const PlantDescription& plant, const std::filesystem::path& files) const;
@@ -91,21 +111,27 @@ struct World::State {
 
 // All plants in parallel. Of several failures the first plant's is reported, whoever failed first.
 template <class Action>
-void World::State::for_every_plant(const Action& action) {
+Totals World::State::for_every_plant(const Action& action) {
     std::mutex failing;
     std::exception_ptr failure;
     std::size_t failed = plants.size();
-    tbb::parallel_for(std::size_t(0), plants.size(), [&](std::size_t i) {
-        try {
-            action(plants[i]);
-        } catch (...) {
-            const std::lock_guard lock(failing);
-            if (i > failed) return;
-            failed = i;
-            failure = std::current_exception();
+    const auto act = [&](const tbb::blocked_range<std::size_t>& range, Totals sum) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            try {
+                action(plants[i]);
+            } catch (...) {
+                const std::lock_guard lock(failing);
+                if (i > failed) continue;
+                failed = i;
+                failure = std::current_exception();
+            }
+            sum.add(plants[i]);
         }
-    });
-    if (!failure) return;
+        return sum;
+    };
+    const Totals sum = tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, plants.size()), Totals(), act,
+                                            [](const Totals& a, const Totals& b) { return a.plus(b); });
+    if (!failure) return sum;
     try {
         std::rethrow_exception(failure);
     } catch (const RunError& error) {
@@ -117,30 +143,20 @@ void World::State::for_every_plant(const Action& action) {
 template <class Rewrite>
 void World::State::derive(const Rewrite& rewrite) {
     const Stopwatch stopwatch(times.derive);
-    for_every_plant([&](Plant& plant) {
+    take_derived(for_every_plant([&](Plant& plant) {
         rewrite(plant);
         plant.memory.strings = plant.string.bytes() + plant.next.bytes();
         plant.length = plant.derivation.length();
         plant.stopped = plant.derivation.stopped();
-    });
-    sum_up();
+    }));
 }
 
-void World::State::sum_up() {
-    const std::size_t before = modules;
-    memory = {};
-    modules = 0;
-    longest = 0;
-    stopped = false;
-    for (const Plant& plant : plants) {
-        memory.add(plant.memory);
-        modules += plant.string.size();
-        longest = std::max(longest, plant.length);
-        stopped = stopped || plant.stopped;
-    }
+void World::State::take_derived(const Totals& derived) {
     // Nobody knows what will be drawn of strings before it is: as much of a module as in the step before.
-    const double growth = before == 0 ? 1 : static_cast<double>(modules) / static_cast<double>(before);
-    require_memory(memory.grown(std::max(growth, 1.0)));
+    const double growth =
+        totals.modules == 0 ? 1 : static_cast<double>(derived.modules) / static_cast<double>(totals.modules);
+    totals = derived;
+    require_memory(totals.memory.grown(std::max(growth, 1.0)));
 }
 
 void World::State::require_memory(const PlantMemory& needed) const {
@@ -150,21 +166,19 @@ void World::State::require_memory(const PlantMemory& needed) const {
     throw RunError(
         fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
                     "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
-                    step, modules, needed.recorded() >> 20, shares.plants >> 20, largest->description->name,
+                    step, totals.modules, needed.recorded() >> 20, shares.plants >> 20, largest->description->name,
                     largest->string.size(), commonest_module(*largest->model, largest->string)));
 }
 
 void World::State::interpret_and_exchange() {
     {
         const Stopwatch stopwatch(times.interpret);
-        for_every_plant([&](Plant& plant) {
+        totals = for_every_plant([&](Plant& plant) {
             interpret(*plant.model, *plant.symbols, plant.string, plant.description->turtle, &plant.derivation,
                       {plant.number}, plant.interpretation);
             plant.memory.set_drawn(plant.interpretation);
         });
-        memory = {};
-        for (const Plant& plant : plants) memory.add(plant.memory);
-        require_memory(memory);
+        require_memory(totals.memory);
     }
     const Stopwatch stopwatch(times.exchange);
     environment->exchange({step, time(), scene.dt, views}, strings);
@@ -231,7 +245,7 @@ World::World(const Scene& scene, std::size_t memory, const std::filesystem::path
         Derivation derivation(description.model, state.settings_of(description, files));
         if (scene.sets_length) derivation.set_length(scene.steps);
         const auto number = static_cast<std::uint32_t>(state.plants.size());
-        state.longest = std::max(state.longest, derivation.length());
+        state.totals.longest = std::max(state.totals.longest, derivation.length());
         Plant& plant = state.plants.emplace_back(
             Plant{number, &description, &model, table.get(), std::move(derivation), {}, {}, {}});
         state.views.push_back({number, &model, &plant.string, &plant.interpretation});
@@ -266,7 +280,7 @@ void World::restore(std::istream& in) {
     state_->environment->restore(in);
     state_->step = step;
     state_->frames_of = -1;
-    state_->sum_up();
+    state_->take_derived(state_->for_every_plant([](const Plant&) {}));
 }
 
 void World::start() {
@@ -296,7 +310,7 @@ void World::derive() {
 }
 
 int World::last_step() const {
-    return state_->scene.last_frame.value_or(state_->longest);
+    return state_->scene.last_frame.value_or(state_->totals.longest);
 }
 
 int World::steps_done() const {
@@ -304,11 +318,11 @@ int World::steps_done() const {
 }
 
 bool World::stopped() const {
-    return state_->stopped;
+    return state_->totals.stopped;
 }
 
 std::size_t World::modules() const {
-    return state_->modules;
+    return state_->totals.modules;
 }
 
 const StageTimes& World::times() const {
