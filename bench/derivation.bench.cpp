@@ -162,7 +162,7 @@ void stochastic_bush(benchmark::State& state) {
     };
     model.rule({{"A", 1}}, branch(30, 0.7)).weight = number(2);
     model.rule({{"A", 1}}, branch(-30, 0.5)).weight = number(1);
-    derive(state, model, {.steps = 18, .lineage = true});
+    derive(state, model, {.steps = 18});
 }
 BENCHMARK(stochastic_bush)->Arg(1)->UseRealTime();
 

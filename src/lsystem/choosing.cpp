@@ -155,10 +155,10 @@ void ChoosingCompiler::tell(LetterId letter, const Outcome& outcome) {
     const Plan& plan = system_.plans.of_letter[letter].choices[outcome.way == Outcome::Way::known ? outcome.index : 0];
     const bool told = outcome.way == Outcome::Way::known && plan.length < most_told && plan.parameters < most_told;
     choosing_.outcomes.push_back(outcome);
-    choosing_.choices.push_back(told ? static_cast<LetterId>(outcome.index) : Choosing::untold);
-    choosing_.measures.push_back(told ? plan.length | std::uint64_t{plan.parameters} << 32 : 0);
+    choosing_.told.push_back({told ? plan.length | std::uint64_t{plan.parameters} << 32 : 0,
+                              told ? static_cast<LetterId>(outcome.index) : Choosing::untold, plan.arity,
+                              !told || plan.production});
     choosing_.tells_all &= told;
-    choosing_.matches |= outcome.way == Outcome::Way::matched;
 }
 
 /// False if the production cannot apply between neighbours of these classes.

@@ -35,6 +35,14 @@ struct Lottery {
     std::vector<LetterId> choices;  ///< one more than limits
 };
 
+/// What the table tells of a letter between two classes of neighbours.
+struct Told {
+    std::uint64_t measure = 0;  ///< of the choice: modules and (from bit 32 on) parameters
+    LetterId choice = 0;        ///< among the letter's Plan::choices, or `untold`
+    std::uint16_t arity = 0;
+    bool changes = false;  ///< the module does not simply live on, for all that is told
+};
+
 struct Choosing {
     Gazes gazes;
     /// A pattern ends branches with `=`, or names brackets to its left: they are followed by their partners.
@@ -42,12 +50,10 @@ struct Choosing {
 
     // Tables by letter * places + left class * right_classes + right class.
     static constexpr LetterId untold = no_letter;
-    std::vector<LetterId> choices;        ///< among the letter's Plan::choices, or `untold`
-    std::vector<std::uint64_t> measures;  ///< of a choice: modules and (from bit 32 on) parameters
-    std::vector<Outcome> outcomes;        ///< of those that are not told
+    std::vector<Told> told;
+    std::vector<Outcome> outcomes;  ///< of those that are not told
     std::uint32_t left_classes = 1, right_classes = 1;
     bool tells_all = true;
-    bool matches = false;  ///< some way is `matched`
 
     std::uint32_t places() const { return left_classes * right_classes; }
 

@@ -16,6 +16,12 @@ namespace {
 constexpr double most_steps = 1e9;
 constexpr int longest_leap = 64;  // what words become is remembered for every step of a leap
 
+Ancestry ancestry_of(const CompiledModel& model, const DerivationSettings& settings) {
+    if (settings.lineage) return Ancestry::whole;
+    const bool named = model.nested || model.any(&CompiledSystem::draws) || model.any(&CompiledSystem::picture_draws);
+    return named ? Ancestry::identities : Ancestry::none;
+}
+
 std::uint64_t next_serial() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;
@@ -27,8 +33,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     : model(std::move(compiled)),
       main(model->main()),
       settings(std::move(given)),
-      lineage(settings.lineage || model->nested || model->any(&CompiledSystem::draws) ||
-              model->any(&CompiledSystem::picture_draws)),
+      ancestry(ancestry_of(*model, settings)),
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
       machines(main, variables, services),
@@ -136,11 +141,11 @@ void Derivation::State::follow_length() {
 void Derivation::State::evaluate_axiom(ModuleString& string) {
     const CompiledSystem& compiled = main;
     const std::size_t parameters = compiled.axiom.results.size();
-    const std::size_t bytes = bytes_needed(compiled.axiom_letters.size(), parameters, lineage);
+    const std::size_t bytes = bytes_needed(compiled.axiom_letters.size(), parameters, ancestry);
     if (bytes > settings.memory) {
         throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, settings.memory));
     }
-    resize(string, compiled.axiom_letters.size(), parameters, lineage);
+    resize(string, compiled.axiom_letters.size(), parameters, ancestry);
     std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
     const std::vector<ModuleTemplate>& modules = compiled.system->axiom;
     in_block(block_machine, "the axiom", [&] {
@@ -158,13 +163,13 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
             }
         }
     });
-    if (!lineage) return;
+    if (ancestry == Ancestry::none) return;
     const Brood brood(mix(0x6573'7061'6c69'6572, settings.plant), 0);
     for (std::size_t i = 0; i < string.size(); ++i) {
         string.identities[i] = brood.born(static_cast<std::uint32_t>(i));
-        string.parents[i] = 0;
-        string.births[i] = 0;
     }
+    std::fill(string.parents.begin(), string.parents.end(), Identity{0});
+    std::fill(string.births.begin(), string.births.end(), 0u);
 }
 
 // `%` deletes everything from itself to the end of its branch, to `$`, or to the end of the string.
@@ -202,8 +207,11 @@ void Derivation::State::find_kept(const ModuleString& from) {
 }
 
 StepInput Derivation::State::prepare(const ModuleString& from) {
-    if (lineage && from.identities.size() != from.size()) {
+    if (ancestry != Ancestry::none && from.identities.size() != from.size()) {
         throw RunError("the string has no identities: derive from a string that start() or step() made");
+    }
+    if (ancestry == Ancestry::whole && (from.parents.size() != from.size() || from.births.size() != from.size())) {
+        throw RunError("the string has no lineage: derive from a string that start() or step() made");
     }
     if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
     if (!model->nested) find_kept(from);
@@ -224,7 +232,7 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
         }
         view.places = &scratch->places;
     }
-    return {main, from, view, key(Stream::derivation), step, lineage, settings.memory, scratch->kept};
+    return {main, from, view, key(Stream::derivation), step, ancestry, settings.memory, scratch->kept};
 }
 
 void Derivation::State::warn_of_depth() {
@@ -251,7 +259,7 @@ void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
 }
 
 int Derivation::State::leap(const ModuleString& from, ModuleString& to, int steps) {
-    if (steps < 2 || lineage || !has_powers(*model)) return 0;
+    if (steps < 2 || ancestry != Ancestry::none || !has_powers(*model)) return 0;
     const int leapt = std::min(steps, longest_leap);
     if (!raise_to_power(main, from, leapt, settings.memory, to)) return 0;
     step += static_cast<std::uint32_t>(leapt);

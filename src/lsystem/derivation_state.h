@@ -43,7 +43,7 @@ struct Derivation::State {
     std::shared_ptr<const CompiledModel> model;
     const CompiledSystem& main;
     DerivationSettings settings;
-    bool lineage;
+    Ancestry ancestry;
     ModelFiles files;
     Services services;
     Variables variables;

@@ -43,14 +43,21 @@ struct ClassesAtPositions {
 
 constexpr std::size_t looked_up_at_once = 256;  // their measures are added up in one number
 
+/// Where the changes of a chunk have room among those of all.
+std::size_t room(const Scratch& scratch, const Chunk& chunk) {
+    return chunk.begin + static_cast<std::size_t>(&chunk - scratch.chunks.data());
+}
+
 /// Chooses and measures the modules of one chunk.
 class Measuring {
 public:
-    Measuring(const StepInput& input, Scratch& scratch, Machine& machine)
+    Measuring(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine)
         : input_(input),
           choosing_(input.model.choosing),
           letters_(input.from.letters.data()),
           choices_(scratch.choices.data()),
+          changes_(scratch.changes.data() + room(scratch, chunk)),
+          wants_changes_(!choosing_.tells_all || input.model.plans.valued() || input.ancestry != Ancestry::none),
           matcher_(input.model, input.view, machine) {
         matcher_.set_draws(input.key, input.step);
     }
@@ -60,9 +67,11 @@ public:
 private:
     template <class ClassOf>
     void run(Chunk& chunk, const ClassOf& class_of);
-    template <bool All>
-    void look_up(std::size_t begin, std::size_t end, const double*& values);
+    template <bool Changes>
+    void look_up(std::size_t begin, std::size_t end);
+    void pass_replaced(std::size_t begin, std::size_t end);
     void find_out(const Outcome& outcome, std::size_t module, const double* values);
+    void replace(std::size_t begin, std::size_t end);
     void match(const Trial& trial, std::size_t module, const double* values);
     void spell(const Trial& trial, std::size_t module, const double* values);
     void draw(std::uint32_t lottery, std::size_t module);
@@ -74,9 +83,17 @@ private:
     const Choosing& choosing_;
     const LetterId* const letters_;
     LetterId* const choices_;
+    Change* const changes_;
+    const bool wants_changes_;
     Matcher matcher_;
     std::size_t modules_ = 0, parameters_ = 0;
-    std::size_t replaced_ = 0;  ///< modules before this one are replaced by productions chosen for others before them
+    std::size_t looked_up_ = 0;  ///< modules before this one have been looked up
+    std::size_t replaced_ = 0;   ///< modules before this one are replaced by productions chosen for others before them
+
+    // Of the chunk, as far as it has been looked up.
+    std::size_t begin_ = 0;
+    std::uint32_t change_count_ = 0;
+    std::uint32_t passed_ = 0;  ///< parameters
 
     // Modules that wait for their draws.
     static constexpr std::size_t drawn_at_once = 256;
@@ -104,45 +121,65 @@ void Measuring::run(Chunk& chunk) {
 template <class ClassOf>
 void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
     const auto places = static_cast<LetterId>(choosing_.places());
+    const auto place_of = [&](std::size_t i) { return static_cast<LetterId>(letters_[i] * places + class_of(i)); };
     const double* values = input_.from.parameters.data() + chunk.parameters_at;
+    begin_ = chunk.begin;
     for (std::size_t begin = chunk.begin; begin < chunk.end; begin += looked_up_at_once) {
         const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
-        for (std::size_t i = begin; i < end; ++i) {
-            choices_[i] = static_cast<LetterId>(letters_[i] * places + class_of(i));
+        for (std::size_t i = begin; i < end; ++i) choices_[i] = place_of(i);
+        if (!wants_changes_) {
+            look_up<false>(begin, end);
+            continue;
         }
-        if (choosing_.tells_all)
-            look_up<true>(begin, end, values);
-        else
-            look_up<false>(begin, end, values);
+        looked_up_ = end;
+        const std::uint32_t first = change_count_, passed = passed_;
+        const std::size_t free = std::clamp(replaced_, begin, end);
+        pass_replaced(begin, free);
+        look_up<true>(free, end);
+        for (std::uint32_t k = first; k < change_count_; ++k) {
+            const std::size_t module = chunk.begin + changes_[k].module;
+            if (choices_[module] != Choosing::untold) continue;
+            find_out(choosing_.outcomes[place_of(module)], module, values + (changes_[k].parameters - passed));
+        }
+        values += passed_ - passed;
     }
     hold_lotteries();
+    changes_[change_count_] = {static_cast<std::uint32_t>(chunk.end - chunk.begin), passed_};
+    chunk.changes = changes_;
+    chunk.change_count = change_count_;
     chunk.out_end = modules_;
     chunk.out_parameters_end = parameters_;
 }
 
-/// Turns places in the table into choices.
-template <bool All>
-void Measuring::look_up(std::size_t begin, std::size_t end, const double*& values) {
-    const LetterId* const choices = choosing_.choices.data();
-    const std::uint64_t* const measures = choosing_.measures.data();
+/// Modules that are replaced together with one that was looked up before them.
+void Measuring::pass_replaced(std::size_t begin, std::size_t end) {
     const std::uint16_t* const arities = input_.model.source->alphabet.arities().data();
-    std::uint64_t measure = 0;
     for (std::size_t i = begin; i < end; ++i) {
-        const LetterId place = choices_[i];
-        if constexpr (!All) {
-            if (i < replaced_) {
-                choices_[i] = choosing_.nothing[letters_[i]];
-                if (choosing_.matches) values += arities[letters_[i]];
-                continue;
-            }
-        }
-        choices_[i] = choices[place];
-        measure += measures[place];
-        if constexpr (!All) {
-            if (choices[place] == Choosing::untold) find_out(choosing_.outcomes[place], i, values);
-            if (choosing_.matches) values += arities[letters_[i]];
+        choices_[i] = choosing_.nothing[letters_[i]];
+        passed_ += arities[letters_[i]];
+    }
+}
+
+/// Turns places in the table into choices. What changes is as good as random: collecting it is no branch.
+template <bool Changes>
+void Measuring::look_up(std::size_t begin, std::size_t end) {
+    const Told* const told = choosing_.told.data();
+    LetterId* const choices = choices_;
+    Change* change = changes_ + change_count_;
+    std::uint64_t measure = 0;
+    std::uint32_t passed = passed_;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Told& here = told[choices[i]];
+        choices[i] = here.choice;
+        measure += here.measure;
+        if constexpr (Changes) {
+            *change = {static_cast<std::uint32_t>(i - begin_), passed};
+            change += here.changes;
+            passed += here.arity;
         }
     }
+    change_count_ = static_cast<std::uint32_t>(change - changes_);
+    passed_ = passed;
     modules_ += static_cast<std::uint32_t>(measure);
     parameters_ += measure >> 32;
 }
@@ -191,6 +228,19 @@ void Measuring::take(std::size_t module, const CompiledProduction* production) {
     const CompiledProduction* const productions = input_.model.rules.productions.data();
     take(module, choosing_.ranks[static_cast<std::size_t>(production - productions)]);
     replaced_ = module + production->strict.size();
+    replace(module + 1, std::min(replaced_, looked_up_));
+}
+
+/// Takes back what the table told of modules that are replaced together with one before them.
+void Measuring::replace(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+        if (choices_[i] != Choosing::untold) {
+            const Plan& plan = input_.model.plans.of_letter[letters_[i]].choices[choices_[i]];
+            modules_ -= plan.length;
+            parameters_ -= plan.parameters;
+        }
+        choices_[i] = choosing_.nothing[letters_[i]];
+    }
 }
 
 void Measuring::draw(std::uint32_t lottery, std::size_t module) {
@@ -214,7 +264,7 @@ void Measuring::hold_lotteries() {
 }  // namespace
 
 void measure(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine) {
-    Measuring(input, scratch, machine).run(chunk);
+    Measuring(input, scratch, chunk, machine).run(chunk);
 }
 
 }  // namespace espalier

@@ -25,7 +25,7 @@ std::set<std::pair<Identity, const CompiledSystem*>> inhabitants(const CompiledM
 /// What one L-system needs to rewrite its parts of the string.
 struct Part {
     Part(const CompiledSystem& system, const StepInput& whole, Services& services, GrowingString& out)
-        : input{system, whole.from, whole.view, whole.key, whole.step, whole.lineage, whole.memory, whole.kept},
+        : input{system, whole.from, whole.view, whole.key, whole.step, whole.ancestry, whole.memory, whole.kept},
           machine(system.machine()),
           pass(input, machine, services, out) {}
 

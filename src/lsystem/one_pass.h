@@ -21,8 +21,9 @@ public:
         if (string_.letters.size() == modules_ || parameters_ - string_.parameters.size() < arity) grow(arity);
         string_.letters.push_back(letter);
         string_.parameters.insert(string_.parameters.end(), values, values + arity);
-        if (!input_.lineage) return;
+        if (input_.ancestry == Ancestry::none) return;
         string_.identities.push_back(lineage.identity);
+        if (input_.ancestry == Ancestry::identities) return;
         string_.parents.push_back(lineage.parent);
         string_.births.push_back(lineage.birth);
     }

@@ -33,7 +33,7 @@ std::size_t Derivation::picture(const ModuleString& string, const std::vector<st
     if (!painter) painter = std::make_shared<Painter>(*state.model);
     painter->work_for(state);
     const double* values = string.parameters.data() + parameters_at;
-    const Identity identity = string.has_lineage() ? string.identities[module] : mix(module);
+    const Identity identity = string.has_identities() ? string.identities[module] : mix(module);
     const Subject subject{string,
                           {&string, links.partner.data(), offsets ? offsets->data() : nullptr},
                           {module, parameters_at, letter, values, identity}};

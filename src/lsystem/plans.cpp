@@ -32,6 +32,7 @@ Plan plan_of(const CompiledProduction& production) {
     plan.length = static_cast<std::uint32_t>(production.length);
     plan.parameters = static_cast<std::uint32_t>(production.parameters);
     plan.arity = production.strict[0].arity;
+    plan.width = static_cast<std::uint16_t>(production.strict.size());
     for (const CompiledPattern& pattern : production.strict) plan.reads += pattern.arity;
     plan.lanes = &production.lanes;
     plan.production = &production;
@@ -68,6 +69,7 @@ void measure(Plans& plans) {
         include(plan);
         plans.lengths.push_back(plan.length);
         plans.parameters.push_back(plan.parameters);
+        plans.rewritten.push_back(plan.kind != Plan::Kind::choose && plan.production);
     }
     for (const Plan& plan : plans.choices) include(plan);
 }

@@ -16,6 +16,7 @@ class CompiledSystem;
 // what is too much.
 inline constexpr std::size_t letter_block = 16;
 inline constexpr std::size_t value_block = 4;
+inline constexpr std::size_t run_value_block = 8;
 inline constexpr std::size_t lineage_block = 8;
 
 /// Modules that one thread writes before another may have its turn: at least so many of the old string or the new.
@@ -57,6 +58,7 @@ struct alignas(64) Plan {
     std::uint32_t parameters = 0;
     std::uint16_t arity = 0;
     Kind kind = Kind::bare;
+    std::uint16_t width = 1;  ///< modules that are replaced
     std::uint32_t reads = 0;  ///< parameters of all modules that are replaced
     /// Modules and (from bit 32 on) parameters that will replace what this plan writes, where no letter needs choosing.
     std::uint64_t next = 0;
@@ -72,11 +74,14 @@ struct alignas(64) Plan {
 struct Plans {
     std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
+    std::vector<std::uint8_t> rewritten;             ///< by letter: its plan is known, and not the copy
     std::vector<Plan> choices;                       ///< of all letters, one after the other
     bool all_known = true;                           ///< no letter needs choosing
     bool looks_ahead = false;                        ///< Plan::next is known
     // The most that any plan reads and writes.
     std::size_t longest = 1, most_parameters = 0, most_read = 0;
+
+    bool valued() const { return most_read + most_parameters > 0; }
 };
 
 /// The plans of `model.rules`, which must stay where they are.

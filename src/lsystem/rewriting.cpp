@@ -133,16 +133,19 @@ void remember_chunks(const StepInput& input, const ModuleString& to, const Scrat
     }
 }
 
-void resize(ModuleString& string, std::size_t modules, std::size_t parameters, bool lineage) {
+void resize(ModuleString& string, std::size_t modules, std::size_t parameters, Ancestry ancestry) {
+    const bool whole = ancestry == Ancestry::whole;
     resize_column(string.letters, modules);
     resize_column(string.parameters, parameters);
-    resize_column(string.identities, lineage ? modules : 0);
-    resize_column(string.parents, lineage ? modules : 0);
-    resize_column(string.births, lineage ? modules : 0);
+    resize_column(string.identities, ancestry != Ancestry::none ? modules : 0);
+    resize_column(string.parents, whole ? modules : 0);
+    resize_column(string.births, whole ? modules : 0);
 }
 
-std::size_t bytes_needed(std::size_t modules, std::size_t parameters, bool lineage) {
-    const std::size_t columns = sizeof(LetterId) + (lineage ? 2 * sizeof(Identity) + sizeof(std::uint32_t) : 0);
+std::size_t bytes_needed(std::size_t modules, std::size_t parameters, Ancestry ancestry) {
+    std::size_t columns = sizeof(LetterId);
+    if (ancestry != Ancestry::none) columns += sizeof(Identity);
+    if (ancestry == Ancestry::whole) columns += sizeof(Identity) + sizeof(std::uint32_t);
     return modules * columns + parameters * sizeof(double);
 }
 

@@ -14,6 +14,9 @@
 
 namespace espalier {
 
+/// What is kept of who the modules are: nothing, or their identities, or who bore them and when, too.
+enum class Ancestry : std::uint8_t { none, identities, whole };
+
 /// Everything a step reads.
 struct StepInput {
     const CompiledSystem& model;
@@ -21,7 +24,7 @@ struct StepInput {
     StringView view;
     RandomKey key;
     std::uint32_t step = 0;
-    bool lineage = false;
+    Ancestry ancestry = Ancestry::none;
     std::size_t memory = 0;
     /// Ranges of modules that live on: the whole string but for what a `%` cuts off.
     const std::vector<std::pair<std::size_t, std::size_t>>& kept;
@@ -33,12 +36,20 @@ struct Stretch {
     std::uint64_t next = 0;
 };
 
+/// A module that does not simply live on: modules and parameters (the last 32 bits of their number) of its chunk that
+/// stand before it.
+struct Change {
+    std::uint32_t module, parameters;
+};
+
 /// A range of the string that one thread rewrites.
 struct Chunk {
     std::size_t begin = 0, end = 0;
     std::size_t parameters_at = 0, parameters_end = 0;
     std::size_t out = 0, out_end = 0;  ///< in the new string
     std::size_t out_parameters = 0, out_parameters_end = 0;
+    const Change* changes = nullptr;  ///< where they were measured; one more stands for the chunk's end
+    std::size_t change_count = 0;
     std::string error;
 };
 
@@ -59,6 +70,7 @@ struct Scratch {
     std::vector<Chunk> chunks;
     std::vector<std::vector<Stretch>> stretches;  ///< what each chunk wrote
     Column<LetterId> choices;                     ///< which of its letter's Plan::choices each module takes
+    Column<Change> changes;                       ///< of all chunks, each with room for one more than its modules
     std::vector<ModuleString> pieces;             ///< of chunks whose length is not known before they are written
 };
 
@@ -107,8 +119,8 @@ void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, Work&& work)
 }
 
 /// Makes room for a string, giving memory back first if it is too small.
-void resize(ModuleString& string, std::size_t modules, std::size_t parameters, bool lineage);
-std::size_t bytes_needed(std::size_t modules, std::size_t parameters, bool lineage);
+void resize(ModuleString& string, std::size_t modules, std::size_t parameters, Ancestry ancestry);
+std::size_t bytes_needed(std::size_t modules, std::size_t parameters, Ancestry ancestry);
 
 /// Throws RunError: the step would outgrow its memory. `uses` counts the uses of each production.
 [[noreturn]] void refuse_memory(const StepInput& input, std::size_t modules, std::size_t bytes,

@@ -32,11 +32,11 @@ void place(const StepInput& input, Scratch& scratch, ModuleString& to) {
         chunk.out_end = modules;
         chunk.out_parameters_end = parameters;
     }
-    const std::size_t bytes = input.from.bytes() + bytes_needed(modules, parameters, input.lineage);
+    const std::size_t bytes = input.from.bytes() + bytes_needed(modules, parameters, input.ancestry);
     if (bytes > input.memory || modules >= BranchLinks::none) {
         refuse_memory(input, modules, bytes, count_uses(input, scratch));
     }
-    resize(to, modules, parameters, input.lineage);
+    resize(to, modules, parameters, input.ancestry);
 }
 
 /// False if the chunks' measures do not fit the string.
@@ -46,7 +46,7 @@ bool write_all(const StepInput& input, Scratch& scratch, Machines& machines, Mod
     for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) {
         if (!write(input, scratch, chunk, machine, to))
             fits = false;
-        else if (input.lineage)
+        else if (input.ancestry != Ancestry::none)
             write_lineage(input, scratch, chunk, to);
     });
     return fits;
@@ -63,6 +63,7 @@ void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& f
     make_chunks(input, scratch);
     if (!input.model.plans.all_known) {
         scratch.choices.resize(input.from.size());
+        scratch.changes.resize(input.from.size() + scratch.chunks.size());
         for_each_chunk(scratch.chunks, machines,
                        [&](Chunk& chunk, Machine& machine) { measure(input, scratch, chunk, machine); });
     }

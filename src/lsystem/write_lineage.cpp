@@ -4,144 +4,177 @@
 #include "writing.h"
 
 #include <algorithm>
-#include <cstring>
+#include <array>
+#include <span>
 
 namespace espalier {
 namespace {
 
-/// A column of the old string and that of the new one, from the chunk's part on.
+/// A column of the old string and that of the new one, from the chunk's parts on.
 template <class T>
 struct Pair {
     const T* from;
     T* to;
 
     void copy(std::size_t module, std::size_t at) const { to[at] = from[module]; }
-    void copy_block(std::size_t module, std::size_t at) const {
-        std::memcpy(to + at, from + module, lineage_block * sizeof(T));
+    void copy_run(std::size_t module, std::size_t at, std::size_t count) const {
+        espalier::copy_run<lineage_block>(from + module, to + at, count);
+    }
+    void copy_exactly(std::size_t module, std::size_t at, std::size_t count) const {
+        std::copy_n(from + module, count, to + at);
     }
     void fill_block(std::size_t at, T value) const {
         for (std::size_t k = 0; k < lineage_block; ++k) to[at + k] = value;
     }
 };
 
-struct LineageColumns {
+/// What lineage is written from, from the chunk's parts on.
+struct Lines {
     Pair<Identity> identities, parents;
     Pair<std::uint32_t> births;
-
-    void copy(std::size_t module, std::size_t at) const {
-        identities.copy(module, at);
-        parents.copy(module, at);
-        births.copy(module, at);
-    }
-    void copy_block(std::size_t module, std::size_t at) const {
-        identities.copy_block(module, at);
-        parents.copy_block(module, at);
-        births.copy_block(module, at);
-    }
-};
-
-/// What lineage is written from: whole columns, and the plans that the modules' letters and choices name.
-struct Lines {
-    LineageColumns columns;
     const LetterId* letters;
     const LetterId* choices;  ///< null where letters tell all
-    const Plan* plans;
+    const Plans& plans;
     std::uint32_t step;
-    std::size_t size;  ///< of the old string
-    std::size_t room;  ///< for the chunk's modules in the new one
-    std::size_t longest;
+    std::size_t size;   ///< of the chunk
+    std::size_t known;  ///< modules of the old string
+    std::size_t room;   ///< for the chunk's modules in the new one
 
     const Plan& plan(std::size_t module) const {
-        const Plan& plan = plans[letters[module]];
+        const Plan& plan = plans.of_letter[letters[module]];
         return choices ? plan.choices[choices[module]] : plan;
+    }
+    /// Calls copy(column) for what is kept: identities or, if `whole`, parents and births, too.
+    template <bool whole, class Copy>
+    void for_each_column(const Copy& copy) const {
+        copy(identities);
+        if constexpr (whole) {
+            copy(parents);
+            copy(births);
+        }
     }
 };
 
-inline bool lives_on(const Plan& plan) {
-    return !plan.production && plan.length > 0;
+// What follows is compiled anew for each width of vectors.
+
+/// Where lineage is read and written.
+struct Place {
+    std::size_t module = 0, at = 0;
+};
+
+template <bool whole>
+[[gnu::always_inline]] inline void write_run(const Lines& lines, Place& place, std::size_t end) {
+    const auto [module, at] = place;
+    const std::size_t count = end - module;
+    if (end + lineage_block <= lines.known && at + count + lineage_block <= lines.room)
+        lines.for_each_column<whole>([&](const auto& column) { column.copy_run(module, at, count); });
+    else
+        lines.for_each_column<whole>([&](const auto& column) { column.copy_exactly(module, at, count); });
+    place = {end, at + count};
 }
 
-/// All but the heirs are born now; heirs are put over them.
-inline void write_heirs(const Lines& lines, const CompiledProduction& production, std::size_t module, std::size_t at) {
-    for (std::size_t s = 0; s < production.heirs.size(); ++s) {
-        if (production.heirs[s] != Descent::none) lines.columns.copy(module + s, at + production.heirs[s]);
-    }
-}
-
-inline void write_brood(const Lines& lines, const CompiledProduction& production, std::size_t module, std::size_t at) {
-    const LineageColumns& columns = lines.columns;
-    const Identity parent = columns.identities.from[module];
+template <bool whole>
+[[gnu::always_inline]] inline void write_brood(const Lines& lines, const CompiledProduction& production,
+                                               const Place& place) {
+    const auto [module, at] = place;
+    const Identity parent = lines.identities.from[module];
     const Brood brood(parent, lines.step);
     const std::uint32_t* const places = production.places.data();
-    for (std::size_t begin = 0; begin < production.length; begin += lineage_block) {
-        for (std::size_t k = begin; k < begin + lineage_block; ++k) {
-            columns.identities.to[at + k] = brood.born(places[k]);
+    Identity* const born = lines.identities.to + at;
+    if (at + production.length + lineage_block <= lines.room) {
+        for (std::size_t begin = 0; begin < production.length; begin += lineage_block) {
+            for (std::size_t k = begin; k < begin + lineage_block; ++k) born[k] = brood.born(places[k]);
+            if constexpr (whole) {
+                lines.parents.fill_block(at + begin, parent);
+                lines.births.fill_block(at + begin, lines.step);
+            }
         }
-        columns.parents.fill_block(at + begin, parent);
-        columns.births.fill_block(at + begin, lines.step);
+    } else {
+        for (std::size_t k = 0; k < production.length; ++k) {
+            born[k] = brood.born(places[k]);
+            if constexpr (whole) {
+                lines.parents.to[at + k] = parent;
+                lines.births.to[at + k] = lines.step;
+            }
+        }
     }
-    write_heirs(lines, production, module, at);
+    // All but the heirs are born now; heirs are put over them.
+    for (std::size_t s = 0; s < production.heirs.size(); ++s) {
+        if (production.heirs[s] == Descent::none) continue;
+        lines.for_each_column<whole>([&](const auto& column) { column.copy(module + s, at + production.heirs[s]); });
+    }
 }
 
-/// The same, and nothing beyond the brood.
-void write_brood_exactly(const Lines& lines, const CompiledProduction& production, std::size_t module, std::size_t at) {
-    const Identity parent = lines.columns.identities.from[module];
-    const Brood brood(parent, lines.step);
-    for (std::size_t k = 0; k < production.length; ++k) {
-        lines.columns.identities.to[at + k] = brood.born(production.places[k]);
-        lines.columns.parents.to[at + k] = parent;
-        lines.columns.births.to[at + k] = lines.step;
+/// Of modules that change, and of what lives on before them.
+template <bool whole>
+[[gnu::always_inline]] inline void write_changes(const Lines& lines, std::span<const Change> changes, Place& place) {
+    for (const Change& change : changes) {
+        if (change.module < place.module) continue;  // replaced with one before it
+        if (change.module > place.module) write_run<whole>(lines, place, change.module);
+        const Plan& plan = lines.plan(place.module);
+        if (!plan.production) continue;  // it lives on after all
+        write_brood<whole>(lines, *plan.production, place);
+        place = {place.module + plan.width, place.at + plan.length};
     }
-    write_heirs(lines, production, module, at);
 }
 
-/// Writes the lineage of what replaces some modules.
+/// The same where the letters alone say what changes.
+template <bool whole>
+[[gnu::always_inline]] inline void write_rewritten(const Lines& lines, Place& place) {
+    std::array<Change, 256> changes;
+    for (std::size_t begin = 0; begin < lines.size; begin += changes.size()) {
+        const std::size_t end = std::min(begin + changes.size(), lines.size);
+        std::size_t found = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            changes[found].module = static_cast<std::uint32_t>(i);
+            found += lines.plans.rewritten[lines.letters[i]];
+        }
+        write_changes<whole>(lines, {changes.data(), found}, place);
+    }
+}
+
+template <bool whole>
+[[gnu::always_inline]] inline void write_lines(const Lines& lines, std::span<const Change> changes) {
+    Place place;
+    if (lines.choices)
+        write_changes<whole>(lines, changes, place);
+    else
+        write_rewritten<whole>(lines, place);
+    write_run<whole>(lines, place, lines.size);
+}
+
 ESPALIER_VECTOR_CLONES
-void write_lines(const Lines& lines, std::size_t module, const std::size_t end) {
-    const std::size_t margin = whole_blocks(lines.longest, lineage_block);
-    const std::size_t last_at = lines.room - std::min(lines.room, margin - 1);
-    const std::size_t last_module = std::min(end, lines.size - std::min(lines.size, lineage_block - 1));
-    std::size_t at = 0;
-    while (module < last_module && at < last_at) {
-        const Plan& plan = lines.plan(module);
-        if (!lives_on(plan)) {
-            if (plan.production) write_brood(lines, *plan.production, module, at);
-            at += plan.length;
-            ++module;
-            continue;
-        }
-        // A block at once, of which as many count as live on one after the other.
-        lines.columns.copy_block(module, at);
-        const std::size_t stop = std::min(end, module + lineage_block);
-        for (++module, ++at; module < stop && lives_on(lines.plan(module)); ++module) ++at;
-    }
-    for (; module < end; ++module) {
-        const Plan& plan = lines.plan(module);
-        if (plan.production)
-            write_brood_exactly(lines, *plan.production, module, at);
-        else if (lives_on(plan))
-            lines.columns.copy(module, at);
-        at += plan.length;
-    }
+void write_lineages(const Lines& lines, std::span<const Change> changes) {
+    write_lines<true>(lines, changes);
+}
+
+ESPALIER_VECTOR_CLONES
+void write_identities(const Lines& lines, std::span<const Change> changes) {
+    write_lines<false>(lines, changes);
 }
 
 }  // namespace
 
 void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& chunk, ModuleString& to) {
     const ModuleString& from = input.from;
-    const LineageColumns columns{{from.identities.data(), to.identities.data() + chunk.out},
-                                 {from.parents.data(), to.parents.data() + chunk.out},
-                                 {from.births.data(), to.births.data() + chunk.out}};
     const Plans& plans = input.model.plans;
-    const Lines lines{columns,
-                      from.letters.data(),
-                      plans.all_known ? nullptr : scratch.choices.data(),
-                      plans.of_letter.data(),
-                      input.step,
-                      from.size(),
-                      chunk.out_end - chunk.out,
-                      plans.longest};
-    write_lines(lines, chunk.begin, chunk.end);
+    const bool whole = input.ancestry == Ancestry::whole;
+    const auto pair = [&](const auto& old, auto& made) {
+        return Pair<typename std::decay_t<decltype(old)>::value_type>{old.data() + chunk.begin,
+                                                                      made.data() + chunk.out};
+    };
+    Lines lines{pair(from.identities, to.identities),
+                whole ? pair(from.parents, to.parents) : Pair<Identity>{},
+                whole ? pair(from.births, to.births) : Pair<std::uint32_t>{},
+                from.letters.data() + chunk.begin,
+                plans.all_known ? nullptr : scratch.choices.data() + chunk.begin,
+                plans,
+                input.step,
+                chunk.end - chunk.begin,
+                from.size() - chunk.begin,
+                chunk.out_end - chunk.out};
+    const std::span<const Change> changes(chunk.changes, chunk.changes ? chunk.change_count : 0);
+    whole ? write_lineages(lines, changes) : write_identities(lines, changes);
 }
 
 }  // namespace espalier

@@ -1,9 +1,10 @@
 #include "writing.h"
 
+#include "lanes.h"
 #include "measuring.h"
 
 #include <algorithm>
-#include <cstring>
+#include <numeric>
 
 namespace espalier {
 namespace {
@@ -16,39 +17,6 @@ inline void copy_values(const double* from, double* to) {
     std::memcpy(to, from, value_block * sizeof(double));
 }
 
-/// Writes lanes in whole blocks; false if a value is not finite.
-inline bool write_lanes(const Plan& plan, const double* values, double* out) {
-    const std::uint32_t* const sources = plan.lanes->sources.data();
-    const double* const scales = plan.lanes->scales.data();
-    const double* const offsets = plan.lanes->offsets.data();
-    const auto lane = [&](std::size_t k) { return values[sources[k]] * scales[k] + offsets[k]; };
-    static_assert(value_block == 4);
-    double even = 0, odd = 0;  // differences of values to themselves: 0 as long as all are finite
-    for (std::size_t k = 0; k < plan.parameters; k += value_block) {
-        const double a = lane(k), b = lane(k + 1), c = lane(k + 2), d = lane(k + 3);
-        out[k] = a;
-        out[k + 1] = b;
-        out[k + 2] = c;
-        out[k + 3] = d;
-        even += (a - a) + (c - c);
-        odd += (b - b) + (d - d);
-    }
-    return even + odd == 0;
-}
-
-/// The same for one module's values alone; false if one of them is not finite.
-bool write_lanes_exactly(const Plan& plan, const double* values, double* out) {
-    static constexpr double none = 0;
-    const double* const source = plan.reads > 0 ? values : &none;
-    bool finite = true;
-    for (std::uint32_t k = 0; k < plan.parameters; ++k) {
-        const double value = source[plan.lanes->sources[k]] * plan.lanes->scales[k] + plan.lanes->offsets[k];
-        out[k] = value;
-        finite &= value - value == 0;
-    }
-    return finite;
-}
-
 /// Where reading and writing are.
 struct Cursor {
     const LetterId* in;
@@ -57,7 +25,7 @@ struct Cursor {
     double* out_values;
     std::uint64_t next = 0;  ///< Plan::next of what was written since the stretch began
 
-    template <bool Valued = true, bool LooksAhead = true>
+    template <bool Valued = true, bool Choosing = false>
     void pass(const Plan& plan) {
         ++in;
         out += plan.length;
@@ -65,7 +33,15 @@ struct Cursor {
             values += plan.arity;
             out_values += plan.parameters;
         }
-        if constexpr (LooksAhead) next += plan.next;
+        if constexpr (!Choosing) next += plan.next;  // else nothing is known of the next step
+    }
+    /// Passes modules that live on.
+    void pass(std::size_t modules, std::size_t parameters) {
+        in += modules;
+        values += parameters;
+        out += modules;
+        out_values += parameters;
+        next += modules | std::uint64_t{parameters} << 32;
     }
 };
 
@@ -79,7 +55,11 @@ private:
     std::size_t safe_count() const;
     void write_round(std::size_t count);
     template <bool Valued, bool Choosing>
-    void write_round(std::size_t count);
+    void write_each(std::size_t count);
+    void write_runs(std::size_t count);
+    void write_run(std::size_t count);
+    template <bool Valued>
+    bool write_successor(const Plan& plan, const Cursor& at);
     bool write_module();
     void run(const Program& program, const Plan& plan, const Cursor& at);
     // By value: a cursor whose address is known to others would be kept in memory by the loop that moves it.
@@ -87,16 +67,21 @@ private:
     void write_values(const Plan& plan, Cursor at);
     [[noreturn]] void report(const EvaluationError& error, const Cursor& at) const;
     const Plan& plan_at(const LetterId* in) const;
+    std::size_t module_at(const LetterId* in) const { return static_cast<std::size_t>(in - letters_); }
     void end_stretch();
 
     const StepInput& input_;
     const Plans& plans_;
-    const Scratch& scratch_;
+    const LetterId* const letters_;
+    const LetterId* const choices_;
     const Chunk& chunk_;
     std::vector<Stretch>& stretches_;
     Machine& machine_;
     Matcher matcher_;
     const bool valued_;
+    /// Modules that live on are copied together, between those that were found to change.
+    const bool in_runs_;
+    const Change* change_;  ///< the next one
     Cursor at_, stretch_;
     const LetterId* const in_end_;
     const double* const values_end_;  ///< of the whole string: blocks may be read beyond the chunk
@@ -107,16 +92,19 @@ private:
 Writer::Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine, ModuleString& to)
     : input_(input),
       plans_(input.model.plans),
-      scratch_(scratch),
+      letters_(input.from.letters.data()),
+      choices_(scratch.choices.data()),
       chunk_(chunk),
       stretches_(scratch.stretches[static_cast<std::size_t>(&chunk - scratch.chunks.data())]),
       machine_(machine),
       matcher_(input.model, input.view, machine),
-      valued_(plans_.most_read + plans_.most_parameters > 0),
-      at_{input.from.letters.data() + chunk.begin, input.from.parameters.data() + chunk.parameters_at,
-          to.letters.data() + chunk.out, to.parameters.data() + chunk.out_parameters},
+      valued_(plans_.valued()),
+      in_runs_(!plans_.all_known && valued_),
+      change_(chunk.changes),
+      at_{letters_ + chunk.begin, input.from.parameters.data() + chunk.parameters_at, to.letters.data() + chunk.out,
+          to.parameters.data() + chunk.out_parameters},
       stretch_(at_),
-      in_end_(input.from.letters.data() + chunk.end),
+      in_end_(letters_ + chunk.end),
       values_end_(input.from.parameters.data() + input.from.parameters.size()),
       out_end_(to.letters.data() + chunk.out_end),
       out_values_end_(to.parameters.data() + chunk.out_parameters_end) {
@@ -125,16 +113,19 @@ Writer::Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Mac
 
 /// How many modules can be written in whole blocks even if each of them becomes as long as any.
 std::size_t Writer::safe_count() const {
-    std::size_t count =
-        std::min(static_cast<std::size_t>(in_end_ - at_.in), std::max(grain / plans_.longest, std::size_t{1}));
+    const auto left = static_cast<std::size_t>(in_end_ - at_.in);
+    std::size_t count = std::min(left, std::max(grain / plans_.longest, std::size_t{1}));
     const auto limit = [&](std::ptrdiff_t room, std::size_t most, std::size_t block) {
-        const auto last = static_cast<std::ptrdiff_t>(whole_blocks(std::max<std::size_t>(most, 1), block));
+        // Blocks of modules that live on are copied, too.
+        const std::size_t more = in_runs_ ? letter_block : 0;
+        const auto last = static_cast<std::ptrdiff_t>(whole_blocks(std::max<std::size_t>(most, 1), block) + more);
         if (room < last)
             count = 0;
         else if (most > 0)
             count = std::min(count, static_cast<std::size_t>(room - last) / most + 1);
     };
     limit(out_end_ - at_.out, plans_.longest, letter_block);
+    if (in_runs_) limit(letters_ + input_.from.size() - at_.in, 1, 1);
     if (valued_) {
         limit(out_values_end_ - at_.out_values, plans_.most_parameters, value_block);
         limit(values_end_ - at_.values, plans_.most_read, value_block);
@@ -142,46 +133,51 @@ std::size_t Writer::safe_count() const {
     return count;
 }
 
+/// Writes in whole blocks; false if a value is not finite.
+template <bool Valued>
+[[gnu::always_inline]] inline bool Writer::write_successor(const Plan& plan, const Cursor& at) {
+    copy_letters(plan.block.data(), at.out);
+    if (plan.length > letter_block) {
+        for (std::size_t k = letter_block; k < plan.length; k += letter_block) {
+            copy_letters(plan.letters + k, at.out + k);
+        }
+    }
+    if constexpr (Valued) {
+        if (plan.kind == Plan::Kind::lanes) return write_lanes(plan, at.values, at.out_values);
+        if (plan.kind == Plan::Kind::copy || plan.kind == Plan::Kind::wide_copy) {
+            copy_run<value_block>(at.values, at.out_values, plan.arity);
+        } else if (plan.kind == Plan::Kind::program) {
+            write_values(plan, at);
+        } else if (plan.kind == Plan::Kind::mixed) {
+            return write_lanes(plan, at.values, at.out_values) && write_rest(plan, at);
+        }
+    }
+    return true;
+}
+
 template <bool Valued, bool Choosing>
-void Writer::write_round(std::size_t count) {
+void Writer::write_each(std::size_t count) {
+    // Kept at hand: for all the compiler knows, blocks are written over members.
     const Plan* const plans = plans_.of_letter.data();
-    const LetterId* const letters = input_.from.letters.data();
-    const LetterId* const choices = scratch_.choices.data();
+    const LetterId* const letters = letters_;
+    const LetterId* const choices = choices_;
     Cursor at = at_;
     for (const LetterId* const end = at.in + count; at.in != end;) {
         const Plan* plan = plans + *at.in;
         if constexpr (Choosing) {
             plan = plan->choices + choices[at.in - letters];
         }
-        // Choices are as good as random: where nothing else depends on it, whether a module lives on is no branch.
-        if constexpr (Valued || !Choosing) {
+        // Choices are as good as random: whether a module lives on is no branch, then.
+        if constexpr (!Choosing) {
             if (plan->kind == Plan::Kind::copy) {
                 *at.out = *at.in;
                 if constexpr (Valued) copy_values(at.values, at.out_values);
-                at.pass<Valued, !Choosing>(*plan);
+                at.pass<Valued, Choosing>(*plan);
                 continue;
             }
         }
-        copy_letters(plan->block.data(), at.out);
-        if (plan->length > letter_block) {
-            for (std::size_t k = letter_block; k < plan->length; k += letter_block) {
-                copy_letters(plan->letters + k, at.out + k);
-            }
-        }
-        if constexpr (Valued) {
-            if (plan->kind == Plan::Kind::lanes) {
-                if (!write_lanes(*plan, at.values, at.out_values)) break;
-            } else if (plan->kind == Plan::Kind::wide_copy) {
-                for (std::size_t k = 0; k < plan->arity; k += value_block) {
-                    copy_values(at.values + k, at.out_values + k);
-                }
-            } else if (plan->kind == Plan::Kind::program) {
-                write_values(*plan, at);
-            } else if (plan->kind == Plan::Kind::mixed) {
-                if (!write_lanes(*plan, at.values, at.out_values) || !write_rest(*plan, at)) break;
-            }
-        }
-        at.pass<Valued, !Choosing>(*plan);
+        if (!write_successor<Valued>(*plan, at)) break;
+        at.pass<Valued, Choosing>(*plan);
     }
     const bool whole = at.in == at_.in + count;
     at_ = at;
@@ -189,20 +185,67 @@ void Writer::write_round(std::size_t count) {
     if (!whole) write_module();
 }
 
+/// Writes up to the last change among so many modules.
+void Writer::write_runs(std::size_t count) {
+    const std::size_t done = module_at(at_.in) - chunk_.begin;
+    while (change_->module < done) ++change_;
+    if (change_->module >= done + count) return write_run(count);
+    const Plan* const plans = plans_.of_letter.data();
+    const LetterId* const letters = letters_ + chunk_.begin;
+    const LetterId* const choices = choices_ + chunk_.begin;
+    const double* const values = input_.from.parameters.data() + chunk_.parameters_at;
+    const auto end = static_cast<std::uint32_t>(done + count);
+    const Change* change = change_;
+    Cursor at = at_;
+    bool whole = true;
+    for (; change->module < end; ++change) {
+        const LetterId* const in = letters + change->module;
+        if (in < at.in) continue;  // replaced with one before it
+        const auto modules = static_cast<std::size_t>(in - at.in);
+        const auto parameters =
+            static_cast<std::uint32_t>(change->parameters - static_cast<std::uint32_t>(at.values - values));
+        copy_run<letter_block>(at.in, at.out, modules);
+        copy_run<run_value_block>(at.values, at.out_values, parameters);
+        at.pass(modules, parameters);
+        const Plan& plan = plans[*in].choices[choices[change->module]];
+        whole = write_successor<true>(plan, at);
+        if (!whole) break;
+        at.in += plan.width;
+        at.values += plan.reads;
+        at.out += plan.length;
+        at.out_values += plan.parameters;
+    }
+    change_ = change;
+    at_ = at;
+    // A value is not finite: what is wrong is found out module by module.
+    if (!whole) write_module();
+}
+
+/// Writes so many modules that live on.
+void Writer::write_run(std::size_t count) {
+    const std::uint16_t* const arities = input_.model.source->alphabet.arities().data();
+    const std::size_t parameters =
+        std::accumulate(at_.in, at_.in + count, std::size_t{0},
+                        [&](std::size_t sum, LetterId letter) { return sum + arities[letter]; });
+    copy_run<letter_block>(at_.in, at_.out, count);
+    copy_run<run_value_block>(at_.values, at_.out_values, parameters);
+    at_.pass(count, parameters);
+}
+
 void Writer::write_round(std::size_t count) {
-    if (plans_.all_known)
-        valued_ ? write_round<true, false>(count) : write_round<false, false>(count);
+    if (in_runs_)
+        write_runs(count);
+    else if (plans_.all_known)
+        valued_ ? write_each<true, false>(count) : write_each<false, false>(count);
     else
-        valued_ ? write_round<true, true>(count) : write_round<false, true>(count);
+        write_each<false, true>(count);
 }
 
 const Plan& Writer::plan_at(const LetterId* in) const {
     const Plan& plan = plans_.of_letter[*in];
-    if (plans_.all_known) return plan;
-    return plan.choices[scratch_.choices[static_cast<std::size_t>(in - input_.from.letters.data())]];
+    return plans_.all_known ? plan : plan.choices[choices_[module_at(in)]];
 }
 
-/// Writes what replaces a module and nothing beyond it; false if it does not fit the chunk's measure.
 bool Writer::write_module() {
     const Plan& plan = plan_at(at_.in);
     if (out_end_ - at_.out < std::ptrdiff_t{plan.length} || values_end_ - at_.values < std::ptrdiff_t{plan.reads} ||
@@ -224,7 +267,7 @@ bool Writer::write_module() {
 void Writer::run(const Program& program, const Plan& plan, const Cursor& at) {
     const CompiledProduction& production = *plan.production;
     if (production.reads_context || production.writes_draw) {
-        const Site site = site_of(input_, static_cast<std::size_t>(at.in - input_.from.letters.data()), at.values);
+        const Site site = site_of(input_, module_at(at.in), at.values);
         matcher_.bind(production, site);
         matcher_.begin_successor(production, site);
     } else {

@@ -215,7 +215,7 @@ void Walk::ask(QueryKind kind) {
     const std::size_t arity = model_->alphabet.arity(letter_);
     if (in_picture_ || arity == 0) return;
     const std::size_t next = std::size_t(module_) + 1;
-    const bool last = next >= string_->size(), known = string_->has_lineage();
+    const bool last = next >= string_->size(), known = string_->has_identities();
     const double* const values = string_->parameters.data() + parameters_at_;
     Query& query = queries_.add();  // unwritten: every member is set
     query.kind = kind;

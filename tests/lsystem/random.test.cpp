@@ -132,7 +132,7 @@ TEST_CASE("identities of two plants of one model differ, of one plant with two s
 namespace {
 
 /// A stochastic plant whose string is the same whatever is done to make the engine take another way.
-ModuleString grown_by(const std::string& way) {
+ModuleString grown_by(const std::string& way, bool lineage = true) {
     ModelBuilder model;
     model.system().seed = number(1);
     const Expression draw = call(Function::ran, {number(1)});
@@ -150,7 +150,9 @@ ModuleString grown_by(const std::string& way) {
         const std::uint32_t count = model.add_global("count");
         model.rule("Z", "Z").after = {assign(global(count), number(1))};
     }
-    Derivation derivation(model.compiled(), with_lineage());
+    DerivationSettings settings = with_lineage();
+    settings.lineage = lineage;
+    Derivation derivation(model.compiled(), settings);
     return grow(derivation, 18);
 }
 
@@ -169,6 +171,20 @@ TEST_CASE("two passes, one pass and one pass in order give the same modules, lin
         CHECK(string.identities == expected.identities);
         CHECK(string.parents == expected.parents);
         CHECK(string.births == expected.births);
+    }
+}
+
+TEST_CASE("whoever draws but is not recorded keeps identities alone, and grows the same", "[lsystem]") {
+    for (const char* way : {"two passes", "decomposed", "blocks", "ordered"}) {
+        INFO(way);
+        const ModuleString expected = grown_by(way), string = grown_by(way, false);
+        CHECK(string.letters == expected.letters);
+        CHECK(string.parameters == expected.parameters);
+        CHECK(string.identities == expected.identities);
+        CHECK(string.has_identities());
+        CHECK_FALSE(string.has_lineage());
+        CHECK(string.parents.empty());
+        CHECK(string.births.empty());
     }
 }
 

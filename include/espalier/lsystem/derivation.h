@@ -20,7 +20,7 @@ namespace espalier {
 struct DerivationSettings {
     std::uint64_t seed = 0;
     std::uint32_t plant = 0;
-    /// Keep identity, parent and birth of every module. Always kept when the model or its
+    /// Keep identity, parent and birth of every module. Identities alone are always kept when the model or its
     /// homomorphism draws random numbers.
     bool lineage = false;
     /// Bytes this plant's strings may take; a step that would exceed them throws RunError before it allocates.

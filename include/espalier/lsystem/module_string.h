@@ -15,7 +15,7 @@ namespace espalier {
 using Identity = std::uint64_t;
 
 /// Columns: one letter a module; the parameters of all modules one after the other, module i owning as many as its
-/// letter's arity; and, only where something reads them, identity, parent's identity and step of birth.
+/// letter's arity; and, only where something reads them, identity, or identity, parent's identity and step of birth.
 struct ModuleString {
     Column<LetterId> letters;
     Column<double> parameters;
@@ -25,7 +25,10 @@ struct ModuleString {
 
     std::size_t size() const { return letters.size(); }
     bool empty() const { return letters.empty(); }
-    bool has_lineage() const { return !letters.empty() && identities.size() == letters.size(); }
+    bool has_identities() const { return !letters.empty() && identities.size() == letters.size(); }
+    bool has_lineage() const {
+        return has_identities() && parents.size() == letters.size() && births.size() == letters.size();
+    }
     /// Forgets the modules, keeps the memory.
     void clear();
     /// Appends one module without lineage; for building strings by hand.
