@@ -28,6 +28,9 @@ struct RunArguments {
 /// The command line without what does not change the timeline: what starts the same run again.
 std::vector<std::string> words_of(const RunArguments& arguments);
 
+/// output/<scene>-<time>, numbered if two runs of a scene begin in the same second.
+std::filesystem::path default_output(const std::string& scene);
+
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);
 

@@ -158,23 +158,29 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
     return {crew.failed(), signals.count() > 0};
 }
 
-fs::path Sweep::write_table() const {
-    std::vector<std::pair<const SweepRun*, RecordedTable>> tables;
-    std::vector<std::string> columns;  // of all: runs with other processes have other quantities
+std::vector<SweepResult> Sweep::results() const {
+    std::vector<SweepResult> results;
     for (const SweepRun& run : runs_) {
         if (!is_done(run)) continue;  // its last step is not the one asked for, or an older run's
         RecordedTable table = RecordedRun(run.folder).statistics();
-        for (const std::string& column : table.columns) {
+        table.rows = table.last_rows();
+        results.push_back({&run, std::move(table)});
+    }
+    return results;
+}
+
+fs::path Sweep::write_table(const std::vector<SweepResult>& results) const {
+    std::vector<std::string> columns;  // of all: runs with other processes have other quantities
+    for (const SweepResult& result : results) {
+        for (const std::string& column : result.table.columns) {
             if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
         }
-        table.rows = table.last_rows();
-        tables.emplace_back(&run, std::move(table));
     }
     std::string text = "run";
     for (const Variation& variation : variations_) text += "," + csv_text(variation.key);
     for (const std::string& column : columns) text += "," + csv_text(column);
     text += "\n";
-    for (const auto& [run, table] : tables) {
+    for (const auto& [run, table] : results) {
         std::string values = csv_text(run->variant.name);
         for (const auto& pair : run->variant.values) values += "," + csv_text(pair.second);
         for (const std::vector<double>& row : table.rows) text += values + cells(table, row, columns) + "\n";
@@ -182,6 +188,18 @@ fs::path Sweep::write_table() const {
     const fs::path path = folder_ / "sweep.csv";
     write_text(path, text);
     return path;
+}
+
+SweptRuns Sweep::drawn(const std::vector<SweepResult>& results) const {
+    SweptRuns drawn;
+    drawn.title = fs::absolute(folder_ / "").lexically_normal().parent_path().filename().string();
+    for (const Variation& variation : variations_) drawn.keys.push_back(variation.key);
+    for (const SweepResult& result : results) {
+        SweptRun& run = drawn.runs.emplace_back();
+        for (const auto& pair : result.run->variant.values) run.values.push_back(pair.second);
+        run.table = result.table;
+    }
+    return drawn;
 }
 
 }  // namespace espalier

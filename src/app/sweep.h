@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/simulation/variation.h"
+#include "espalier/timeline/sweep_charts.h"
 
 #include "run_command.h"
 
@@ -15,6 +16,11 @@ struct SweepRun {
     Variant variant;
     std::filesystem::path folder;
     std::vector<std::string> words;  ///< of `espalier run`, without --output
+};
+
+struct SweepResult {
+    const SweepRun* run;
+    RecordedTable table;
 };
 
 class Sweep {
@@ -37,8 +43,12 @@ public:
     /// Runs what is to do, so many at a time. What fails does not keep the others.
     Outcome run(int jobs, bool quiet) const;
 
-    /// sweep.csv: the last row of statistics.csv of every run and plant behind its values. Returns its path.
-    std::filesystem::path write_table() const;
+    /// The runs that are done, with the last step of their statistics.csv.
+    std::vector<SweepResult> results() const;
+    /// sweep.csv: the rows of every result behind its values. Returns its path.
+    std::filesystem::path write_table(const std::vector<SweepResult>& results) const;
+    /// What sweep_page() draws.
+    SweptRuns drawn(const std::vector<SweepResult>& results) const;
 
 private:
     RunArguments base_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,23 @@ namespace espalier {
 /// A line of a chart. `key` is its place in the page's legend: lines of one key look alike in all charts.
 struct Series {
     std::size_t key = 0;
-    std::vector<double> x, y;  ///< NaN leaves a gap
+    std::vector<double> x, y;           ///< NaN leaves a gap
+    std::vector<double> low{}, high{};  ///< a band around the line; empty: none
+    bool joined = true;                 ///< or small dots
+};
+
+/// A number for every pair of two names, as coloured cells.
+struct HeatMap {
+    std::vector<std::string> columns, rows;  ///< from the left, from below
+    std::vector<double> values;              ///< row after row; NaN leaves a cell empty
+    std::string title;                       ///< of the values
 };
 
 struct Chart {
     std::string x_title, y_title;  ///< with their units
     std::vector<Series> series;
+    std::vector<std::string> x_names{};  ///< what x = 0, 1, 2, ... are called; empty: x is a number
+    std::optional<HeatMap> map{};        ///< instead of series
 };
 
 /// How lines of a key look: one of `colour_count` colours that colour-blind readers tell apart, one of
