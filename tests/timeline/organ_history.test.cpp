@@ -81,12 +81,13 @@ TEST_CASE("birth, death, parent and order of an organ that was shed are told", "
     CHECK(branch->moments.back().step == 5);
     CHECK(branch->moments[0].length == 5);
     CHECK(value_of(*branch, run, 7, "died") == "step 6");
-    CHECK(value_of(*branch, run, 7, "at step") == "5");
+    CHECK(value_of(*branch, run, 7, "last seen") == "5");
     CHECK(value_of(*branch, run, 3, "at step") == "3");
     CHECK(value_of(*branch, run, 3, "length") == "5 m");
     CHECK(value_of(*branch, run, 3, "radius") == "0.1 m to 50 mm");
     CHECK(value_of(*branch, run, 3, "plant") == "left");
-    CHECK(value_of(*branch, run, 1, "at step").empty());
+    CHECK(value_of(*branch, run, 1, "at step") == "1, not there yet");
+    CHECK(value_of(*branch, run, 1, "length").empty());
 }
 
 TEST_CASE("frames with steps between them tell when an organ died as well as they can", "[reading]") {

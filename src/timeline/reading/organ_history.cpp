@@ -150,9 +150,13 @@ std::vector<std::pair<std::string, std::string>> described(const OrganHistory& h
     }
     const auto after = std::find_if(history.moments.begin(), history.moments.end(),
                                     [&](const OrganMoment& moment) { return moment.step > step; });
-    if (after == history.moments.begin()) return lines;
+    if (after == history.moments.begin()) {
+        add("at step", fmt::format("{}, not there yet", step));
+        return lines;
+    }
     const OrganMoment& moment = *std::prev(after);
-    add("at step", fmt::format("{}", moment.step));
+    const bool is_over = after == history.moments.end() && history.gone && step > moment.step;
+    add(is_over ? "last seen" : "at step", fmt::format("{}", moment.step));
     if (history.kind != Kind::query && history.kind != Kind::label) add("length", metres(moment.length));
     if (history.kind == Kind::axis) {
         add("radius", fmt::format("{} to {}", metres(moment.base_radius), metres(moment.tip_radius)));

@@ -1,0 +1,36 @@
+// A run's folder, read again whenever it has more.
+#pragma once
+
+#include "espalier/timeline/recorded_run.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace espalier {
+
+class RunFollower {
+public:
+    /// Throws UserError if there is no run.
+    explicit RunFollower(std::filesystem::path folder);
+
+    const std::shared_ptr<const RecordedRun>& run() const { return run_; }
+    /// Reads the indices again if they changed; true if they did. What cannot be read stays as it was: error() says
+    /// why.
+    bool look();
+    /// True if the run that was found by the last look is not the one before with more frames, but another.
+    bool is_another() const { return is_another_; }
+    const std::string& error() const { return error_; }
+
+private:
+    using Stamp = std::array<std::filesystem::file_time_type, 3>;
+    Stamp stamp() const;
+
+    std::filesystem::path folder_;
+    std::shared_ptr<const RecordedRun> run_;
+    Stamp stamp_;
+    std::string error_;
+    bool is_another_ = false;
+};
+
+}  // namespace espalier
