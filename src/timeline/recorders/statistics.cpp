@@ -10,6 +10,8 @@
 #include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/recorder.h"
 
+#include "timeline/highest_point.h"
+
 #include <fmt/format.h>
 
 #include <map>
@@ -25,9 +27,10 @@ std::vector<std::string> quantity_names(const PlantFrame& plant) {
 }
 
 double height(const PlantGeometry& geometry) {
-    if (geometry.bounds.empty()) return 0;
+    const std::optional<double> top = highest_point(geometry);
+    if (!top) return 0;
     const double base = geometry.internodes.empty() ? geometry.bounds.lower.y : geometry.internodes.front().base.y;
-    return geometry.bounds.upper.y - base;
+    return *top - base;
 }
 
 // Modules whose life began after `step`.
