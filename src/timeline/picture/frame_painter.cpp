@@ -73,15 +73,17 @@ vtkSmartPointer<vtkImageData> FramePainter::picture() {
 }
 
 vtkSmartPointer<vtkImageData> picture_of(const Legend& legend, const PictureBackground& background, int height) {
-    const PictureSize size{static_cast<int>(std::ceil(legend.width(height))), height};
+    Legend keys;
+    keys.keys = legend.keys;
+    keys.dark = legend.dark;
+    const PictureSize size{static_cast<int>(std::ceil(keys.width(height))), height};
     OffScreenWindow window(finer * size.width, finer * size.height, 0);
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(background.rgb[0] / 255.0, background.rgb[1] / 255.0, background.rgb[2] / 255.0);
     renderer->SetBackgroundAlpha(background.transparent ? 0 : 1);
     vtkNew<vtkContextActor> actor;
     vtkNew<LegendItem> item;
-    item->legend.keys = legend.keys;
-    item->legend.dark = legend.dark;
+    item->legend = keys;
     actor->GetScene()->AddItem(item);
     renderer->AddActor(actor);
     window.window().SetAlphaBitPlanes(1);

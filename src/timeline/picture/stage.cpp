@@ -35,7 +35,7 @@
 namespace espalier {
 namespace {
 
-constexpr Rgb bright{255, 60, 0};
+constexpr Rgb bright{255, 60, 0}, ink{30, 30, 30}, chalk{235, 235, 235};
 constexpr std::size_t most_labels = 300;
 
 std::span<const glm::vec3> points_of(const StageMesh& mesh) {
@@ -53,10 +53,11 @@ std::span<const std::int32_t> corners_of(const StageMesh& mesh) {
     return {array->GetPointer(0), 3 * mesh.row_of_triangle.size()};
 }
 
+/// Also with what thickness its organs have.
 bool is_flat_box(const Box& box) {
     if (box.empty()) return false;
     const glm::dvec3 size = box.upper - box.lower;
-    return size.z <= 1e-6 * std::max(size.x, size.y);
+    return size.z <= 0.02 * std::max(size.x, size.y);
 }
 
 bool is_drawn(Kind kind) {
@@ -297,9 +298,16 @@ private:
             for (const Part& part : parts_) occluders.push_back({points_of(part.mesh), corners_of(part.mesh)});
             daylight.emplace(occluders, sun);
         }
-        const std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
+        std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
+        if (is_line_drawing()) std::fill(colours.begin(), colours.end(), style_.background.is_dark() ? chalk : ink);
         for (Part& part : parts_) dress(part, colours, daylight ? &*daylight : nullptr);
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
+    }
+
+    /// A flat curve that nobody coloured.
+    bool is_line_drawing() const {
+        return colouring_->is_natural() && is_flat() && geometry_->of_points.rgb.empty() &&
+               geometry_->polygons.size() == 0;
     }
 
     void dress(Part& part, const std::vector<Rgb>& colours, const Daylight* daylight) {
@@ -327,8 +335,9 @@ private:
         mapper->SetInputData(mesh.data);
         part.actor->SetMapper(mapper);
         vtkProperty& property = *part.actor->GetProperty();
-        property.SetAmbient(0.1);
-        property.SetDiffuse(0.9);
+        // Some of the light goes through what is thin.
+        property.SetAmbient(mesh.is_of_axes ? 0.12 : 0.38);
+        property.SetDiffuse(mesh.is_of_axes ? 0.9 : 0.72);
         property.SetSpecular(mesh.is_of_axes ? 0.03 : 0.1);
         property.SetSpecularPower(15);
         property.SetLighting(!is_flat());
