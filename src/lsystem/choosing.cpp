@@ -58,6 +58,7 @@ private:
     bool certain(const CompiledProduction& production) const;
     static bool spelled(const CompiledProduction& production);
     bool wants_positions() const;
+    bool sees_both_at_once() const;
 
     std::uint32_t left_class(LetterId letter) const { return choosing_.gazes.left.codes[letter] & 0xFF; }
     std::uint32_t right_class(LetterId letter) const { return choosing_.gazes.right.codes[letter] & 0xFF; }
@@ -82,6 +83,7 @@ Choosing ChoosingCompiler::compile() {
     classify();
     fill_table();
     choosing_.gazes.positions = wants_positions();
+    choosing_.gazes.at_once = sees_both_at_once();
     return std::move(choosing_);
 }
 
@@ -271,6 +273,18 @@ bool ChoosingCompiler::wants_positions() const {
     return std::any_of(choosing_.tried.begin(), choosing_.tried.end(), in_context) ||
            std::any_of(rules_.productions.begin(), rules_.productions.end(),
                        [](const CompiledProduction& production) { return production.reads_context; });
+}
+
+bool ChoosingCompiler::sees_both_at_once() const {
+    const Gazes& gazes = choosing_.gazes;
+    if (gazes.positions || gazes.ring || gazes.next.wanted || !gazes.left.wanted || !gazes.right.wanted) return false;
+    for (std::size_t l = 0; l < system_.ignored.size(); ++l) {
+        const bool bracket = l <= Alphabet::close_bracket;
+        if (bracket && system_.ignored[l]) return false;
+        const bool asks = system_.plans.of_letter[l].kind == Plan::Kind::choose;
+        if ((bracket || system_.ignored[l]) && asks) return false;
+    }
+    return true;
 }
 
 }  // namespace

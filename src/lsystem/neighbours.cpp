@@ -28,6 +28,11 @@ public:
         : gaze_(gaze), letters_(string.letters.data()), size_(string.size()), column_(column), parts_(parts) {}
 
     void run(bool ring, std::size_t grain) {
+        split(grain);
+        for_each_part(parts_.size(), [&](std::size_t k) { scan(parts_[k]); });
+        complete(ring);
+    }
+    void split(std::size_t grain) {
         // One thread alone needs no parts, which cost the more the more branches reach from one into another.
         if (tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) == 1) grain = size_;
         column_.resize(size_);
@@ -36,16 +41,18 @@ public:
             parts_[k].begin = k * grain;
             parts_[k].end = std::min(parts_[k].begin + grain, size_);
         }
-        for_each_part(parts_.size(), [&](std::size_t k) { scan(parts_[k]); });
+    }
+    void complete(bool ring) {
         join(ring);
         for_each_part(parts_.size(), [&](std::size_t k) { complete(parts_[k]); });
     }
 
-private:
     static constexpr bool is_class = sizeof(Value) == 1;
-    static constexpr Value none = is_class ? 0 : static_cast<Value>(Neighbours::none);
     /// What lies before the part, or before a branch that ends in it.
     static constexpr Value unknown = static_cast<Value>(is_class ? 0xFF : Neighbours::none - 1);
+
+private:
+    static constexpr Value none = is_class ? 0 : static_cast<Value>(Neighbours::none);
     static constexpr LetterId begins = Forward ? Alphabet::open_bracket : Alphabet::close_bracket;
     static constexpr LetterId ends = Forward ? Alphabet::close_bracket : Alphabet::open_bracket;
 
@@ -133,7 +140,90 @@ void Look<Value, Forward>::complete(const Section<Value>& part) {
     }
 }
 
+using LookLeft = Look<std::uint8_t, true>;
+
+/// Looks to both sides: who stands there becomes the left neighbour of those that follow, and is told as the right one
+/// to the module that waits for it.
+void scan_both(const Gazes& gazes, const LetterId* letters, Section<std::uint8_t>& part, Sight& sight,
+               std::uint8_t* const lefts, std::uint8_t* const rights) {
+    const std::uint16_t* const left_codes = gazes.left.codes.data();
+    const std::uint16_t* const right_codes = gazes.right.codes.data();
+    const auto end_of_branch = static_cast<std::uint8_t>(right_codes[Alphabet::close_bracket]);
+    part.exits.clear();
+    sight.firsts.clear();
+    sight.branches.resize(part.end - part.begin + 1);
+    Sight::Branch* const base = sight.branches.data();
+    Sight::Branch* top = base;
+    std::fill(rights + part.begin, rights + part.end, std::uint8_t{0});
+    std::uint8_t* waits = &sight.first;
+    std::uint8_t left = LookLeft::unknown;
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+        const LetterId letter = letters[i];
+        lefts[i] = left;
+        if (letter > Alphabet::close_bracket) {
+            const bool keeps = left_codes[letter] == Gaze::keeps;
+            *(keeps ? &sight.nobody : waits) = static_cast<std::uint8_t>(right_codes[letter]);
+            waits = keeps ? waits : rights + i;
+            left = keeps ? left : static_cast<std::uint8_t>(left_codes[letter]);
+        } else if (letter == Alphabet::open_bracket) {
+            *top++ = {waits, left};
+            waits = &sight.nobody;
+        } else {
+            *waits = end_of_branch;
+            if (top != base) {
+                --top;
+                waits = top->waits;
+                left = top->left;
+                continue;
+            }
+            part.exits.push_back(static_cast<std::uint32_t>(i));
+            sight.firsts.push_back(sight.first);
+            waits = &sight.first;
+            left = LookLeft::unknown;
+        }
+    }
+    part.last = left;
+    sight.waits = waits;
+    sight.branches.resize(static_cast<std::size_t>(top - base));
+    part.entries.clear();
+    for (const Sight::Branch& branch : sight.branches) part.entries.push_back(branch.left);
+}
+
 }  // namespace
+
+void Neighbours::find_both(const Gazes& gazes, const ModuleString& string) {
+    LookLeft look(gazes.left, string, left_classes, classes_);
+    look.split(grain_);
+    right_classes.resize(string.size());
+    sights_.resize(classes_.size());
+    for_each_part(classes_.size(), [&](std::size_t k) {
+        scan_both(gazes, string.letters.data(), classes_[k], sights_[k], left_classes.data(), right_classes.data());
+    });
+    look.complete(false);
+    join_sights();
+}
+
+/// Tells those that wait at the end of a part what the next ones show them. Whoever waits in vain has no neighbour.
+void Neighbours::join_sights() {
+    std::vector<std::uint8_t*> branches;
+    std::uint8_t* waits = nullptr;  // before the part
+    const auto tell = [&](std::uint8_t seen) {
+        if (waits) *waits = seen;
+    };
+    for (const Sight& sight : sights_) {
+        for (const std::uint8_t seen : sight.firsts) {
+            tell(seen);
+            waits = branches.empty() ? nullptr : branches.back();
+            if (!branches.empty()) branches.pop_back();
+        }
+        const auto known = [&](std::uint8_t* entry) {
+            return entry == &sight.first ? waits : entry == &sight.nobody ? nullptr : entry;
+        };
+        if ((sight.branches.empty() ? sight.waits : sight.branches[0].waits) != &sight.first) tell(sight.first);
+        for (const Sight::Branch& branch : sight.branches) branches.push_back(known(branch.waits));
+        waits = known(sight.waits);
+    }
+}
 
 void Neighbours::find(const Gazes& gazes, const ModuleString& string) {
     if (string.empty()) return;
@@ -142,6 +232,8 @@ void Neighbours::find(const Gazes& gazes, const ModuleString& string) {
         if (gazes.right.wanted)
             Look<std::uint32_t, false>(gazes.right, string, right, positions_).run(gazes.ring, grain_);
         if (gazes.next.wanted) Look<std::uint32_t, false>(gazes.next, string, next, positions_).run(gazes.ring, grain_);
+    } else if (gazes.at_once) {
+        find_both(gazes, string);
     } else {
         if (gazes.left.wanted)
             Look<std::uint8_t, true>(gazes.left, string, left_classes, classes_).run(gazes.ring, grain_);

@@ -25,6 +25,9 @@ struct Gazes {
     Gaze next;               ///< to the right, but into branches: for patterns that name `[`
     bool positions = false;  ///< where neighbours stand; else the classes of their letters are enough
     bool ring = false;
+    /// Who is passed over and who is a bracket does not ask what stands to the right: both sides' classes are found in
+    /// one scan.
+    bool at_once = false;
 };
 
 /// A part of the string, seen from inside: what its modules see beyond it is filled in when all parts are known.
@@ -35,6 +38,20 @@ struct Section {
     Column<Value> entries;             ///< what is seen before branches that begin here and end after this part
     Value last{};                      ///< what is seen from behind this part
     std::vector<Value> beyond;         ///< what is seen before this part, and before the branch that each exit ends
+};
+
+/// What a part's modules wait for that look to the right, and what those that wait before it see of the part.
+struct alignas(64) Sight {
+    /// In a branch: the entry of the module that waits for its neighbour, and the class that is seen to the left.
+    struct Branch {
+        std::uint8_t* waits;
+        std::uint8_t left;
+    };
+    Column<Branch> branches;           ///< begun in the part and not ended
+    std::uint8_t* waits = nullptr;     ///< behind the part
+    std::vector<std::uint8_t> firsts;  ///< seen first from before the part, and from before the branches that exits end
+    std::uint8_t first = 0;            ///< entry of those that wait before
+    std::uint8_t nobody = 0;           ///< entry of no module
 };
 
 /// Neighbours of the modules of one string, in the columns that are asked for; memory is reused.
@@ -53,9 +70,13 @@ public:
     Column<std::uint8_t> left_classes, right_classes;
 
 private:
+    void find_both(const Gazes& gazes, const ModuleString& string);
+    void join_sights();
+
     std::size_t grain_;
     std::vector<Section<std::uint32_t>> positions_;
     std::vector<Section<std::uint8_t>> classes_;
+    std::vector<Sight> sights_;
 };
 
 /// Where the parameters of each module begin, in half the memory that plain offsets take.

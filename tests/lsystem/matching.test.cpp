@@ -387,3 +387,35 @@ TEST_CASE("neighbours do not depend on the parts that a string is looked at in",
         }
     }
 }
+
+TEST_CASE("both sides seen at once are those that are looked for one after the other", "[lsystem]") {
+    for (unsigned seed = 0; seed < 2000; ++seed) {
+        Randomly random(seed);
+        ModuleString string;
+        for (const char symbol : random.word(std::size_t(random.below(80)), symbols)) {
+            string.append(symbol == '[' ? 0 : symbol == ']' ? 1 : static_cast<LetterId>(2 + symbol % 5));
+        }
+        Gazes gazes;
+        gazes.left.wanted = gazes.right.wanted = true;
+        for (std::uint16_t letter = 0; letter < 7; ++letter) {
+            const bool keeps = letter > Alphabet::close_bracket && random.once_in(3);
+            gazes.left.codes.push_back(keeps ? Gaze::keeps : letter);
+            gazes.right.codes.push_back(keeps ? Gaze::keeps : static_cast<std::uint16_t>(10 + letter));
+        }
+        gazes.left.codes[Alphabet::open_bracket] = Gaze::keeps;
+        Neighbours expected;
+        expected.find(gazes, string);
+        gazes.at_once = true;
+        for (const std::size_t grain : {1, 2, 3, 7, 100}) {
+            Neighbours found(grain);
+            found.find(gazes, string);
+            INFO("seed " << seed << ", grain " << grain);
+            REQUIRE(found.left_classes == expected.left_classes);
+            for (std::size_t i = 0; i < string.size(); ++i) {
+                const LetterId letter = string.letters[i];
+                const bool asks = letter > Alphabet::close_bracket && gazes.right.codes[letter] != Gaze::keeps;
+                if (asks) REQUIRE(found.right_classes[i] == expected.right_classes[i]);
+            }
+        }
+    }
+}
