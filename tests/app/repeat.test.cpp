@@ -144,6 +144,23 @@ TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one 
     CHECK(lines_in(run(command + "--output s --list").out) == 6);
 }
 
+TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, also afterwards", "[app]") {
+    write("shrub.l", shrub);
+    const std::string sweep = "sweep shrub.l --vary D=1.1,1.2 --vary simulation.seed=1..2 --output s ";
+    const Outcome mistaken = run(sweep + "--statistic heigt");
+    CHECK(mistaken.code == 1);
+    CHECK_THAT(mistaken.err, Contains("there is no quantity 'heigt' (did you mean 'height'?)"));
+    CHECK(fs::exists(path() / "s" / "sweep.csv"));
+    const Outcome drawn = run(sweep + "--statistic height,organs");
+    CHECK_THAT(drawn.err, Contains("4 of 4 runs are done already"));
+    if (drawn.code == 2) return;  // nothing can draw here
+    CHECK(drawn.code == 0);
+    CHECK(drawn.out == "s/sweep.csv\ns/sweep.png\n");
+    CHECK(run(sweep + "--quiet --plot all.svg --dark --size 500x300").code == 0);
+    CHECK_THAT(text_of(path() / "all.svg"), Contains("width=\"500\" height=\"300\""));
+    CHECK(run(sweep + "--plot all.jpg").code == 1);
+}
+
 TEST_CASE_METHOD(Workplace, "the commands a sweep lists are those it would run", "[app]") {
     write("shrub.l", shrub);
     const std::string command = "sweep shrub.l --vary D=1.1,1.2 --output 'a b'";

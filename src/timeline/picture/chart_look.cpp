@@ -1,5 +1,6 @@
 #include "timeline/picture/chart_look.h"
 
+#include <vtkPen.h>
 #include <vtkTextProperty.h>
 
 namespace espalier {
@@ -20,6 +21,12 @@ ChartLook look_of(const ChartPage& page) {
             ChartColour(230, 230, 230),
             {ChartColour(0, 114, 178), ChartColour(213, 94, 0), ChartColour(0, 158, 115), ChartColour(204, 121, 167),
              ChartColour(230, 159, 0), ChartColour(86, 180, 233), ChartColour(70, 70, 70)}};
+}
+
+int dash_of(const Key& key) {
+    constexpr std::array<int, Key::dash_count> dashes{vtkPen::SOLID_LINE, vtkPen::DASH_LINE, vtkPen::DOT_LINE,
+                                                      vtkPen::DASH_DOT_LINE};
+    return dashes[static_cast<std::size_t>(key.dash)];
 }
 
 void set_text(vtkTextProperty& text, const ChartColour& colour, float size) {

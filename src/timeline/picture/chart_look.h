@@ -21,6 +21,9 @@ struct ChartLook {
 };
 ChartLook look_of(const ChartPage& page);
 
+/// A line type of vtkPen.
+int dash_of(const Key& key);
+
 void set_text(vtkTextProperty& text, const ChartColour& colour, float size);
 
 }  // namespace espalier
