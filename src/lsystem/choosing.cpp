@@ -55,6 +55,7 @@ private:
     Outcome tried(const Candidates& candidates, Outcome::Way way);
     std::optional<Outcome> drawn(const Candidates& candidates);
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
+    bool in_place(const CompiledProduction& production) const;
     bool certain(const CompiledProduction& production) const;
     static bool spelled(const CompiledProduction& production);
     bool wants_positions() const;
@@ -181,14 +182,19 @@ bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint3
     return true;
 }
 
-/// True if a production applies wherever it is possible.
-bool ChoosingCompiler::certain(const CompiledProduction& production) const {
+/// True if a production's strict predecessor and contexts stand wherever it is possible.
+bool ChoosingCompiler::in_place(const CompiledProduction& production) const {
     const bool told = choosing_.places() > 1;
     const bool left =
         production.left.empty() || (told && production.left.size() == 1 && is_ordinary_left(production.left[0]));
     const bool right =
         production.right.empty() || (told && production.right.size() == 1 && is_ordinary_right(production.right[0]));
-    return left && right && production.strict.size() == 1 && production.before.empty() && !production.has_condition;
+    return left && right && production.strict.size() == 1;
+}
+
+/// True if a production applies wherever it is possible.
+bool ChoosingCompiler::certain(const CompiledProduction& production) const {
+    return in_place(production) && production.before.empty() && !production.has_condition;
 }
 
 /// True if a production applies wherever the letters of its strict predecessor stand.
@@ -198,13 +204,14 @@ bool ChoosingCompiler::spelled(const CompiledProduction& production) {
 
 Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint32_t right) {
     Candidates candidates;
-    bool all_certain = true, all_spelled = true;
+    bool all_certain = true, all_spelled = true, all_tested = true;
     for (std::uint32_t k = rules_.first[letter]; k < rules_.first[letter + 1]; ++k) {
         const CompiledProduction& production = rules_.productions[rules_.candidates[k]];
         if (!possible(production, left, right)) continue;
         candidates.push_back(rules_.candidates[k]);
         all_certain &= certain(production);
         all_spelled &= spelled(production);
+        all_tested &= certain(production) || (in_place(production) && production.before.empty() && production.tests);
         if (!rules_.stochastic && certain(production)) break;
     }
     if (candidates.empty()) return {};
@@ -213,7 +220,9 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         return lottery ? *lottery : tried(candidates, Outcome::Way::matched);
     }
     if (!certain(rules_.productions[candidates[0]])) {
-        return tried(candidates, all_spelled ? Outcome::Way::spelled : Outcome::Way::matched);
+        return tried(candidates, all_spelled                            ? Outcome::Way::spelled
+                                 : all_tested && !rules_.several_strict ? Outcome::Way::tested
+                                                                        : Outcome::Way::matched);
     }
     return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
 }

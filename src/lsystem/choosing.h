@@ -17,6 +17,7 @@ struct Outcome {
         known,    ///< choice `index`
         drawn,    ///< by lottery `index`
         matched,  ///< by trying the productions of trial `index`
+        tested,   ///< by the conditions of trial `index`, which can be evaluated for many modules at once
         spelled,  ///< the first of trial `index` whose strict predecessor's letters stand there
     };
     Way way = Way::known;

@@ -56,6 +56,7 @@ private:
     void index(CompiledRules& rules) const;
     std::int32_t always(const CompiledRules& rules, LetterId letter) const;
     void place_registers();
+    void make_columns();
     void place_registers(CompiledRules& rules);
     void find_ignored();
     void name_variables();
@@ -85,6 +86,7 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     find_ignored();
     name_variables();
     place_registers();
+    make_columns();
     compiled_->choosing = make_choosing(*compiled_);
     return std::move(compiled_);
 }
@@ -421,6 +423,21 @@ void SystemCompiler::place_registers() {
     }
     compiled_->constants = programs_.constants();
     compiled_->registers = programs_.register_count(compiled_->formals);
+}
+
+/// Programs of productions that are taken for what their modules are, whatever came before them.
+void SystemCompiler::make_columns() {
+    for (CompiledProduction& production : compiled_->rules.productions) {
+        const auto place = [&](std::uint32_t formal) { return place_of(formal, production.strict); };
+        const auto columns = [&](const Program& program) {
+            return ColumnProgram::make(program, compiled_->constants, compiled_->formals, place);
+        };
+        if (!production.before.empty()) continue;
+        if (production.has_condition && !production.tests_draw) production.tests = columns(production.condition);
+        if (production.affine || !production.after.empty() || production.writes_draw) continue;
+        production.values = columns(production.rest_places.empty() ? production.successor : production.rest);
+        compiled_->computes_columns |= production.values.has_value();
+    }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "espalier/lsystem/derivation.h"
 
 #include "choosing.h"
+#include "column_program.h"
 #include "machine.h"
 #include "plans.h"
 #include "program.h"
@@ -53,9 +54,12 @@ struct CompiledProduction {
     /// The values that are no lanes, where some are, and their places among the successor's parameters.
     Program rest;
     std::vector<std::uint32_t> rest_places;
-    bool reads_context = false;  ///< the successor needs parameters of modules in the context
-    bool writes_draw = false;    ///< after-block or successor take random numbers
-    bool tests_draw = false;     ///< before-block, condition or weight take random numbers
+    // For many modules at once, where that is possible.
+    std::optional<ColumnProgram> tests;   ///< the condition
+    std::optional<ColumnProgram> values;  ///< of `rest` or, where nothing is a lane, the successor
+    bool reads_context = false;           ///< the successor needs parameters of modules in the context
+    bool writes_draw = false;             ///< after-block or successor take random numbers
+    bool tests_draw = false;              ///< before-block, condition or weight take random numbers
 
     bool context_free() const { return left.empty() && right.empty(); }
 };
@@ -118,7 +122,8 @@ public:
     std::uint32_t formals = 0;
     std::vector<std::uint8_t> ignored;  ///< by letter: passed over in contexts
     bool ring = false;
-    bool may_cut = false;  ///< `%` can stand in the string and is no production's business
+    bool computes_columns = false;  ///< some production of `rules` has `values`
+    bool may_cut = false;           ///< `%` can stand in the string and is no production's business
     /// Of all plants that grow from it: see workplace.h.
     mutable tbb::enumerable_thread_specific<std::shared_ptr<Machine>> machines;
 

@@ -3,6 +3,7 @@
 
 #include "espalier/base/random.h"
 
+#include "column_program.h"
 #include "files.h"
 #include "functions.h"
 #include "program.h"
@@ -66,6 +67,15 @@ public:
     double value(std::uint32_t index) const { return registers_[index]; }
     /// Throws EvaluationError.
     void run(const Program& program);
+    void run(const ColumnProgram& program, const Batch& batch) {
+        program.run(batch.values.data(), batch.count, *variables_, quirks_, columns_);
+    }
+    const double* result(const ColumnProgram& program, std::size_t k) const { return program.result(k, columns_); }
+    /// Modules that wait, by a number that whoever makes them wait chooses.
+    Batch& batch(std::size_t number) {
+        if (number >= batches_.size()) batches_.resize(number + 1);
+        return batches_[number];
+    }
     double evaluate(const Program& program) {
         run(program);
         return registers_[program.results[0]];
@@ -79,6 +89,8 @@ private:
     double warn_of_file(Function function, double file, const Place& place);
 
     std::vector<double> registers_;
+    std::vector<double> columns_;
+    std::vector<Batch> batches_;
     std::size_t first_formal_;
     const std::vector<CompiledArray>& arrays_;
     bool quirks_;

@@ -58,6 +58,7 @@ public:
           choices_(scratch.choices.data()),
           changes_(scratch.changes.data() + room(scratch, chunk)),
           wants_changes_(!choosing_.tells_all || input.model.plans.valued() || input.ancestry != Ancestry::none),
+          machine_(machine),
           matcher_(input.model, input.view, machine) {
         matcher_.set_draws(input.key, input.step);
     }
@@ -74,6 +75,8 @@ private:
     void replace(std::size_t begin, std::size_t end);
     void match(const Trial& trial, std::size_t module, const double* values);
     void spell(const Trial& trial, std::size_t module, const double* values);
+    void test(std::uint32_t trial, std::size_t module, const double* values);
+    void decide(std::uint32_t trial);
     void draw(std::uint32_t lottery, std::size_t module);
     void hold_lotteries();
     void take(std::size_t module, LetterId choice);
@@ -85,6 +88,7 @@ private:
     LetterId* const choices_;
     Change* const changes_;
     const bool wants_changes_;
+    Machine& machine_;
     Matcher matcher_;
     std::size_t modules_ = 0, parameters_ = 0;
     std::size_t looked_up_ = 0;  ///< modules before this one have been looked up
@@ -124,6 +128,7 @@ void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
     const auto place_of = [&](std::size_t i) { return static_cast<LetterId>(letters_[i] * places + class_of(i)); };
     const double* values = input_.from.parameters.data() + chunk.parameters_at;
     begin_ = chunk.begin;
+    for (std::size_t trial = 0; trial < choosing_.trials.size(); ++trial) machine_.batch(trial).count = 0;
     for (std::size_t begin = chunk.begin; begin < chunk.end; begin += looked_up_at_once) {
         const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
         for (std::size_t i = begin; i < end; ++i) choices_[i] = place_of(i);
@@ -144,6 +149,7 @@ void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
         values += passed_ - passed;
     }
     hold_lotteries();
+    for (std::uint32_t trial = 0; trial < choosing_.trials.size(); ++trial) decide(trial);
     changes_[change_count_] = {static_cast<std::uint32_t>(chunk.end - chunk.begin), passed_};
     chunk.changes = changes_;
     chunk.change_count = change_count_;
@@ -187,6 +193,8 @@ void Measuring::look_up(std::size_t begin, std::size_t end) {
 void Measuring::find_out(const Outcome& outcome, std::size_t module, const double* values) {
     if (outcome.way == Outcome::Way::drawn)
         draw(outcome.index, module);
+    else if (outcome.way == Outcome::Way::tested)
+        test(outcome.index, module, values);
     else if (outcome.way == Outcome::Way::matched)
         match(choosing_.trials[outcome.index], module, values);
     else if (outcome.way == Outcome::Way::spelled)
@@ -204,6 +212,35 @@ void Measuring::match(const Trial& trial, std::size_t module, const double* valu
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, input_.model.source->alphabet, letters_[module], values, input_.step));
     }
+}
+
+void Measuring::test(std::uint32_t trial, std::size_t module, const double* values) {
+    Batch& batch = machine_.batch(trial);
+    batch.values[batch.count] = values;
+    batch.modules[batch.count] = static_cast<std::uint32_t>(module);
+    if (++batch.count == ColumnProgram::lanes) decide(trial);
+}
+
+/// Takes the first production of a trial whose condition holds, for all modules that wait for it.
+void Measuring::decide(std::uint32_t trial) {
+    Batch& batch = machine_.batch(trial);
+    if (batch.count == 0) return;
+    std::array<LetterId, ColumnProgram::lanes> taken{};
+    const auto [begin, end] = choosing_.trials[trial];
+    for (std::uint32_t k = end; k > begin; --k) {
+        const std::uint32_t tried = choosing_.tried[k - 1];
+        const CompiledProduction& production = input_.model.rules.productions[tried];
+        const LetterId choice = choosing_.ranks[tried];
+        if (!production.has_condition) {
+            taken.fill(choice);
+            continue;
+        }
+        machine_.run(*production.tests, batch);
+        const double* const holds = machine_.result(*production.tests, 0);
+        for (std::size_t i = 0; i < batch.count; ++i) taken[i] = holds[i] != 0 ? choice : taken[i];
+    }
+    for (std::size_t i = 0; i < batch.count; ++i) take(batch.modules[i], taken[i]);
+    batch.count = 0;
 }
 
 void Measuring::spell(const Trial& trial, std::size_t module, const double* values) {

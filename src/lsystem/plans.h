@@ -19,6 +19,11 @@ inline constexpr std::size_t value_block = 4;
 inline constexpr std::size_t run_value_block = 8;
 inline constexpr std::size_t lineage_block = 8;
 
+/// What columns have room for behind their last element, so that the last modules are read and written in whole blocks,
+// too, as those of small strings all are.
+inline constexpr std::size_t spare_letters = letter_block, spare_values = run_value_block,
+                             spare_lineage = lineage_block;
+
 /// Modules that one thread writes before another may have its turn: at least so many of the old string or the new.
 inline constexpr std::size_t grain = 8192;
 /// The longest stretch of a new string whose future is added up in one number, but for one successor.

@@ -8,11 +8,11 @@ namespace espalier {
 namespace {
 
 template <class T>
-void resize_column(Column<T>& column, std::size_t size) {
+void resize_column(Column<T>& column, std::size_t size, std::size_t spare) {
     column.clear();
-    if (column.capacity() < size) {
+    if (size > 0 && column.capacity() < size + spare) {
         Column<T>().swap(column);
-        column.reserve(size + size / 8);
+        column.reserve(size + size / 8 + spare);
     }
     column.resize(size);
 }
@@ -135,11 +135,11 @@ void remember_chunks(const StepInput& input, const ModuleString& to, const Scrat
 
 void resize(ModuleString& string, std::size_t modules, std::size_t parameters, Ancestry ancestry) {
     const bool whole = ancestry == Ancestry::whole;
-    resize_column(string.letters, modules);
-    resize_column(string.parameters, parameters);
-    resize_column(string.identities, ancestry != Ancestry::none ? modules : 0);
-    resize_column(string.parents, whole ? modules : 0);
-    resize_column(string.births, whole ? modules : 0);
+    resize_column(string.letters, modules, spare_letters);
+    resize_column(string.parameters, parameters, spare_values);
+    resize_column(string.identities, ancestry != Ancestry::none ? modules : 0, spare_lineage);
+    resize_column(string.parents, whole ? modules : 0, spare_lineage);
+    resize_column(string.births, whole ? modules : 0, spare_lineage);
 }
 
 std::size_t bytes_needed(std::size_t modules, std::size_t parameters, Ancestry ancestry) {

@@ -50,6 +50,8 @@ struct Chunk {
     std::size_t out_parameters = 0, out_parameters_end = 0;
     const Change* changes = nullptr;  ///< where they were measured; one more stands for the chunk's end
     std::size_t change_count = 0;
+    /// Its measure is that of its modules, and behind it there is room for whole blocks, in the old string and the new.
+    bool in_blocks = false;
     std::string error;
 };
 

@@ -21,8 +21,19 @@ std::vector<std::uint64_t> count_uses(const StepInput& input, const Scratch& scr
     return uses;
 }
 
+bool has_spare(const StepInput& input, const ModuleString& string) {
+    const auto has = [](const auto& column, std::size_t spare) { return column.capacity() - column.size() >= spare; };
+    const bool whole = input.ancestry == Ancestry::whole;
+    return has(string.letters, spare_letters) &&
+           (!input.model.plans.valued() || has(string.parameters, spare_values)) &&
+           (input.ancestry == Ancestry::none || has(string.identities, spare_lineage)) &&
+           (!whole || (has(string.parents, spare_lineage) && has(string.births, spare_lineage)));
+}
+
+enum class Measure { foreseen, taken };
+
 /// Turns the chunks' lengths into places and makes room for the new string.
-void place(const StepInput& input, Scratch& scratch, ModuleString& to) {
+void place(const StepInput& input, Scratch& scratch, Measure measure, ModuleString& to) {
     std::size_t modules = 0, parameters = 0;
     for (Chunk& chunk : scratch.chunks) {
         chunk.out = modules;
@@ -37,6 +48,9 @@ void place(const StepInput& input, Scratch& scratch, ModuleString& to) {
         refuse_memory(input, modules, bytes, count_uses(input, scratch));
     }
     resize(to, modules, parameters, input.ancestry);
+    if (measure == Measure::taken && !scratch.chunks.empty()) {
+        scratch.chunks.back().in_blocks = has_spare(input, input.from) && has_spare(input, to);
+    }
 }
 
 /// False if the chunks' measures do not fit the string.
@@ -56,8 +70,10 @@ bool write_all(const StepInput& input, Scratch& scratch, Machines& machines, Mod
 
 void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& forecast, Machines& machines,
                            ModuleString& to) {
-    if (recall_chunks(input, forecast, scratch)) {
-        place(input, scratch, to);
+    // A small string is measured in no time, and what is certain is written faster than what is foreseen.
+    constexpr std::size_t small = 256;
+    if (input.from.size() > small && recall_chunks(input, forecast, scratch)) {
+        place(input, scratch, Measure::foreseen, to);
         if (write_all(input, scratch, machines, to)) return remember_chunks(input, to, scratch, forecast);
     }
     make_chunks(input, scratch);
@@ -67,7 +83,7 @@ void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& f
         for_each_chunk(scratch.chunks, machines,
                        [&](Chunk& chunk, Machine& machine) { measure(input, scratch, chunk, machine); });
     }
-    place(input, scratch, to);
+    place(input, scratch, Measure::taken, to);
     write_all(input, scratch, machines, to);
     remember_chunks(input, to, scratch, forecast);
 }

@@ -159,6 +159,7 @@ void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& 
     const ModuleString& from = input.from;
     const Plans& plans = input.model.plans;
     const bool whole = input.ancestry == Ancestry::whole;
+    const std::size_t spare = chunk.in_blocks ? spare_lineage : 0;
     const auto pair = [&](const auto& old, auto& made) {
         return Pair<typename std::decay_t<decltype(old)>::value_type>{old.data() + chunk.begin,
                                                                       made.data() + chunk.out};
@@ -171,8 +172,8 @@ void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& 
                 plans,
                 input.step,
                 chunk.end - chunk.begin,
-                from.size() - chunk.begin,
-                chunk.out_end - chunk.out};
+                from.size() - chunk.begin + spare,
+                chunk.out_end - chunk.out + spare};
     const std::span<const Change> changes(chunk.changes, chunk.changes ? chunk.change_count : 0);
     whole ? write_lineages(lines, changes) : write_identities(lines, changes);
 }

@@ -61,6 +61,12 @@ private:
     template <bool Valued>
     bool write_successor(const Plan& plan, const Cursor& at);
     bool write_module();
+    bool write_rounds();
+    void wait(const CompiledProduction& production, const double* values, double* to);
+    void settle(const CompiledProduction& production);
+    Batch& batch(const CompiledProduction& production) {
+        return machine_.batch(static_cast<std::size_t>(&production - input_.model.rules.productions.data()));
+    }
     void run(const Program& program, const Plan& plan, const Cursor& at);
     // By value: a cursor whose address is known to others would be kept in memory by the loop that moves it.
     bool write_rest(const Plan& plan, Cursor at);
@@ -82,6 +88,7 @@ private:
     /// Modules that live on are copied together, between those that were found to change.
     const bool in_runs_;
     const Change* change_;  ///< the next one
+    bool finite_ = true;    ///< all values that were computed in columns
     Cursor at_, stretch_;
     const LetterId* const in_end_;
     const double* const values_end_;  ///< of the whole string: blocks may be read beyond the chunk
@@ -115,6 +122,7 @@ Writer::Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Mac
 std::size_t Writer::safe_count() const {
     const auto left = static_cast<std::size_t>(in_end_ - at_.in);
     std::size_t count = std::min(left, std::max(grain / plans_.longest, std::size_t{1}));
+    if (chunk_.in_blocks) return count;
     const auto limit = [&](std::ptrdiff_t room, std::size_t most, std::size_t block) {
         // Blocks of modules that live on are copied, too.
         const std::size_t more = in_runs_ ? letter_block : 0;
@@ -147,9 +155,14 @@ template <bool Valued>
         if (plan.kind == Plan::Kind::copy || plan.kind == Plan::Kind::wide_copy) {
             copy_run<value_block>(at.values, at.out_values, plan.arity);
         } else if (plan.kind == Plan::Kind::program) {
-            write_values(plan, at);
+            if (plan.production->values)
+                wait(*plan.production, at.values, at.out_values);
+            else
+                write_values(plan, at);
         } else if (plan.kind == Plan::Kind::mixed) {
-            return write_lanes(plan, at.values, at.out_values) && write_rest(plan, at);
+            if (!write_lanes(plan, at.values, at.out_values)) return false;
+            if (!plan.production->values) return write_rest(plan, at);
+            wait(*plan.production, at.values, at.out_values);
         }
     }
     return true;
@@ -318,7 +331,54 @@ void Writer::end_stretch() {
     stretch_ = at_;
 }
 
+/// Lets a module wait until the values of many are computed.
+void Writer::wait(const CompiledProduction& production, const double* values, double* to) {
+    Batch& waiting = batch(production);
+    waiting.values[waiting.count] = values;
+    waiting.to[waiting.count] = to;
+    if (++waiting.count == ColumnProgram::lanes) settle(production);
+}
+
+/// Computes the values that modules wait for.
+void Writer::settle(const CompiledProduction& production) {
+    Batch& waiting = batch(production);
+    if (waiting.count == 0) return;
+    machine_.run(*production.values, waiting);
+    double difference = 0;  // to themselves
+    for (std::size_t r = 0; r < production.values->results(); ++r) {
+        const double* const results = machine_.result(*production.values, r);
+        const std::size_t place = production.rest_places.empty() ? r : production.rest_places[r];
+        for (std::size_t k = 0; k < waiting.count; ++k) {
+            waiting.to[k][place] = results[k];
+            difference += results[k] - results[k];
+        }
+    }
+    finite_ &= difference == 0;
+    waiting.count = 0;
+}
+
 bool Writer::write() {
+    if (!input_.model.computes_columns) return write_rounds();
+    const Cursor begin = at_;
+    const std::vector<CompiledProduction>& productions = input_.model.rules.productions;
+    for (const CompiledProduction& production : productions) batch(production).count = 0;
+    try {
+        if (!write_rounds()) return false;
+        for (const CompiledProduction& production : productions) settle(production);
+        if (finite_) return true;
+    } catch (const RunError&) {
+        // Those that wait may be wrong, and stand before.
+    }
+    at_ = stretch_ = begin;
+    stretches_.clear();
+    while (at_.in != in_end_) {
+        if (!write_module()) return false;
+    }
+    end_stretch();
+    return true;
+}
+
+bool Writer::write_rounds() {
     stretches_.clear();
     while (at_.in != in_end_) {
         if (const std::size_t count = safe_count(); count > 0)

@@ -1,0 +1,63 @@
+// Programs that neither jump nor fail, run for many modules of one production side by side.
+#pragma once
+
+#include "program.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace espalier {
+
+struct Variables;
+
+class ColumnProgram {
+public:
+    /// Modules at once.
+    static constexpr std::size_t lanes = 128;
+
+    /// Where a formal stands among the parameters of a module; nothing if it belongs to another.
+    using Place = std::function<std::optional<std::uint32_t>(std::uint32_t formal)>;
+
+    /// Nothing if the program cannot be run in columns. Its registers have their numbers.
+    static std::optional<ColumnProgram> make(const Program& program, std::span<const double> constants,
+                                             std::uint32_t formals, const Place& place);
+
+    /// Of `count` modules, whose parameters begin at `values`. `columns` is memory to work in.
+    void run(const double* const* values, std::size_t count, const Variables& variables, bool quirks,
+             std::vector<double>& columns) const;
+    /// The values of a result, one a module, where `run` left them.
+    const double* result(std::size_t k, const std::vector<double>& columns) const {
+        return columns.data() + std::size_t{results_[k]} * lanes;
+    }
+    std::size_t results() const { return results_.size(); }
+
+private:
+    struct Constant {
+        std::uint32_t column;
+        double value;
+    };
+    struct Input {
+        std::uint32_t column, place;
+    };
+
+    std::vector<Instruction> code_;  ///< with columns for registers
+    std::vector<Constant> constants_;
+    std::vector<Input> inputs_;
+    std::vector<std::uint32_t> results_;
+    std::size_t width_ = 0;
+};
+
+/// Modules that wait until a column program is run for all of them.
+struct Batch {
+    std::size_t count = 0;
+    std::array<const double*, ColumnProgram::lanes> values;  ///< where their parameters begin
+    std::array<double*, ColumnProgram::lanes> to;            ///< where their successors' parameters begin
+    std::array<std::uint32_t, ColumnProgram::lanes> modules;
+};
+
+}  // namespace espalier
