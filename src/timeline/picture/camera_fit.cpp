@@ -85,31 +85,54 @@ std::vector<glm::dvec3> Outline::points() const {
     return points;
 }
 
+namespace {
+
+/// How points are seen from all azimuths tried, relative to a middle.
+struct Seen {
+    Reach across, over;
+};
+
+Seen seen_around(std::span<const glm::dvec3> points, const glm::dvec3& middle, const CameraPlace& place, int turns,
+                 double slope_x, double slope_y) {
+    Seen seen;
+    for (int turn = 0; turn < turns; ++turn) {
+        const Axes axes = axes_of(place.azimuth + 360.0 * turn / turns, place.elevation);
+        for (const glm::dvec3& point : points) {
+            const glm::dvec3 here = point - middle;
+            const double z = glm::dot(here, axes.towards);
+            seen.across.add(glm::dot(here, axes.right), z, slope_x);
+            seen.over.add(glm::dot(here, axes.up), z, slope_y);
+        }
+    }
+    if (points.empty()) seen.across = seen.over = {1, 1};
+    return seen;
+}
+
+}  // namespace
+
 CameraView fitted(std::span<const glm::dvec3> points, const CameraPlace& place, bool turns, bool is_parallel,
                   double aspect, const Margins& margins) {
     CameraView view;
     view.is_parallel = is_parallel;
-    const glm::dvec3 middle = middle_of(points);
+    view.focus = middle_of(points);
     const double wide = std::max(0.1, 1 - margins.left - margins.right);
     const double high = std::max(0.1, 1 - margins.bottom - margins.top);
     const double slope = std::tan(glm::radians(view.view_angle / 2));
     const double slope_x = is_parallel ? 0 : slope * aspect * wide, slope_y = is_parallel ? 0 : slope * high;
-    Reach across, over;
-    for (int turn = 0; turn < (turns ? turns_tried : 1); ++turn) {
-        const Axes axes = axes_of(place.azimuth + 360.0 * turn / turns_tried, place.elevation);
-        for (const glm::dvec3& point : points) {
-            const glm::dvec3 here = point - middle;
-            const double z = glm::dot(here, axes.towards);
-            across.add(glm::dot(here, axes.right), z, slope_x);
-            over.add(glm::dot(here, axes.up), z, slope_y);
-        }
-    }
-    if (points.empty()) across = over = {1, 1};
     const Axes axes = axes_of(place.azimuth, place.elevation);
-    // What turns does so about its own middle.
-    const double half_width = across.half(!turns), half_height = over.half(true);
-    view.focus = middle + (turns ? 0 : across.shift()) * axes.right;
-    view.focus += over.shift() * (turns ? glm::dvec3(0, 1, 0) : axes.up);
+    Seen seen = seen_around(points, view.focus, place, turns ? turns_tried : 1, slope_x, slope_y);
+    if (turns) {
+        // What turns does so about its own middle, which only moves up and down: that changes distances too.
+        constexpr int rounds = 6;
+        const double upright = std::max(0.2, axes.up.y);
+        for (int round = 0; round < rounds; ++round) {
+            view.focus.y += seen.over.shift() / upright;
+            seen = seen_around(points, view.focus, place, turns_tried, slope_x, slope_y);
+        }
+    } else {
+        view.focus += seen.across.shift() * axes.right + seen.over.shift() * axes.up;
+    }
+    const double half_width = seen.across.half(!turns), half_height = seen.over.half(!turns);
     const double least = 1e-9;
     if (is_parallel) {
         view.half_height = std::max({half_height / high, half_width / wide / aspect, least}) / place.zoom;

@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "timeline/picture/listening.h"
+
 #include <fmt/format.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -38,21 +40,23 @@ public:
     }
 
     void add(vtkImageData& picture) override {
+        const Listening listening;
         writer_->SetInputData(&picture);
         if (!std::exchange(started_, true)) writer_->Start();
         writer_->Write();
-        if (writer_->GetError() != 0) throw RunError(fmt::format("cannot write {}", path_.string()));
+        if (writer_->GetError() != 0 || !listening.errors().empty()) fail();
     }
 
     void finish() override {
+        const Listening listening;
         if (started_) writer_->End();
         std::error_code ignored;
-        if (writer_->GetError() != 0 || fs::file_size(path_, ignored) == 0) {
-            throw RunError(fmt::format("cannot write {}", path_.string()));
-        }
+        if (writer_->GetError() != 0 || !listening.errors().empty() || fs::file_size(path_, ignored) == 0) fail();
     }
 
 private:
+    [[noreturn]] void fail() const { throw RunError(fmt::format("cannot write {}", path_.string())); }
+
     fs::path path_;
     bool started_ = false;
     vtkNew<vtkOggTheoraWriter> writer_;

@@ -3,13 +3,13 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "timeline/picture/listening.h"
+
 #include <fmt/format.h>
 #include <vtkAutoInit.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkOutputWindow.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
@@ -17,7 +17,6 @@
 
 #include <cstdlib>
 #include <dlfcn.h>
-#include <string_view>
 
 #if __has_include(<EGL/egl.h>) && __has_include(<EGL/eglext.h>)
 #define ESPALIER_HAS_EGL 1
@@ -33,50 +32,6 @@ VTK_MODULE_INIT(vtkRenderingContextOpenGL2);
 VTK_MODULE_INIT(vtkRenderingFreeType);
 
 namespace espalier {
-namespace {
-
-/// What VTK says while it draws, instead of on standard error.
-class Listener final : public vtkOutputWindow {
-public:
-    static Listener* New() {
-        auto* made = new Listener;
-        made->InitializeObjectBase();
-        return made;
-    }
-
-    void DisplayText(const char*) override {}
-    void DisplayErrorText(const char* text) override {
-        // Debian's GLEW looks for an X display when it is asked for OpenGL's functions, finds none under EGL and says
-        // so after it has found all functions.
-        if (std::string_view(text).find("GLEW") == std::string_view::npos) errors += text;
-    }
-
-    std::string errors;
-};
-
-/// For as long as it lives, VTK's words come here.
-class Listening {
-public:
-    Listening() : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
-        vtkOutputWindow::SetInstance(listener_);
-        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-    }
-    ~Listening() {
-        vtkLogger::SetStderrVerbosity(verbosity_);
-        vtkOutputWindow::SetInstance(before_);
-    }
-    Listening(const Listening&) = delete;
-    Listening& operator=(const Listening&) = delete;
-
-    const std::string& errors() const { return listener_->errors; }
-
-private:
-    vtkSmartPointer<vtkOutputWindow> before_;
-    vtkLogger::Verbosity verbosity_;
-    vtkNew<Listener> listener_;
-};
-
-}  // namespace
 
 #if ESPALIER_HAS_EGL
 

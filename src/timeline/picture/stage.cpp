@@ -154,7 +154,7 @@ public:
         if (!style_.title.empty()) margins.top += 0.04;
         if (style_.scale_bar || style_.time_beneath) margins.bottom += 0.05;
         CameraPlace from = place;
-        if (is_flat() && place.front_if_flat) from.azimuth = from.elevation = 0;
+        if (is_flat() && place.front_if_flat && !place.turns) from.azimuth = from.elevation = 0;
         view_ = fitted(points, from, place.turns, is_flat(), width / height, margins);
         vtkCamera& camera = *renderer_->GetActiveCamera();
         camera.SetFocalPoint(&view_->focus.x);
@@ -352,7 +352,7 @@ private:
         if (box.empty()) return;
         const glm::dvec3 half = (box.upper - box.lower) / 2.0;
         const glm::dvec3 middle = box.lower + half;
-        const double radius = 1.6 * std::max({half.x, half.z, 0.5 * half.y});
+        const double radius = 1.5 * std::max({half.x, half.z, 0.7 * half.y});
         others_.push_back(ground_actor(middle, radius, daylight, style_.background));
         renderer_->AddViewProp(others_.back());
     }
@@ -421,7 +421,7 @@ private:
         vtkNew<vtkPolyDataMapper> mapper;
         mapper->SetInputData(data);
         mapper->SetResolveCoincidentTopologyToPolygonOffset();
-        mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2);
+        mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(-4, -200);
         const auto actor = vtkSmartPointer<vtkActor>::New();
         actor->SetMapper(mapper);
         actor->PickableOff();
@@ -482,6 +482,10 @@ const PictureStyle& Stage::style() const {
 
 void Stage::restyle(PictureStyle style) {
     body_->restyle(std::move(style));
+}
+
+void Stage::shade(bool shading) {
+    body_->style_.shading = shading;
 }
 
 std::vector<std::string> Stage::colour_names() const {

@@ -73,6 +73,8 @@ public:
     const PictureStyle& style() const;
     /// Takes effect at once. Throws UserError as the constructor does, and keeps the old style then.
     void restyle(PictureStyle style);
+    /// Shadows or none, from the next `show` on.
+    void shade(bool shading);
     /// Everything `colour_by` may be for this run, "natural" first.
     std::vector<std::string> colour_names() const;
 
