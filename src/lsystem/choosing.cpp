@@ -161,6 +161,7 @@ void ChoosingCompiler::tell(LetterId letter, const Outcome& outcome) {
     choosing_.told.push_back({told ? plan.length | std::uint64_t{plan.parameters} << 32 : 0,
                               told ? static_cast<LetterId>(outcome.index) : Choosing::untold, plan.arity,
                               !told || plan.production});
+    choosing_.plans.push_back(&plan);
     choosing_.tells_all &= told;
 }
 

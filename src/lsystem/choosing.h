@@ -3,6 +3,7 @@
 #pragma once
 
 #include "neighbours.h"
+#include "plans.h"
 
 #include <cstdint>
 #include <vector>
@@ -52,7 +53,8 @@ struct Choosing {
     // Tables by letter * places + left class * right_classes + right class.
     static constexpr LetterId untold = no_letter;
     std::vector<Told> told;
-    std::vector<Outcome> outcomes;  ///< of those that are not told
+    std::vector<const Plan*> plans;  ///< of the choices that are told
+    std::vector<Outcome> outcomes;   ///< of those that are not told
     std::uint32_t left_classes = 1, right_classes = 1;
     bool tells_all = true;
 

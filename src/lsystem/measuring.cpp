@@ -57,7 +57,7 @@ public:
           letters_(input.from.letters.data()),
           choices_(scratch.choices.data()),
           changes_(scratch.changes.data() + room(scratch, chunk)),
-          wants_changes_(!choosing_.tells_all || input.model.plans.valued() || input.ancestry != Ancestry::none),
+          wants_changes_(!keeps_places(input)),
           machine_(machine),
           matcher_(input.model, input.view, machine) {
         matcher_.set_draws(input.key, input.step);
@@ -68,7 +68,7 @@ public:
 private:
     template <class ClassOf>
     void run(Chunk& chunk, const ClassOf& class_of);
-    template <bool Changes>
+    void add_up(std::size_t begin, std::size_t end);
     void look_up(std::size_t begin, std::size_t end);
     void pass_replaced(std::size_t begin, std::size_t end);
     void find_out(const Outcome& outcome, std::size_t module, const double* values);
@@ -133,14 +133,14 @@ void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
         const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
         for (std::size_t i = begin; i < end; ++i) choices_[i] = place_of(i);
         if (!wants_changes_) {
-            look_up<false>(begin, end);
+            add_up(begin, end);
             continue;
         }
         looked_up_ = end;
         const std::uint32_t first = change_count_, passed = passed_;
         const std::size_t free = std::clamp(replaced_, begin, end);
         pass_replaced(begin, free);
-        look_up<true>(free, end);
+        look_up(free, end);
         for (std::uint32_t k = first; k < change_count_; ++k) {
             const std::size_t module = chunk.begin + changes_[k].module;
             if (choices_[module] != Choosing::untold) continue;
@@ -166,8 +166,16 @@ void Measuring::pass_replaced(std::size_t begin, std::size_t end) {
     }
 }
 
+/// Measures modules by their places in the table.
+void Measuring::add_up(std::size_t begin, std::size_t end) {
+    const Told* const told = choosing_.told.data();
+    std::uint64_t measure = 0;
+    for (std::size_t i = begin; i < end; ++i) measure += told[choices_[i]].measure;
+    modules_ += static_cast<std::uint32_t>(measure);
+    parameters_ += measure >> 32;
+}
+
 /// Turns places in the table into choices. What changes is as good as random: collecting it is no branch.
-template <bool Changes>
 void Measuring::look_up(std::size_t begin, std::size_t end) {
     const Told* const told = choosing_.told.data();
     LetterId* const choices = choices_;
@@ -178,11 +186,9 @@ void Measuring::look_up(std::size_t begin, std::size_t end) {
         const Told& here = told[choices[i]];
         choices[i] = here.choice;
         measure += here.measure;
-        if constexpr (Changes) {
-            *change = {static_cast<std::uint32_t>(i - begin_), passed};
-            change += here.changes;
-            passed += here.arity;
-        }
+        *change = {static_cast<std::uint32_t>(i - begin_), passed};
+        change += here.changes;
+        passed += here.arity;
     }
     change_count_ = static_cast<std::uint32_t>(change - changes_);
     passed_ = passed;

@@ -157,7 +157,7 @@ void scan_both(const Gazes& gazes, const LetterId* letters, Section<std::uint8_t
     std::fill(rights + part.begin, rights + part.end, std::uint8_t{0});
     std::uint8_t* waits = &sight.first;
     std::uint8_t left = LookLeft::unknown;
-    for (std::size_t i = part.begin; i < part.end; ++i) {
+    for (std::size_t i = part.begin, end = part.end; i < end; ++i) {
         const LetterId letter = letters[i];
         lefts[i] = left;
         if (letter > Alphabet::close_bracket) {

@@ -71,10 +71,23 @@ struct Scratch {
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
     std::vector<std::vector<Stretch>> stretches;  ///< what each chunk wrote
-    Column<LetterId> choices;                     ///< which of its letter's Plan::choices each module takes
-    Column<Change> changes;                       ///< of all chunks, each with room for one more than its modules
-    std::vector<ModuleString> pieces;             ///< of chunks whose length is not known before they are written
+    Column<LetterId> choices;  ///< which of its letter's Plan::choices each module takes, or its place in the table
+    Column<Change> changes;    ///< of all chunks, each with room for one more than its modules
+    std::vector<ModuleString> pieces;  ///< of chunks whose length is not known before they are written
 };
+
+/// The table of choices tells all, and nothing but letters is written: Scratch::choices keeps the places in the table.
+inline bool keeps_places(const StepInput& input) {
+    return input.model.choosing.tells_all && !input.model.plans.valued() && input.ancestry == Ancestry::none;
+}
+
+/// The plan that replaces a module whose choice is made.
+inline const Plan& plan_of(const StepInput& input, const Scratch& scratch, std::size_t module) {
+    const Plan& plan = input.model.plans.of_letter[input.from.letters[module]];
+    if (input.model.plans.all_known) return plan;
+    const LetterId choice = scratch.choices[module];
+    return keeps_places(input) ? *input.model.choosing.plans[choice] : plan.choices[choice];
+}
 
 /// The modules born of one parent in one step.
 class Brood {

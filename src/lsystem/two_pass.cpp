@@ -13,8 +13,7 @@ std::vector<std::uint64_t> count_uses(const StepInput& input, const Scratch& scr
     std::vector<std::uint64_t> uses(productions.size());
     for (const Chunk& chunk : scratch.chunks) {
         for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-            const Plan& plan = input.model.plans.of_letter[input.from.letters[i]];
-            const Plan& used = input.model.plans.all_known ? plan : plan.choices[scratch.choices[i]];
+            const Plan& used = plan_of(input, scratch, i);
             if (used.production) ++uses[static_cast<std::size_t>(used.production - productions.data())];
         }
     }

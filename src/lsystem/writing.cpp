@@ -25,7 +25,7 @@ struct Cursor {
     double* out_values;
     std::uint64_t next = 0;  ///< Plan::next of what was written since the stretch began
 
-    template <bool Valued = true, bool Choosing = false>
+    template <bool Valued = true>
     void pass(const Plan& plan) {
         ++in;
         out += plan.length;
@@ -33,7 +33,7 @@ struct Cursor {
             values += plan.arity;
             out_values += plan.parameters;
         }
-        if constexpr (!Choosing) next += plan.next;  // else nothing is known of the next step
+        next += plan.next;
     }
     /// Passes modules that live on.
     void pass(std::size_t modules, std::size_t parameters) {
@@ -54,8 +54,10 @@ public:
 private:
     std::size_t safe_count() const;
     void write_round(std::size_t count);
-    template <bool Valued, bool Choosing>
+    template <bool Valued>
     void write_each(std::size_t count);
+    template <std::size_t block>
+    void write_letters(std::size_t count);
     void write_runs(std::size_t count);
     void write_run(std::size_t count);
     template <bool Valued>
@@ -72,11 +74,11 @@ private:
     bool write_rest(const Plan& plan, Cursor at);
     void write_values(const Plan& plan, Cursor at);
     [[noreturn]] void report(const EvaluationError& error, const Cursor& at) const;
-    const Plan& plan_at(const LetterId* in) const;
     std::size_t module_at(const LetterId* in) const { return static_cast<std::size_t>(in - letters_); }
     void end_stretch();
 
     const StepInput& input_;
+    const Scratch& scratch_;
     const Plans& plans_;
     const LetterId* const letters_;
     const LetterId* const choices_;
@@ -98,6 +100,7 @@ private:
 
 Writer::Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine, ModuleString& to)
     : input_(input),
+      scratch_(scratch),
       plans_(input.model.plans),
       letters_(input.from.letters.data()),
       choices_(scratch.choices.data()),
@@ -168,34 +171,45 @@ template <bool Valued>
     return true;
 }
 
-template <bool Valued, bool Choosing>
+template <bool Valued>
 void Writer::write_each(std::size_t count) {
-    // Kept at hand: for all the compiler knows, blocks are written over members.
-    const Plan* const plans = plans_.of_letter.data();
-    const LetterId* const letters = letters_;
-    const LetterId* const choices = choices_;
+    const Plan* const plans =
+        plans_.of_letter.data();  // at hand: blocks may be written over members, for all C++ knows
     Cursor at = at_;
     for (const LetterId* const end = at.in + count; at.in != end;) {
-        const Plan* plan = plans + *at.in;
-        if constexpr (Choosing) {
-            plan = plan->choices + choices[at.in - letters];
+        const Plan& plan = plans[*at.in];
+        if (plan.kind == Plan::Kind::copy) {
+            *at.out = *at.in;
+            if constexpr (Valued) copy_values(at.values, at.out_values);
+        } else if (!write_successor<Valued>(plan, at)) {
+            break;
         }
-        // Choices are as good as random: whether a module lives on is no branch, then.
-        if constexpr (!Choosing) {
-            if (plan->kind == Plan::Kind::copy) {
-                *at.out = *at.in;
-                if constexpr (Valued) copy_values(at.values, at.out_values);
-                at.pass<Valued, Choosing>(*plan);
-                continue;
-            }
-        }
-        if (!write_successor<Valued>(*plan, at)) break;
-        at.pass<Valued, Choosing>(*plan);
+        at.pass<Valued>(plan);
     }
     const bool whole = at.in == at_.in + count;
     at_ = at;
     // A value is not finite: what is wrong is found out module by module.
     if (!whole) write_module();
+}
+
+/// Writes letters alone. Choices are as good as random, so that there is no branch for what lives on.
+template <std::size_t block>
+void Writer::write_letters(std::size_t count) {
+    const bool places = keeps_places(input_);
+    const Plan* const* const told = input_.model.choosing.plans.data();
+    const Plan* const plans = plans_.of_letter.data();
+    const LetterId* choice = choices_ + module_at(at_.in);
+    LetterId* out = at_.out;
+    for (const LetterId* in = at_.in, * const end = in + count; in != end; ++in, ++choice) {
+        const Plan& plan = places ? *told[*choice] : plans[*in].choices[*choice];
+        std::memcpy(out, plan.block.data(), block * sizeof(LetterId));
+        if (block == letter_block && plan.length > letter_block) {
+            for (std::size_t k = block; k < plan.length; k += block) copy_letters(plan.letters + k, out + k);
+        }
+        out += plan.length;
+    }
+    at_.in += count;
+    at_.out = out;
 }
 
 /// Writes up to the last change among so many modules.
@@ -249,18 +263,14 @@ void Writer::write_round(std::size_t count) {
     if (in_runs_)
         write_runs(count);
     else if (plans_.all_known)
-        valued_ ? write_each<true, false>(count) : write_each<false, false>(count);
+        valued_ ? write_each<true>(count) : write_each<false>(count);
     else
-        write_each<false, true>(count);
-}
-
-const Plan& Writer::plan_at(const LetterId* in) const {
-    const Plan& plan = plans_.of_letter[*in];
-    return plans_.all_known ? plan : plan.choices[choices_[module_at(in)]];
+        plans_.longest <= letter_block / 2 ? write_letters<letter_block / 2>(count)
+                                           : write_letters<letter_block>(count);
 }
 
 bool Writer::write_module() {
-    const Plan& plan = plan_at(at_.in);
+    const Plan& plan = plan_of(input_, scratch_, module_at(at_.in));
     if (out_end_ - at_.out < std::ptrdiff_t{plan.length} || values_end_ - at_.values < std::ptrdiff_t{plan.reads} ||
         out_values_end_ - at_.out_values < std::ptrdiff_t{plan.parameters}) {
         return false;
