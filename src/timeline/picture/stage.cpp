@@ -336,8 +336,8 @@ private:
         part.actor->SetMapper(mapper);
         vtkProperty& property = *part.actor->GetProperty();
         // Some of the light goes through what is thin.
-        property.SetAmbient(mesh.is_of_axes ? 0.12 : 0.38);
-        property.SetDiffuse(mesh.is_of_axes ? 0.9 : 0.72);
+        property.SetAmbient(mesh.is_of_axes ? 0.12 : 0.48);
+        property.SetDiffuse(mesh.is_of_axes ? 0.9 : 0.6);
         property.SetSpecular(mesh.is_of_axes ? 0.03 : 0.1);
         property.SetSpecularPower(15);
         property.SetLighting(!is_flat());

@@ -1,0 +1,186 @@
+// espalier render, from outside: the files it makes and the words it says.
+#include "catch.h"
+#include "program.h"
+
+#include <array>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+const char* const scene = R"([simulation]
+steps = 4
+[[plants]]
+name = "left"
+model = "bush.l"
+[[plants]]
+name = "right"
+model = "bush.l"
+position = [4, 0, 0]
+[timeline]
+parameters = { length = "F.1" }
+)";
+
+struct RenderPlace : Workplace {
+    RenderPlace() {
+        write("bush.l", models::bush);
+        write("pair.toml", scene);
+    }
+
+    /// False, and says so, where nothing can be drawn.
+    bool grow() const {
+        REQUIRE(run("run pair.toml --output run --quiet").code == 0);
+        const Outcome outcome = run("render run --size 16x16");
+        if (outcome.code == 2 && outcome.err.find("no picture can be drawn here") != std::string::npos) {
+            WARN("skipped: " << outcome.err);
+            return false;
+        }
+        CHECK(outcome.err == "");
+        REQUIRE(outcome.code == 0);
+        return true;
+    }
+
+    std::string bytes(const std::string& name) const { return text_of(path() / name); }
+
+    /// Width and height, as a PNG's header says.
+    std::array<int, 2> size_of(const std::string& name) const {
+        const std::string png = bytes(name);
+        REQUIRE(png.size() > 24);
+        REQUIRE(png.substr(1, 3) == "PNG");
+        const auto number = [&](std::size_t at) {
+            int value = 0;
+            for (std::size_t i = at; i < at + 4; ++i) value = 256 * value + static_cast<unsigned char>(png[i]);
+            return value;
+        };
+        return {number(16), number(20)};
+    }
+};
+
+/// Pictures of a GIF: graphic control extensions.
+int pictures_in_gif(const std::string& bytes) {
+    int count = 0;
+    const std::string mark("\x21\xF9\x04", 3);
+    for (std::size_t at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) ++count;
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("render: a run becomes a picture of the last step, of the size asked for", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    CHECK(place.size_of("run/render.png") == std::array{16, 16});
+    CHECK(place.run("render run --size 120x80 --output a.png").out == "a.png\n");
+    CHECK(place.size_of("a.png") == std::array{120, 80});
+    CHECK(place.run("render run --size 120x80 --output b.png").code == 0);
+    CHECK((place.bytes("a.png") == place.bytes("b.png")));
+    CHECK(place.run("render run --size 120x80 --step 0 --output first.png").code == 0);
+    CHECK((place.bytes("a.png") != place.bytes("first.png")));
+    const Outcome several = place.run("render run --size 60x40 --step 0:4:2 --output s.png");
+    CHECK(several.out == "s-0000.png\ns-0002.png\ns-0004.png\n");
+    CHECK_THAT(place.run("render run --size 60x40 --json --output j.png").out, Contains("\"j.png\""));
+    CHECK(place.run("render run --size 60x40 --quiet --output q.png").out == "");
+}
+
+TEST_CASE("render: every way to look gives a picture of its own", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    std::set<std::string> pictures;
+    int count = 0;
+    for (const char* way :
+         {"", "--dark", "--background '#ffeedd'", "--background transparent", "--colour-by birth", "--colour-by plant",
+          "--colour-by length", "--colour-by length --range 0:5", "--colour-by order --no-legend", "--plant left",
+          "--azimuth 80", "--elevation 60", "--zoom 2", "--scale-bar", "--time", "--title Bushes"}) {
+        const Outcome outcome = place.run(std::string("render run --size 160x120 --output w.png ") + way);
+        CHECK(outcome.err == "");
+        CHECK(outcome.code == 0);
+        pictures.insert(place.bytes("w.png"));
+        ++count;
+    }
+    CHECK(static_cast<int>(pictures.size()) == count);
+}
+
+TEST_CASE("render: a scene is grown first, a model too", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    const Outcome outcome = place.run("render pair.toml --run-output grown --steps 3 --size 60x40 --output s.png");
+    CHECK(outcome.err == "");
+    CHECK(outcome.code == 0);
+    CHECK(place.size_of("s.png") == std::array{60, 40});
+    CHECK(std::filesystem::exists(place.path() / "grown" / "run.json"));
+    CHECK(place.run("render pair.toml --run-output grown --output s.png").code == 1);  // it is there already
+    CHECK(place.run("render pair.toml --run-output grown --overwrite --quiet --size 60x40").out == "");
+    CHECK(place.size_of("grown/render.png") == std::array{60, 40});
+    CHECK(place.run("render bush.l --run-output bush --size 60x40 --quiet").code == 0);
+    CHECK(place.size_of("bush/render.png") == std::array{60, 40});
+}
+
+TEST_CASE("render: a contact sheet holds columns and rows", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    CHECK(place.run("render run --sheet 3x2 --size 80x60 --output sheet.png").code == 0);
+    CHECK(place.size_of("sheet.png") == std::array{240, 120});  // five frames
+    CHECK(place.run("render run --sheet 2x1 --size 80x60 --output sheet.png").code == 0);
+    CHECK(place.size_of("sheet.png") == std::array{160, 60});
+    CHECK(place.run("render run --sheet 2x1 --size 80x60 --colour-by age --output keys.png").code == 0);
+    CHECK(place.size_of("keys.png")[0] > 180);
+}
+
+TEST_CASE("render: films have the frames asked for", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    CHECK(place.run("render run --size 64x48 --output f.ogv").code == 0);
+    CHECK(place.bytes("f.ogv").starts_with("OggS"));
+    CHECK(place.run("render run --size 64x48 --output turn.ogv --step last --orbit 360 --frames 6").code == 0);
+    if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
+        WARN("skipped: no ffmpeg here");
+        return;
+    }
+    CHECK(place.run("render run --size 64x48 --output f.gif").code == 0);
+    CHECK(pictures_in_gif(place.bytes("f.gif")) == 5);
+    CHECK(place.run("render run --size 64x48 --output f.gif --step last --orbit 360 --frames 7").code == 0);
+    CHECK(pictures_in_gif(place.bytes("f.gif")) == 7);
+}
+
+TEST_CASE("render: without ffmpeg it says what to install, exit code 2, and leaves nothing", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    const Outcome outcome = place.run("render run --size 64x48 --output f.mp4", "PATH=/nowhere");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("apt-get install ffmpeg"));
+    CHECK_FALSE(std::filesystem::exists(place.path() / "f.mp4"));
+}
+
+TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[render]") {
+    const RenderPlace place;
+    REQUIRE(place.run("run pair.toml --output run --quiet").code == 0);
+    const auto refuses = [&](const std::string& words, const std::string& answer) {
+        const Outcome outcome = place.run("render run --size 32x24 --output x.png " + words);
+        if (outcome.code == 2) return;  // nothing can be drawn here
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(answer));
+        CHECK_FALSE(std::filesystem::exists(place.path() / "x.png"));
+    };
+    refuses("--colour-by brith", "did you mean 'birth'?");
+    refuses("--field light", "no field 'light'");
+    refuses("--field light:slcie", "did you mean 'slice'?");
+    refuses("--field light:slice=w", "slice=z is expected");
+    refuses("--field light:iso=much", "iso=0.3 is expected");
+    refuses("--field :slice", "the name of a field");
+    refuses("--plant lefft", "did you mean 'left'?");
+    refuses("--step 99", "no frame of step 99");
+    refuses("--background blueish", "#rrggbb");
+    refuses("--background '#12345g'", "#rrggbb");
+    refuses("--range 3:1", "LOW:HIGH");
+    refuses("--range nan:1", "LOW:HIGH");
+    refuses("--size 0x10", "WIDTHxHEIGHT");
+    refuses("--sheet 4", "COLUMNSxROWS");
+    refuses("--sheet 1000x1000", "10,000");
+    refuses("--elevation 100", "100");
+    CHECK(place.run("render run --output x.jpg").code == 1);
+    CHECK(place.run("render nothere").code == 1);
+    CHECK(place.run("render").code == 1);
+}
