@@ -5,14 +5,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <sstream>
 #include <sys/file.h>
+#include <sys/uio.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace espalier {
 namespace {
@@ -32,12 +35,23 @@ fs::path temporary_beside(const fs::path& path) {
     return path.parent_path() / fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string());
 }
 
-void write_all(int descriptor, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t written = ::write(descriptor, text.data(), text.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw std::system_error(errno, std::generic_category());
-        text.remove_prefix(static_cast<std::size_t>(written));
+// In few calls: a kernel that is given much at once takes larger pages for it.
+void write_all(int descriptor, std::span<const std::string_view> parts) {
+    constexpr std::size_t most = 512;  // below IOV_MAX, 1024 where there are such systems
+    std::vector<iovec> pieces;
+    for (const std::string_view part : parts) {
+        if (!part.empty()) pieces.push_back({const_cast<char*>(part.data()), part.size()});
+    }
+    for (std::size_t first = 0; first < pieces.size();) {
+        const std::size_t count = std::min(most, pieces.size() - first);
+        const ssize_t result = ::writev(descriptor, &pieces[first], static_cast<int>(count));
+        if (result < 0 && errno == EINTR) continue;
+        if (result < 0) throw std::system_error(errno, std::generic_category());
+        auto written = static_cast<std::size_t>(result);
+        for (; first < pieces.size() && written >= pieces[first].iov_len; ++first) written -= pieces[first].iov_len;
+        if (written == 0) continue;
+        pieces[first].iov_base = static_cast<char*>(pieces[first].iov_base) + written;
+        pieces[first].iov_len -= written;
     }
 }
 
@@ -75,7 +89,7 @@ void write_text(const fs::path& path, std::span<const std::string_view> parts) {
         const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
         if (descriptor < 0) throw std::system_error(errno, std::generic_category());
         try {
-            for (const std::string_view part : parts) write_all(descriptor, part);
+            write_all(descriptor, parts);
         } catch (...) {
             ::close(descriptor);
             throw;

@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 
 namespace espalier {
@@ -40,7 +41,7 @@ void remove_leaf(Tree& tree, const openvdb::Coord& at) {
 
 struct ShadeGrids::Grids {
     /// A grid; its leaves, and where they are, by the number of a brick; and the bricks that changed since it was made.
-    struct One {
+    struct Version {
         std::shared_ptr<FieldGrid> field;
         std::vector<ShadeLeaf> leaves;
         std::vector<glm::ivec3> places;
@@ -48,21 +49,34 @@ struct ShadeGrids::Grids {
         std::vector<std::uint8_t> marks;
 
         void note(const ShadeBricks& bricks);
+        void forget_changes();
+        Version copy() const;
+        void remove_stale(const ShadeBricks& bricks);
+        void add_new(const ShadeBricks& bricks);
+        bool is_read(long holders) const { return field.use_count() > holders || field->grid.use_count() > 1; }
+
+    private:
+        void place_leaf(std::size_t number, Leaf& leaf);
+    };
+
+    /// A field as it is, and as it was when somebody read it.
+    struct One {
+        Version now;
+        std::vector<Version> before;
+
+        void note(const ShadeBricks& bricks);
         bool prepare(const ShadeBricks& bricks, const VoxelBox& shown);
         template <class Write>
         void bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write);
-        void forget_changes();
 
     private:
         void require_own();
-        void remove_stale(const ShadeBricks& bricks);
-        void add_new(const ShadeBricks& bricks);
-        void place_leaf(std::size_t number, Leaf& leaf);
+        std::size_t most_before() const;
     };
     One light, shade;
 };
 
-void ShadeGrids::Grids::One::note(const ShadeBricks& bricks) {
+void ShadeGrids::Grids::Version::note(const ShadeBricks& bricks) {
     marks.resize(bricks.end(), 0);
     for (const std::uint32_t number : bricks.changed()) {
         if (marks[number]) continue;
@@ -71,31 +85,55 @@ void ShadeGrids::Grids::One::note(const ShadeBricks& bricks) {
     }
 }
 
-void ShadeGrids::Grids::One::forget_changes() {
+void ShadeGrids::Grids::Version::forget_changes() {
     for (const std::uint32_t number : changed) marks[number] = 0;
     changed.clear();
 }
 
-void ShadeGrids::Grids::One::place_leaf(std::size_t number, Leaf& leaf) {
+void ShadeGrids::Grids::Version::place_leaf(std::size_t number, Leaf& leaf) {
     leaves[number] = {leaf.buffer().data(), &leaf.getValueMask().getWord<openvdb::Index64>(0)};
 }
 
-// With more holders than the field and ourselves, someone reads the grid of a step before: it is left to them.
-void ShadeGrids::Grids::One::require_own() {
-    if (field.use_count() <= 2 && field->grid.use_count() == 1) {
-        std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
-        return;
-    }
-    const openvdb::FloatGrid::Ptr copy = field->grid->deepCopy();
-    copy->setTransform(field->grid->transformPtr());  // a copied one is written in other bytes
-    field = std::make_shared<FieldGrid>(FieldGrid{copy, field->box, true});
-    openvdb::FloatGrid::Accessor tree = copy->getAccessor();
+ShadeGrids::Grids::Version ShadeGrids::Grids::Version::copy() const {
+    Version made = *this;
+    const openvdb::FloatGrid::Ptr grid = field->grid->deepCopy();
+    grid->setTransform(field->grid->transformPtr());  // a copied one is written in other bytes
+    made.field = std::make_shared<FieldGrid>(FieldGrid{grid, field->box, true});
+    openvdb::FloatGrid::Accessor tree = grid->getAccessor();
     for (std::size_t number = 0; number < leaves.size(); ++number) {
-        if (leaves[number].values != nullptr) place_leaf(number, *tree.probeLeaf(origin_of(places[number])));
+        if (leaves[number].values != nullptr) made.place_leaf(number, *tree.probeLeaf(origin_of(places[number])));
     }
+    return made;
 }
 
-void ShadeGrids::Grids::One::remove_stale(const ShadeBricks& bricks) {
+void ShadeGrids::Grids::One::note(const ShadeBricks& bricks) {
+    now.note(bricks);
+    for (Version& version : before) version.note(bricks);
+}
+
+/// So many versions are kept, read or not, as take little memory.
+std::size_t ShadeGrids::Grids::One::most_before() const {
+    constexpr std::size_t most_bytes = std::size_t{64} << 20, most = 6;
+    return std::min(most, most_bytes / (now.leaves.size() * sizeof(Leaf) + 1));
+}
+
+// With more holders than the field and ourselves, someone reads the grid of a step before: it is left to them. One that
+// they have read serves again, which is cheaper than a copy.
+void ShadeGrids::Grids::One::require_own() {
+    if (now.is_read(2)) {
+        const auto free = std::find_if(before.begin(), before.end(), [](const Version& v) { return !v.is_read(1); });
+        if (free != before.end()) {
+            std::swap(now, *free);
+        } else {
+            Version made = now.copy();
+            std::swap(now, made);
+            if (before.size() < most_before()) before.push_back(std::move(made));
+        }
+    }
+    std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
+}
+
+void ShadeGrids::Grids::Version::remove_stale(const ShadeBricks& bricks) {
     leaves.resize(bricks.end());
     places.resize(bricks.end());
     for (const std::uint32_t number : changed) {
@@ -106,7 +144,7 @@ void ShadeGrids::Grids::One::remove_stale(const ShadeBricks& bricks) {
     }
 }
 
-void ShadeGrids::Grids::One::add_new(const ShadeBricks& bricks) {
+void ShadeGrids::Grids::Version::add_new(const ShadeBricks& bricks) {
     std::vector<std::uint32_t> numbers;
     for (const std::uint32_t number : changed) {
         if (bricks.exists(number) && leaves[number].values == nullptr) numbers.push_back(number);
@@ -127,22 +165,22 @@ bool ShadeGrids::Grids::One::prepare(const ShadeBricks& bricks, const VoxelBox& 
     // A viewer of an empty field still needs something to show: the voxel at the origin.
     const VoxelBox box = shown.empty() ? VoxelBox{glm::ivec3(0), glm::ivec3(0)} : shown;
     const openvdb::CoordBBox shown_box(coord(box.lower), coord(box.upper));
-    if (changed.empty() && field->box == shown_box) return false;
+    if (now.changed.empty() && now.field->box == shown_box) return false;
     require_own();
-    field->box = shown_box;
-    remove_stale(bricks);
-    add_new(bricks);
+    now.field->box = shown_box;
+    now.remove_stale(bricks);
+    now.add_new(bricks);
     return true;
 }
 
 template <class Write>
 void ShadeGrids::Grids::One::bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write) {
     if (!prepare(bricks, shown)) return;
-    tbb::parallel_for(std::size_t{0}, changed.size(), [&](std::size_t i) {
-        const std::uint32_t number = changed[i];
-        if (bricks.exists(number)) write(bricks.sums(number), leaves[number]);
+    tbb::parallel_for(std::size_t{0}, now.changed.size(), [&](std::size_t i) {
+        const std::uint32_t number = now.changed[i];
+        if (bricks.exists(number)) write(bricks.sums(number), now.leaves[number]);
     });
-    forget_changes();
+    now.forget_changes();
 }
 
 ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, double voxel)
@@ -154,8 +192,8 @@ ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, double voxel)
         grid->setName(field);
         return std::make_shared<FieldGrid>(FieldGrid{grid, {}, true});
     };
-    grids_->light.field = make(name_, light_under(rule, 0));
-    grids_->shade.field = make(name_ + ".shade", 0);
+    grids_->light.now.field = make(name_, light_under(rule, 0));
+    grids_->shade.now.field = make(name_ + ".shade", 0);
 }
 
 ShadeGrids::~ShadeGrids() = default;
@@ -166,12 +204,12 @@ void ShadeGrids::provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fie
         light_asked_for_ = true;
         const auto write = [this](const Shade* sums, const ShadeLeaf& leaf) { write_light(rule_, sums, leaf); };
         grids_->light.bring_up_to_date(bricks, shown, write);
-        return grids_->light.field;
+        return grids_->light.now.field;
     };
     const auto shade = [this, &bricks, &shown]() -> std::shared_ptr<const FieldGrid> {
         note_changes(bricks);
         grids_->shade.bring_up_to_date(bricks, shown, write_shade);
-        return grids_->shade.field;
+        return grids_->shade.now.field;
     };
     fields.provide({name_, "1", "light: what full light the shadows leave", light(), true, light});
     fields.provide({name_ + ".shade", "1", rule_.attenuate ? "optical depth of all shadows" : "sum of all shadows",
@@ -184,8 +222,8 @@ std::span<const ShadeLeaf> ShadeGrids::light_to_write(ShadeBricks& bricks, const
     light_asked_for_ = false;
     note_changes(bricks);
     grids_->light.prepare(bricks, shown);
-    grids_->light.forget_changes();
-    return grids_->light.leaves;
+    grids_->light.now.forget_changes();
+    return grids_->light.now.leaves;
 }
 
 void ShadeGrids::note_changes(ShadeBricks& bricks) {

@@ -7,6 +7,7 @@
 #include "temporary_folder.h"
 
 #include <fstream>
+#include <string_view>
 
 using namespace espalier;
 namespace fs = std::filesystem;
@@ -29,6 +30,21 @@ TEST_CASE("a file that cannot be written whole leaves the old one and nothing be
     }
     CHECK(read_text(file) == "old");
     CHECK(entries(folder.path()) == 1);
+}
+
+TEST_CASE("a file of very many parts, some of them empty, holds them in their order", "[base]") {
+    const TemporaryFolder folder;
+    std::vector<std::string> texts;
+    std::string whole;
+    for (int i = 0; i < 3000; ++i) {
+        texts.push_back(i % 7 == 0 ? "" : std::to_string(i) + std::string(std::size_t(i % 50), 'x'));
+        whole += texts.back();
+    }
+    const std::vector<std::string_view> parts(texts.begin(), texts.end());
+    write_text(folder.path() / "many", parts);
+    CHECK(read_text(folder.path() / "many") == whole);
+    write_text(folder.path() / "none", std::vector<std::string_view>(3));
+    CHECK(read_text(folder.path() / "none").empty());
 }
 
 TEST_CASE("a writer that fails or throws leaves no file", "[base]") {
