@@ -123,7 +123,9 @@ bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& sc
 }
 
 void remember_chunks(const StepInput& input, const ModuleString& to, const Scratch& scratch, Forecast& forecast) {
-    forecast.letters = input.model.plans.looks_ahead ? to.letters.data() : nullptr;
+    forecast.letters = nullptr;
+    if (!input.model.plans.looks_ahead) return;
+    forecast.letters = to.letters.data();
     forecast.modules = to.size();
     forecast.parameters = to.parameters.size();
     forecast.stretches.clear();

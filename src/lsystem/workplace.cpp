@@ -22,10 +22,21 @@ ThreadScratch& of_this_thread() {
 }  // namespace
 
 Machine& Machines::local() const {
-    std::shared_ptr<Machine>& machine = system_.machines.local();
-    if (!machine) machine = std::make_shared<Machine>(system_.machine());
-    machine->attach(&variables_, &services_, Stream::derivation);
-    return *machine;
+    // Of many small plants the next one is mostly of the same L-system. A machine ends with its system, so that another
+    // system in the same place is not mistaken for it.
+    struct Last {
+        const CompiledSystem* system = nullptr;
+        std::weak_ptr<Machine> owned;
+        Machine* machine = nullptr;
+    };
+    static thread_local Last last;
+    if (last.system != &system_ || last.owned.expired()) {
+        std::shared_ptr<Machine>& machine = system_.machines.local();
+        if (!machine) machine = std::make_shared<Machine>(system_.machine());
+        last = {&system_, machine, machine.get()};
+    }
+    last.machine->attach(&variables_, &services_, Stream::derivation);
+    return *last.machine;
 }
 
 Workplace::Workplace(std::size_t modules, std::unique_ptr<Scratch>& own) {
