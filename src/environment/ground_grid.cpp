@@ -31,7 +31,7 @@ GroundGrid::GroundGrid(ParameterFile& file, const EnvironmentContext& context) {
                                     size_[1], cells * sizeof(std::uint32_t) / 1073741824.0));
     }
     counts_.assign(static_cast<std::size_t>(cells), 0);
-    if (const auto path = file.file("input image")) image_ = read_ground_image(*path);
+    if (const auto path = file.file("input image")) image_ = read_picture(*path);
 }
 
 std::optional<std::size_t> GroundGrid::cell(const glm::dvec2& place) const {
@@ -79,7 +79,7 @@ void GroundGrid::remove_disc(const glm::dvec2& centre, double radius) {
     visit_disc(centre, radius, [](std::uint32_t& count) { count -= count > 0; });
 }
 
-GroundImage::Colour GroundGrid::colour(std::size_t cell) const {
+Picture::Colour GroundGrid::colour(std::size_t cell) const {
     if (image_.empty()) return {255, 255, 255};
     const auto width = static_cast<std::size_t>(size_[0]);
     return image_.at((static_cast<double>(cell % width) + 0.5) / static_cast<double>(size_[0]),

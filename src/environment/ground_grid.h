@@ -1,7 +1,8 @@
 // The ground as cells, and how many discs lie over each.
 #pragma once
 
-#include "environment/ground_image.h"
+#include "espalier/environment/picture_file.h"
+
 #include "environment/parameter_file.h"
 
 #include <glm/vec2.hpp>
@@ -28,7 +29,7 @@ public:
 
     std::uint32_t count(std::size_t cell) const { return counts_[cell]; }
     /// Of the image over the cell; white if there is none.
-    GroundImage::Colour colour(std::size_t cell) const;
+    Picture::Colour colour(std::size_t cell) const;
 
     void save(std::ostream& out) const;
     void restore(std::istream& in);
@@ -40,7 +41,7 @@ private:
 
     std::int64_t size_[2];
     glm::dvec2 lower_, range_;
-    GroundImage image_;
+    Picture image_;
     std::vector<std::uint32_t> counts_;
 };
 

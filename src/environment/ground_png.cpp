@@ -16,7 +16,7 @@ namespace {
 struct Chunks {
     std::size_t width = 0, height = 0, channels = 0, bytes = 1;  ///< bytes of a channel
     bool has_palette = false;
-    std::vector<GroundImage::Colour> palette;
+    std::vector<Picture::Colour> palette;
     std::string data;
 };
 
@@ -102,7 +102,7 @@ void unfilter(int filter, std::uint8_t* row, const std::uint8_t* above, std::siz
 void add_pixel(const PictureBytes& bytes, const Chunks& chunks, const std::uint8_t* pixel, PngPicture& picture) {
     if (chunks.has_palette) {
         if (pixel[0] >= chunks.palette.size()) bytes.fail("the picture uses a colour that its palette lacks");
-        const GroundImage::Colour& colour = chunks.palette[pixel[0]];
+        const Picture::Colour& colour = chunks.palette[pixel[0]];
         picture.samples.insert(picture.samples.end(), colour.begin(), colour.end());
         return;
     }

@@ -3,8 +3,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-
-#include "ground_image.h"
+#include "espalier/environment/picture_file.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/environment/picture_file.h"
 
 #include "catch.h"
-#include "environment/ground_image.h"
 #include "exchange_plants.h"
 
 #include <vtkImageData.h>
@@ -48,7 +48,7 @@ int value(int x, int y, int channel) {
 }
 
 int wrong_pixels(const std::filesystem::path& path) {
-    const GroundImage image = read_ground_image(path);
+    const Picture image = read_picture(path);
     if (image.width != 3 || image.height != 2) return 6;
     int wrong = 0;
     for (int y = 0; y < 2; ++y) {
@@ -135,7 +135,7 @@ TEST_CASE("pictures of three kinds, plain and coded, show the same pixels from t
 
 TEST_CASE("pictures that are cut short, huge or none are mistakes that name the file", "[clover]") {
     const auto refused = [](const std::string& name, const std::string& bytes) {
-        return message_of([&] { read_ground_image(written(name, bytes)); });
+        return message_of([&] { read_picture(written(name, bytes)); });
     };
     for (const std::string& whole : {sgi(false), sgi(true)}) {
         for (std::size_t length = 0; length + 1 < whole.size(); length += 7) {

@@ -4,6 +4,7 @@
 
 #include "timeline/export/bytes.h"
 #include "timeline/export/colour.h"
+#include "timeline/export/textures.h"
 
 #include <glm/common.hpp>
 
@@ -38,43 +39,66 @@ void append_chunk(std::string& bytes, std::string_view type, std::string_view co
 
 }  // namespace
 
-template <class T>
-std::size_t Glb::add_accessor(const T* values, std::size_t count, int component_type, const char* type, int target,
-                              Json bounds) {
-    const std::size_t size = count * sizeof(T);
+std::size_t Glb::add_view(const void* bytes, std::size_t size, int target) {
+    binary_.resize((binary_.size() + 3) / 4 * 4);  // behind an image of any length
     Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}};
     if (target != 0) view["target"] = target;
     views_.push_back(std::move(view));
-    binary_.append(reinterpret_cast<const char*>(values), size);
-    Json accessor = {
-        {"bufferView", views_.size() - 1}, {"componentType", component_type}, {"count", count}, {"type", type}};
+    binary_.append(static_cast<const char*>(bytes), size);
+    return views_.size() - 1;
+}
+
+template <class T>
+std::size_t Glb::add_accessor(const T* values, std::size_t count, int component_type, const char* type, int target,
+                              Json bounds) {
+    const std::size_t view = add_view(values, count * sizeof(T), target);
+    Json accessor = {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}};
     accessor.update(bounds);
     accessors_.push_back(std::move(accessor));
     return accessors_.size() - 1;
 }
 
-std::size_t Glb::material(const Rgb& rgb) {
-    const auto [at, is_new] = material_number_.emplace(rgb, materials_.size());
-    if (is_new) {
-        const glm::vec3 colour = linear_light(rgb);
-        materials_.push_back({{"pbrMetallicRoughness",
-                               {{"baseColorFactor", {colour.x, colour.y, colour.z, 1}},
-                                {"metallicFactor", 0},
-                                {"roughnessFactor", 0.9}}},
-                              {"doubleSided", true}});
+std::optional<std::size_t> Glb::texture(const std::string& file) {
+    const auto [at, is_new] = texture_number_.emplace(file, std::nullopt);
+    if (!is_new || file.empty()) return at->second;
+    const std::string png = png_of(run_, file);
+    if (png.empty()) return at->second;
+    images_.push_back({{"bufferView", add_view(png.data(), png.size(), 0)},
+                       {"mimeType", "image/png"},
+                       {"name", std::filesystem::path(file).stem().string()}});
+    textures_.push_back({{"source", images_.size() - 1}});  // without a sampler it repeats
+    constexpr std::size_t colour_type = 25;                 // of a PNG; bit 2: it has an alpha channel
+    if (png[colour_type] & 4) cut_out_.insert(textures_.size() - 1);
+    return at->second = textures_.size() - 1;
+}
+
+std::size_t Glb::material(const ExportMaterial& look) {
+    const auto known = material_number_.find(look);
+    if (known != material_number_.end()) return known->second;
+    const glm::vec3 colour = linear_light(look.rgb);
+    Json surface = {
+        {"baseColorFactor", {colour.x, colour.y, colour.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}};
+    Json material = {{"doubleSided", true}};
+    if (const auto number = texture(look.texture)) {
+        surface["baseColorTexture"] = {{"index", *number}};
+        if (cut_out_.contains(*number)) material["alphaMode"] = "MASK";
     }
-    return at->second;
+    material["pbrMetallicRoughness"] = std::move(surface);
+    materials_.push_back(std::move(material));
+    return material_number_[look] = materials_.size() - 1;
 }
 
 std::size_t Glb::add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
                           const std::vector<glm::vec2>& uvs, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                          const std::vector<std::uint32_t>& material_of, const std::vector<Rgb>& materials) {
+                          const std::vector<std::uint32_t>& material_of, const std::vector<ExportMaterial>& materials) {
     const Json none = Json::object();
+    std::vector<glm::vec2> places;  // in glTF v runs down
+    for (const glm::vec2& uv : uvs) places.emplace_back(uv.x, 1 - uv.y);
     const Json attributes = {
         {"POSITION",
          add_accessor(points.data(), points.size(), float_number, "VEC3", vertex_buffer, bounds_of(points))},
         {"NORMAL", add_accessor(normals.data(), normals.size(), float_number, "VEC3", vertex_buffer, none)},
-        {"TEXCOORD_0", add_accessor(uvs.data(), uvs.size(), float_number, "VEC2", vertex_buffer, none)}};
+        {"TEXCOORD_0", add_accessor(places.data(), places.size(), float_number, "VEC2", vertex_buffer, none)}};
     std::map<std::uint32_t, std::vector<std::uint32_t>> corners;  // of each material
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         auto& list = corners[material_of[i]];
@@ -128,6 +152,8 @@ std::string Glb::bytes(const std::vector<std::size_t>& roots) const {
     add_unless_empty("nodes", nodes_);
     add_unless_empty("meshes", meshes_);
     add_unless_empty("materials", materials_);
+    add_unless_empty("images", images_);
+    add_unless_empty("textures", textures_);
     add_unless_empty("accessors", accessors_);
     add_unless_empty("bufferViews", views_);
     if (!binary_.empty()) json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});

@@ -6,7 +6,10 @@
 #include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,10 +19,13 @@ class Glb {
 public:
     using Json = nlohmann::ordered_json;
 
+    /// Textures are looked for as `texture_image` does.
+    explicit Glb(std::filesystem::path run) : run_(std::move(run)) {}
+
     /// Vertices and triangles of one mesh; returns the mesh's number. `material_of` counts in `materials`.
     std::size_t add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
                          const std::vector<glm::vec2>& uvs, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                         const std::vector<std::uint32_t>& material_of, const std::vector<Rgb>& materials);
+                         const std::vector<std::uint32_t>& material_of, const std::vector<ExportMaterial>& materials);
     /// Returns the node's number.
     std::size_t add_node(Json node);
     /// Samples of `path` ("translation", "rotation", "scale") of a node, linear between `times` in seconds.
@@ -34,12 +40,19 @@ private:
     template <class T>
     std::size_t add_accessor(const T* values, std::size_t count, int component_type, const char* type, int target,
                              Json bounds);
-    std::size_t material(const Rgb& rgb);
+    std::size_t add_view(const void* bytes, std::size_t size, int target);
+    std::size_t material(const ExportMaterial& look);
+    /// Embedded as PNG; nothing if it is no picture.
+    std::optional<std::size_t> texture(const std::string& file);
     std::size_t times_accessor(const std::vector<float>& times);
 
     Json accessors_ = Json::array(), views_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array(),
          nodes_ = Json::array(), samplers_ = Json::array(), channels_ = Json::array();
-    std::map<Rgb, std::size_t> material_number_;
+    Json images_ = Json::array(), textures_ = Json::array();
+    std::filesystem::path run_;
+    std::map<ExportMaterial, std::size_t> material_number_;
+    std::map<std::string, std::optional<std::size_t>> texture_number_;
+    std::set<std::size_t> cut_out_;  ///< textures whose pictures are partly transparent
     std::map<std::vector<float>, std::size_t> times_;
     std::string binary_;
 };

@@ -76,6 +76,10 @@ void append(GrowthNode& node, std::size_t frame, NodePose pose) {
 
 void NodeShape::round() {
     points_key_.clear();
+    textured_uvs_.clear();
+    for (const glm::vec2& uv : uvs) {
+        if (!texture.empty()) textured_uvs_.push_back({uv.x, uv.y});
+    }
     for (const glm::vec3& point : points) {
         points_key_.push_back({static_cast<int>(std::lround(point.x * 1e4f)),
                                static_cast<int>(std::lround(point.y * 1e4f)),
@@ -137,7 +141,9 @@ void GrowthNodes::add_organ(const ExportMesh& mesh, const ExportPart& part) {
     for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
         const auto [a, b, c] = mesh.triangles[i];
         here.organ.triangles.push_back({a - first, b - first, c - first});
-        here.organ.rgb.push_back(mesh.materials[mesh.material_of[i]].rgb);
+        const ExportMaterial& look = mesh.materials[mesh.material_of[i]];
+        here.organ.rgb.push_back(look.rgb);
+        here.organ.texture = look.texture;
     }
     append(here, frame_, *pose);
 }

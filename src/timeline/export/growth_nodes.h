@@ -24,13 +24,15 @@ struct NodeShape {
     std::vector<glm::vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<Rgb> rgb;  ///< of triangles
+    std::string texture;   ///< of all of it
 
-    auto key() const { return std::tie(points_key_, triangles, rgb); }
+    auto key() const { return std::tie(points_key_, triangles, rgb, texture, textured_uvs_); }
     /// Shapes that differ by less than a ten-thousandth are taken for one.
     void round();
 
 private:
     std::vector<std::array<int, 3>> points_key_;
+    std::vector<std::array<float, 2>> textured_uvs_;
 };
 
 /// An internode or an organ: shown from its first to its last pose.

@@ -21,13 +21,11 @@ ExportOptions standing(ExportOptions options) {
 /// Every plant a node with a mesh.
 ExportedFile write_frame(const ExportJob& job, const RecordedFrame& frame) {
     const ExportMesh mesh = mesh_of(job.run.geometry(frame), standing(job.options));
-    std::vector<Rgb> materials;
-    for (const ExportMaterial& material : mesh.materials) materials.push_back(material.rgb);
-    Glb glb;
+    Glb glb(job.run.folder());
     std::vector<std::size_t> roots;
     for (const auto& [plant, own] : by_plant(mesh)) {
         const std::size_t shape =
-            glb.add_mesh(own.points, own.normals, own.uvs, own.triangles, own.material_of, materials);
+            glb.add_mesh(own.points, own.normals, own.uvs, own.triangles, own.material_of, mesh.materials);
         roots.push_back(glb.add_node({{"name", job.run.plants()[plant].name}, {"mesh", shape}}));
     }
     const auto path = job.path(frame, "glb");
@@ -70,7 +68,7 @@ glm::vec4 quaternion(const glm::quat& q) {
 
 class Growth {
 public:
-    explicit Growth(const ExportJob& job) : job_(job), nodes_(standing(job.options)) {}
+    explicit Growth(const ExportJob& job) : job_(job), nodes_(standing(job.options)), glb_(job.run.folder()) {}
 
     ExportedFile write() {
         for (const RecordedFrame* frame : job_.frames) {
@@ -99,12 +97,13 @@ private:
         rounded.round();
         const auto known = shapes_.find(rounded);
         if (known != shapes_.end()) return known->second;
-        std::vector<Rgb> materials;
+        std::vector<ExportMaterial> materials;
         std::vector<std::uint32_t> material_of;
         for (const Rgb& rgb : shape.rgb) {
-            const auto at = std::find(materials.begin(), materials.end(), rgb);
+            const ExportMaterial look{rgb, shape.texture};
+            const auto at = std::find(materials.begin(), materials.end(), look);
             material_of.push_back(static_cast<std::uint32_t>(at - materials.begin()));
-            if (at == materials.end()) materials.push_back(rgb);
+            if (at == materials.end()) materials.push_back(look);
         }
         const std::size_t mesh =
             glb_.add_mesh(shape.points, shape.normals, shape.uvs, shape.triangles, material_of, materials);
@@ -166,10 +165,11 @@ public:
 
 const RegisteredExporter entry{
     {"gltf", "glTF 2.0 (.glb), one frame or the growth as an animation: for the web, Blender, engines",
-     "One frame: a node per plant, smooth tubes, materials by colour. Several (--step all): one file in which every\n"
+     "One frame: a node per plant, smooth tubes, materials by colour and texture (embedded). Several (--step all): one "
+     "file in which every\n"
      "internode and organ is a node that appears at its birth, moves, grows and vanishes, 24 steps a second; it has\n"
      "the shape and colour it was last seen in, an internode a taper to a sixteenth. The vertical is y, as glTF says.\n"
-     "Lost: parameters, textures; in animations smooth joints, and --simplify means nothing"},
+     "Lost: parameters; in animations smooth joints, and --simplify means nothing"},
     [] { return std::make_unique<Gltf>(); }};
 
 }  // namespace

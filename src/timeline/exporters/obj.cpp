@@ -2,6 +2,7 @@
 #include "espalier/base/file.h"
 
 #include "timeline/export/surface_mesh.h"
+#include "timeline/export/textures.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ std::string material_name(const ExportMaterial& material, std::size_t number) {
     return material.texture.empty() ? colour : fmt::format("{}_texture_{}", colour, number);
 }
 
-std::string mtl(const ExportMesh& mesh) {
+std::string mtl(const ExportMesh& mesh, TextureCopies& textures) {
     std::string text = "# made by espalier\n";
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         const ExportMaterial& material = mesh.materials[i];
@@ -25,7 +26,8 @@ std::string mtl(const ExportMesh& mesh) {
         fmt::format_to(std::back_inserter(text),
                        "newmtl {}\nKa 0 0 0\nKd {:.6f} {:.6f} {:.6f}\nKs 0 0 0\nd 1\nillum 1\n",
                        material_name(material, i), red / 255.0, green / 255.0, blue / 255.0);
-        if (!material.texture.empty()) text += "map_Kd " + material.texture + "\n";
+        const std::string& copy = textures.name(material.texture);
+        if (!copy.empty()) text += "map_Kd " + copy + "\n";
     }
     return text;
 }
@@ -75,10 +77,11 @@ private:
 class Obj final : public Exporter {
 public:
     void write(const ExportJob& job) const override {
+        TextureCopies textures(job);
         for (const RecordedFrame* frame : job.frames) {
             const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
             const auto path = job.path(*frame, "obj"), library = job.path(*frame, "mtl");
-            write_text(library, mtl(mesh));
+            write_text(library, mtl(mesh, textures));
             write_text(path, ObjText(job.run, mesh).text(library.filename().string()));
             job.report({path, mesh.points.size(), mesh.triangles.size(), 0, ""});
         }
@@ -87,7 +90,8 @@ public:
 
 const RegisteredExporter entry{
     {"obj", "Wavefront OBJ and MTL, a file per frame: for every 3-D program",
-     "An object per plant, a group per axis and organ; normals, texture coordinates, materials by colour and texture.\n"
+     "An object per plant, a group per axis and organ; normals, texture coordinates, materials by colour and texture,\n"
+     "textures as .png beside it.\n"
      "Lost: time, identities, parameters; a point's colour other than its face's"},
     [] { return std::make_unique<Obj>(); }};
 

@@ -5,6 +5,7 @@
 #include "timeline/export/colour.h"
 #include "timeline/export/surface_mesh.h"
 #include "timeline/export/tubes.h"
+#include "timeline/export/usd_materials.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -29,21 +30,19 @@ public:
         values_.emplace_back(step, std::move(value));
     }
 
-    void append_to(std::string& text) const {
+    void append_to(std::string& text, std::size_t indent = 12) const {
+        const std::string margin(indent, ' ');
+        const auto add = [&](fmt::string_view format, const auto&... values) {
+            fmt::vformat_to(std::back_inserter(text), fmt::format("{}{}\n", margin, format),
+                            fmt::make_format_args(values...));
+        };
         const std::string metadata =
-            metadata_.empty() ? ""
-                              : fmt::format(" (\n                interpolation = \"{}\"\n            )", metadata_);
-        if (values_.size() == 1) {
-            fmt::format_to(std::back_inserter(text), "            {} = {}{}\n", declaration_, values_[0].second,
-                           metadata);
-            return;
-        }
-        if (!metadata.empty()) fmt::format_to(std::back_inserter(text), "            {}{}\n", declaration_, metadata);
-        fmt::format_to(std::back_inserter(text), "            {}.timeSamples = {{\n", declaration_);
-        for (const auto& [step, value] : values_) {
-            fmt::format_to(std::back_inserter(text), "                {}: {},\n", step, value);
-        }
-        text += "            }\n";
+            metadata_.empty() ? "" : fmt::format(" (\n{0}    interpolation = \"{1}\"\n{0})", margin, metadata_);
+        if (values_.size() == 1) return add("{} = {}{}", declaration_, values_[0].second, metadata);
+        if (!metadata.empty()) add("{}{}", declaration_, metadata);
+        add("{}.timeSamples = {{", declaration_);
+        for (const auto& [step, value] : values_) add("    {}: {},", step, value);
+        text += margin + "}\n";
     }
 
 private:
@@ -118,9 +117,15 @@ public:
         vertices_ += curves.points.size();
     }
 
-    void add(int step, const ExportMesh& mesh) {
+    void add(int step, const ExportMesh& mesh, UsdMaterials& materials) {
         std::vector<Rgb> rgb;
-        for (const std::uint32_t material : mesh.material_of) rgb.push_back(mesh.materials[material].rgb);
+        for (std::size_t i = 0; i < mesh.material_of.size(); ++i) {
+            const ExportMaterial& look = mesh.materials[mesh.material_of[i]];
+            rgb.push_back(look.rgb);
+            const std::string& name = materials.name(look);
+            if (!name.empty()) faces_[name][step].push_back(i);
+        }
+        steps_.push_back(step);
         triangles_ += rgb.size();
         vertices_ += mesh.points.size();
         face_counts_.add(step, numbers(std::vector<int>(rgb.size(), 3)));
@@ -149,6 +154,7 @@ public:
         text +=
             "        }\n        def Mesh \"surfaces\"\n        {\n            uniform bool doubleSided = true\n"
             "            uniform token subdivisionScheme = \"none\"\n";
+        for (const auto& [material, faces] : faces_) append_subset(text, material, faces);
         for (const Samples* samples :
              {&face_counts_, &corners_, &mesh_points_, &normals_, &uvs_, &mesh_colours_, &mesh_extent_, &mesh_shown_}) {
             samples->append_to(text);
@@ -157,6 +163,25 @@ public:
     }
 
 private:
+    /// The faces that wear a material at each step.
+    void append_subset(std::string& text, const std::string& material,
+                       const std::map<int, std::vector<std::size_t>>& faces) const {
+        fmt::format_to(std::back_inserter(text),
+                       "            def GeomSubset \"{0}\" (\n                prepend apiSchemas = "
+                       "[\"MaterialBindingAPI\"]\n            )\n            {{\n"
+                       "                uniform token elementType = \"face\"\n"
+                       "                uniform token familyName = \"materialBind\"\n"
+                       "                rel material:binding = </world/materials/{0}>\n",
+                       material);
+        Samples indices("int[] indices", "");
+        for (const int step : steps_) {
+            const auto worn = faces.find(step);
+            indices.add(step, worn == faces.end() ? "[]" : numbers(worn->second));
+        }
+        indices.append_to(text, 16);
+        text += "            }\n";
+    }
+
     Samples counts_{"int[] curveVertexCounts", ""}, points_{"point3f[] points", ""},
         widths_{"float[] widths", "vertex"}, colours_{"color3f[] primvars:displayColor", "vertex"},
         births_{"int[] primvars:birth", "vertex"}, extent_{"float3[] extent", ""}, shown_{"token visibility", ""};
@@ -164,6 +189,8 @@ private:
         mesh_points_{"point3f[] points", ""}, normals_{"normal3f[] normals", "vertex"},
         uvs_{"texCoord2f[] primvars:st", "vertex"}, mesh_colours_{"color3f[] primvars:displayColor", "uniform"},
         mesh_extent_{"float3[] extent", ""}, mesh_shown_{"token visibility", ""};
+    std::map<std::string, std::map<int, std::vector<std::size_t>>> faces_;  ///< of each material, by step
+    std::vector<int> steps_;
     std::size_t vertices_ = 0, triangles_ = 0;
 };
 
@@ -201,6 +228,7 @@ class Usd final : public Exporter {
 public:
     void write(const ExportJob& job) const override {
         std::vector<PlantSamples> plants(job.run.plants().size());
+        UsdMaterials materials(job);
         const auto wanted = [&](std::uint32_t plant) { return !job.options.plant || *job.options.plant == plant; };
         for (const RecordedFrame* frame : job.frames) {
             const RecordedGeometry geometry = job.run.geometry(*frame);
@@ -209,7 +237,7 @@ public:
             for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
                 if (!wanted(plant)) continue;
                 plants[plant].add(frame->step, curves[plant]);
-                plants[plant].add(frame->step, surfaces[plant]);
+                plants[plant].add(frame->step, surfaces[plant], materials);
             }
         }
         std::string text = head(job);
@@ -221,6 +249,7 @@ public:
             vertices += plants[plant].vertices();
             triangles += plants[plant].triangles();
         }
+        materials.append_to(text);
         text += "}\n";
         const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], "usda") : job.path("usda");
         write_text(path, text);
@@ -241,8 +270,9 @@ private:
 const RegisteredExporter entry{
     {"usd", "USD as text (.usda), growth as time samples: for Houdini, Blender, Omniverse, usdview",
      "One file: per plant the axes as curves with widths, colour and birth at every node, the surfaces as a mesh, and\n"
-     "when either is visible. A step is a time code, 24 of them a second; --step all for the whole growth.\n"
-     "Lost: identities, parameters, textures; --sides means nothing to curves"},
+     "when either is visible; textures as .png beside it. A step is a time code, 24 of them a second; --step all for "
+     "the whole growth.\n"
+     "Lost: identities, parameters; --sides means nothing to curves"},
     [] { return std::make_unique<Usd>(); }};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Pictures of the ground: SGI (.rgb), Targa (.tga) and PNG (.png) files.
+// Files of pictures, of the ground or on surfaces: SGI (.rgb), Targa (.tga) and PNG (.png) files.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace espalier {
 
-struct GroundImage {
+struct Picture {
     using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue
 
     std::size_t width = 0, height = 0;
@@ -22,6 +22,6 @@ struct GroundImage {
 
 /// The kind is told by the last three letters of the name. Throws UserError, naming the file, if it is no such picture,
 /// ends too early or has more than 2^28 pixels.
-GroundImage read_ground_image(const std::filesystem::path& path);
+Picture read_picture(const std::filesystem::path& path);
 
 }  // namespace espalier

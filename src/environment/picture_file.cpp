@@ -1,4 +1,4 @@
-#include "ground_image.h"
+#include "espalier/environment/picture_file.h"
 
 #include "picture_bytes.h"
 
@@ -10,18 +10,18 @@
 namespace espalier {
 namespace {
 
-GroundImage black(const PictureBytes& bytes, std::size_t width, std::size_t height) {
+Picture black(const PictureBytes& bytes, std::size_t width, std::size_t height) {
     bytes.require_size(width, height, 512);  // no run-length code says more
-    GroundImage image{width, height, {}};
+    Picture image{width, height, {}};
     image.pixels.resize(width * height);
     return image;
 }
 
-GroundImage from_png(const PngPicture& picture) {
-    GroundImage image{picture.width, picture.height, {}};
+Picture from_png(const PngPicture& picture) {
+    Picture image{picture.width, picture.height, {}};
     for (std::size_t y = picture.height; y-- > 0;) {
         for (std::size_t x = 0; x < picture.width; ++x) {
-            GroundImage::Colour& colour = image.pixels.emplace_back();
+            Picture::Colour& colour = image.pixels.emplace_back();
             for (std::size_t k = 0; k < 3; ++k) {
                 const int sample = picture.at(x, y, k);
                 colour[k] = static_cast<std::uint8_t>(picture.greatest > 255 ? sample / 256 : sample);
@@ -33,7 +33,7 @@ GroundImage from_png(const PngPicture& picture) {
 
 // --- SGI: planes of rows, the lowest first, plain or run-length coded (Haeberli, SGI image file format 1.00) ---
 
-void read_sgi_run_lengths(const PictureBytes& bytes, std::size_t at, GroundImage& image, std::size_t row,
+void read_sgi_run_lengths(const PictureBytes& bytes, std::size_t at, Picture& image, std::size_t row,
                           std::size_t channel) {
     for (std::size_t x = 0; x < image.width;) {
         const std::uint8_t code = bytes.at(at++);
@@ -46,14 +46,14 @@ void read_sgi_run_lengths(const PictureBytes& bytes, std::size_t at, GroundImage
     }
 }
 
-GroundImage read_sgi(const PictureBytes& bytes) {
+Picture read_sgi(const PictureBytes& bytes) {
     if (bytes.big(0) != 474) bytes.fail("this is no SGI picture");
     const bool coded = bytes.at(2) == 1;
     if (bytes.at(3) != 1) bytes.fail("only SGI pictures of 8 bits a channel can be read");
     const std::size_t dimensions = bytes.big(4);
     const std::size_t height = dimensions > 1 ? bytes.big(8) : 1;
     const std::size_t planes = dimensions > 2 ? bytes.big(10) : 1;
-    GroundImage image = black(bytes, bytes.big(6), height);
+    Picture image = black(bytes, bytes.big(6), height);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const std::size_t plane = planes >= 3 ? channel : 0;  // grey in all three
         for (std::size_t row = 0; row < height; ++row) {
@@ -72,12 +72,12 @@ GroundImage read_sgi(const PictureBytes& bytes) {
 
 // --- Targa: blue, green, red, plain or run-length coded (Truevision TGA 2.0) ---
 
-GroundImage::Colour targa_pixel(const PictureBytes& bytes, std::size_t at, std::size_t channels) {
+Picture::Colour targa_pixel(const PictureBytes& bytes, std::size_t at, std::size_t channels) {
     if (channels == 1) return {bytes.at(at), bytes.at(at), bytes.at(at)};
     return {bytes.at(at + 2), bytes.at(at + 1), bytes.at(at)};
 }
 
-GroundImage read_targa(const PictureBytes& bytes) {
+Picture read_targa(const PictureBytes& bytes) {
     const int kind = bytes.at(2);
     const std::size_t channels = bytes.at(16) / 8u;
     const bool coded = kind == 10 || kind == 11;
@@ -88,7 +88,7 @@ GroundImage read_targa(const PictureBytes& bytes) {
                         "pixel",
                         kind, int{bytes.at(16)}));
     }
-    GroundImage image = black(bytes, bytes.little(12), bytes.little(14));
+    Picture image = black(bytes, bytes.little(12), bytes.little(14));
     const bool top_first = bytes.at(17) & 32u;
     std::size_t at = 18u + bytes.at(0) + bytes.little(5) * ((bytes.at(7) + 7u) / 8u);
     std::size_t left = 0;  // of the packet
@@ -110,7 +110,7 @@ GroundImage read_targa(const PictureBytes& bytes) {
 
 }  // namespace
 
-const GroundImage::Colour& GroundImage::at(double u, double v) const {
+const Picture::Colour& Picture::at(double u, double v) const {
     const auto index = [](double part, std::size_t count) {
         const double scaled = std::clamp(part, 0.0, 1.0) * static_cast<double>(count);
         return std::min(static_cast<std::size_t>(scaled), count - 1);
@@ -118,7 +118,7 @@ const GroundImage::Colour& GroundImage::at(double u, double v) const {
     return pixels[index(v, height) * width + index(u, width)];
 }
 
-GroundImage read_ground_image(const std::filesystem::path& path) {
+Picture read_picture(const std::filesystem::path& path) {
     const std::string name = path.filename().string();
     const PictureBytes bytes(path);
     if (name.ends_with("rgb")) return read_sgi(bytes);
