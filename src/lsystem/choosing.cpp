@@ -254,7 +254,12 @@ std::optional<Outcome> ChoosingCompiler::drawn(const Candidates& candidates) {
     const auto [at, made] = lotteries_.try_emplace(candidates, static_cast<std::uint32_t>(choosing_.lotteries.size()));
     if (made) {
         Lottery lottery;
-        lottery.choices.push_back(pool[0].choice);
+        const LetterId letter = rules_.productions[candidates[0]].strict[0].letter;
+        const auto prize = [&](LetterId choice) {
+            const Plan& plan = system_.plans.of_letter[letter].choices[choice];
+            return Lottery::Prize{choice, plan.length | std::uint64_t{plan.parameters} << 32};
+        };
+        lottery.prizes.push_back(prize(pool[0].choice));
         for (std::size_t k = 1; k < pool.size(); ++k) {
             // The smallest draw that falls on this production or one behind it.
             std::uint64_t low = 0, high = most_draws;
@@ -266,7 +271,7 @@ std::optional<Outcome> ChoosingCompiler::drawn(const Candidates& candidates) {
                     low = middle + 1;
             }
             lottery.limits.push_back(low);
-            lottery.choices.push_back(pool[k].choice);
+            lottery.prizes.push_back(prize(pool[k].choice));
         }
         choosing_.lotteries.push_back(std::move(lottery));
     }

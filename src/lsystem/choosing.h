@@ -33,8 +33,12 @@ struct Trial {
 /// Productions of constant weights that all apply. The choice is that after as many limits as are not above the draw,
 /// in units of 2^-53.
 struct Lottery {
+    struct Prize {
+        LetterId choice;
+        std::uint64_t measure;  ///< modules and (from bit 32 on) parameters
+    };
     std::vector<std::uint64_t> limits;
-    std::vector<LetterId> choices;  ///< one more than limits
+    std::vector<Prize> prizes;  ///< one more than limits
 };
 
 /// What the table tells of a letter between two classes of neighbours.

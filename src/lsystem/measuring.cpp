@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
 
 namespace espalier {
 namespace {
@@ -69,7 +70,7 @@ private:
     template <class ClassOf>
     void run(Chunk& chunk, const ClassOf& class_of);
     void add_up(std::size_t begin, std::size_t end);
-    void look_up(std::size_t begin, std::size_t end);
+    void look_up(const LetterId* places, std::size_t begin, std::size_t end);
     void pass_replaced(std::size_t begin, std::size_t end);
     void find_out(const Outcome& outcome, std::size_t module, const double* values);
     void replace(std::size_t begin, std::size_t end);
@@ -77,7 +78,10 @@ private:
     void spell(const Trial& trial, std::size_t module, const double* values);
     void test(std::uint32_t trial, std::size_t module, const double* values);
     void decide(std::uint32_t trial);
-    void draw(std::uint32_t lottery, std::size_t module);
+    void draw(std::uint32_t lottery, std::size_t module) {
+        waiting_[waiting_count_] = {static_cast<std::uint32_t>(module), lottery};
+        if (++waiting_count_ == drawn_at_once) hold_lotteries();
+    }
     void hold_lotteries();
     void take(std::size_t module, LetterId choice);
     void take(std::size_t module, const CompiledProduction* production);
@@ -105,7 +109,6 @@ private:
         std::uint32_t module, lottery;
     };
     std::array<Draw, drawn_at_once> waiting_;
-    std::array<Identity, drawn_at_once> drawers_;
     std::size_t waiting_count_ = 0;
 };
 
@@ -127,11 +130,14 @@ void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
     const auto places = static_cast<LetterId>(choosing_.places());
     const auto place_of = [&](std::size_t i) { return static_cast<LetterId>(letters_[i] * places + class_of(i)); };
     const double* values = input_.from.parameters.data() + chunk.parameters_at;
+    const bool letters_are_places = std::is_same_v<ClassOf, NoClasses> && wants_changes_;
     begin_ = chunk.begin;
     for (std::size_t trial = 0; trial < choosing_.trials.size(); ++trial) machine_.batch(trial).count = 0;
     for (std::size_t begin = chunk.begin; begin < chunk.end; begin += looked_up_at_once) {
         const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
-        for (std::size_t i = begin; i < end; ++i) choices_[i] = place_of(i);
+        if (!letters_are_places) {
+            for (std::size_t i = begin; i < end; ++i) choices_[i] = place_of(i);
+        }
         if (!wants_changes_) {
             add_up(begin, end);
             continue;
@@ -140,11 +146,15 @@ void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
         const std::uint32_t first = change_count_, passed = passed_;
         const std::size_t free = std::clamp(replaced_, begin, end);
         pass_replaced(begin, free);
-        look_up(free, end);
+        look_up(letters_are_places ? letters_ : choices_, free, end);
         for (std::uint32_t k = first; k < change_count_; ++k) {
             const std::size_t module = chunk.begin + changes_[k].module;
             if (choices_[module] != Choosing::untold) continue;
-            find_out(choosing_.outcomes[place_of(module)], module, values + (changes_[k].parameters - passed));
+            const Outcome& outcome = choosing_.outcomes[place_of(module)];
+            if (outcome.way == Outcome::Way::drawn)
+                draw(outcome.index, module);
+            else
+                find_out(outcome, module, values + (changes_[k].parameters - passed));
         }
         values += passed_ - passed;
     }
@@ -176,14 +186,14 @@ void Measuring::add_up(std::size_t begin, std::size_t end) {
 }
 
 /// Turns places in the table into choices. What changes is as good as random: collecting it is no branch.
-void Measuring::look_up(std::size_t begin, std::size_t end) {
+void Measuring::look_up(const LetterId* places, std::size_t begin, std::size_t end) {
     const Told* const told = choosing_.told.data();
     LetterId* const choices = choices_;
     Change* change = changes_ + change_count_;
     std::uint64_t measure = 0;
     std::uint32_t passed = passed_;
     for (std::size_t i = begin; i < end; ++i) {
-        const Told& here = told[choices[i]];
+        const Told& here = told[places[i]];
         choices[i] = here.choice;
         measure += here.measure;
         *change = {static_cast<std::uint32_t>(i - begin_), passed};
@@ -197,9 +207,7 @@ void Measuring::look_up(std::size_t begin, std::size_t end) {
 }
 
 void Measuring::find_out(const Outcome& outcome, std::size_t module, const double* values) {
-    if (outcome.way == Outcome::Way::drawn)
-        draw(outcome.index, module);
-    else if (outcome.way == Outcome::Way::tested)
+    if (outcome.way == Outcome::Way::tested)
         test(outcome.index, module, values);
     else if (outcome.way == Outcome::Way::matched)
         match(choosing_.trials[outcome.index], module, values);
@@ -286,20 +294,20 @@ void Measuring::replace(std::size_t begin, std::size_t end) {
     }
 }
 
-void Measuring::draw(std::uint32_t lottery, std::size_t module) {
-    waiting_[waiting_count_] = {static_cast<std::uint32_t>(module), lottery};
-    drawers_[waiting_count_] = input_.from.identities[module];
-    if (++waiting_count_ == drawn_at_once) hold_lotteries();
-}
-
 void Measuring::hold_lotteries() {
+    std::array<Identity, drawn_at_once> drawers;
     std::array<std::uint64_t, drawn_at_once> draws;
-    first_draws(input_.key, input_.step, {drawers_.data(), waiting_count_}, draws.data());
+    const Identity* const identities = input_.from.identities.data();
+    for (std::size_t k = 0; k < waiting_count_; ++k) drawers[k] = identities[waiting_[k].module];
+    first_draws(input_.key, input_.step, {drawers.data(), waiting_count_}, draws.data());
     for (std::size_t k = 0; k < waiting_count_; ++k) {
         const Lottery& lottery = choosing_.lotteries[waiting_[k].lottery];
         std::size_t fallen = 0;
         for (const std::uint64_t limit : lottery.limits) fallen += draws[k] >= limit;
-        take(waiting_[k].module, lottery.choices[fallen]);
+        const auto [choice, measure] = lottery.prizes[fallen];
+        choices_[waiting_[k].module] = choice;
+        modules_ += static_cast<std::uint32_t>(measure);
+        parameters_ += measure >> 32;
     }
     waiting_count_ = 0;
 }
