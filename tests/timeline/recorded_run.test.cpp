@@ -4,8 +4,10 @@
 #include "catch.h"
 #include "timeline/recorded_folder.h"
 
+#include <atomic>
 #include <cmath>
 #include <random>
+#include <thread>
 
 using namespace espalier;
 
@@ -104,6 +106,29 @@ TEST_CASE("statistics and life spans read back", "[reading]") {
         CHECK(life.death == 5);
         CHECK(lives.symbol_names[life.symbol] == "F");
     }
+}
+
+TEST_CASE("an index is read while it gets longer", "[reading]") {
+    RunFolder folder;
+    Timeline timeline(folder.path, timeline_table(), 4);
+    const HandmadePlant plant = seedling();
+    record(timeline, 0, {&plant});
+    timeline.write_run(run_json);
+    std::atomic<bool> done{false};
+    std::thread writer([&] {
+        for (int step = 1; step <= 300; ++step) record(timeline, step, {&plant});
+        done = true;
+    });
+    std::size_t before = 1, readings = 0;
+    while (!done) {
+        const std::size_t frames = RecordedRun(folder.path).frames().size();
+        CHECK(frames >= before);
+        before = frames;
+        ++readings;
+    }
+    writer.join();
+    CHECK(readings > 1);
+    CHECK(RecordedRun(folder.path).frames().size() == 301);
 }
 
 TEST_CASE("what is missing is named", "[reading]") {

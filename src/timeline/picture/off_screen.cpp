@@ -110,18 +110,18 @@ public:
 
 #endif
 
+// Stays connected: an X server may begin anew when the last program leaves it (Xvfb does), and VTK, which comes next,
+// does not survive being turned away meanwhile.
 bool has_display() {
-    if (!std::getenv("DISPLAY")) return false;
-    void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
-    if (!library) return false;
-    using Open = void* (*)(const char*);
-    using Close = int (*)(void*);
-    const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
-    const auto close = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
-    void* display = open && close ? open(nullptr) : nullptr;
-    if (display) close(display);
-    dlclose(library);
-    return display != nullptr;
+    static const bool answers = [] {
+        if (!std::getenv("DISPLAY")) return false;
+        void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
+        if (!library) return false;
+        using Open = void* (*)(const char*);
+        const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
+        return open && open(nullptr);
+    }();
+    return answers;
 }
 
 std::string why_no_pictures() {

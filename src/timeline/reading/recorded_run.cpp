@@ -42,25 +42,34 @@ struct CollectionEntry {
     fs::path file;
 };
 
-// The entries of a .pvd in their order; none if there is no such file.
-std::vector<CollectionEntry> read_collection(const fs::path& path) {
+std::vector<CollectionEntry> entries_of(const fs::path& path, const std::string& text) {
     std::vector<CollectionEntry> entries;
-    if (!fs::exists(path)) return entries;
-    const std::string text = read_text(path);
-    try {
-        const XmlElement root = parse_xml(text);
-        const XmlElement* collection = root.child("Collection");
-        if (!collection) fail(path, "it has no element 'Collection'");
-        for (const XmlElement& entry : collection->children) {
-            if (entry.name != "DataSet") continue;
-            if (entry.attribute("file").empty()) fail(path, "a data set has no file");
-            entries.push_back({number(path, entry.attribute("timestep")), entry.attribute("name"),
-                               path.parent_path() / entry.attribute("file")});
-        }
-    } catch (const XmlError& error) {
-        fail(path, error.what());
+    const XmlElement root = parse_xml(text);
+    const XmlElement* collection = root.child("Collection");
+    if (!collection) fail(path, "it has no element 'Collection'");
+    for (const XmlElement& entry : collection->children) {
+        if (entry.name != "DataSet") continue;
+        if (entry.attribute("file").empty()) fail(path, "a data set has no file");
+        entries.push_back({number(path, entry.attribute("timestep")), entry.attribute("name"),
+                           path.parent_path() / entry.attribute("file")});
     }
     return entries;
+}
+
+// The entries of a .pvd in their order; none if there is no such file. A run that is going puts new ones over the
+// file's end: who reads just then finds the old end and the new one, and reads once more.
+std::vector<CollectionEntry> read_collection(const fs::path& path) {
+    if (!fs::exists(path)) return {};
+    std::string text = read_text(path);
+    for (;;) {
+        try {
+            return entries_of(path, text);
+        } catch (const XmlError& error) {
+            std::string again = read_text(path);
+            if (again == text) fail(path, error.what());
+            text = std::move(again);
+        }
+    }
 }
 
 std::vector<RecordedFrame> read_frames(const fs::path& folder, double dt) {
