@@ -113,6 +113,9 @@ TEST_CASE("a glTF holds its textures as PNG, and what wears them names them", "[
         return material["pbrMetallicRoughness"].contains("baseColorTexture");
     };
     CHECK(textured(json["materials"][0]) != textured(json["materials"][1]));
+    // There is no colour map: the picture's colours are not multiplied by anything.
+    const nlohmann::json& material = json["materials"][textured(json["materials"][0]) ? 0 : 1];
+    CHECK(material["pbrMetallicRoughness"]["baseColorFactor"] == nlohmann::json({1, 1, 1, 1}));
     const auto& places = json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"].get<int>()];
     const auto& uvs = json["bufferViews"][places["bufferView"].get<std::size_t>()];
     float first[2];

@@ -127,8 +127,11 @@ private:
         if (corners.size() < 3) return;
         require_room(corners.size());
         const std::uint16_t texture = geometry_.textures[row];
-        const std::uint32_t look = material(
-            {colour_of(geometry_.of_cells, row), texture == 0 ? std::string() : geometry_.texture_files[texture]});
+        ExportMaterial worn{colour_of(geometry_.of_cells, row), ""};
+        if (texture != 0) worn.texture = geometry_.texture_files[texture];
+        // Where nobody gave a colour the picture has it.
+        if (texture != 0 && geometry_.of_cells.rgb.empty()) worn.rgb = {255, 255, 255};
+        const std::uint32_t look = material(worn);
         const std::uint32_t first = vertex(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i) {
             const std::array<std::uint32_t, 3> triangle{first, vertex(corners[i - 1]), vertex(corners[i])};

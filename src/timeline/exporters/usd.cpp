@@ -154,6 +154,9 @@ public:
         text +=
             "        }\n        def Mesh \"surfaces\"\n        {\n            uniform bool doubleSided = true\n"
             "            uniform token subdivisionScheme = \"none\"\n";
+        if (!faces_.empty()) {
+            text += "            uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n";
+        }
         for (const auto& [material, faces] : faces_) append_subset(text, material, faces);
         for (const Samples* samples :
              {&face_counts_, &corners_, &mesh_points_, &normals_, &uvs_, &mesh_colours_, &mesh_extent_, &mesh_shown_}) {
