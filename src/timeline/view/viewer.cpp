@@ -20,7 +20,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t frames_ahead = 3;
-constexpr double pick_tolerance = 0.003;  ///< of the window's diagonal: thin twigs must be hit too
+constexpr std::size_t slow_organs = 100'000;  ///< so many take a while to be drawn, and their shadows seconds
+constexpr auto rest = 250ms;                  ///< after which somebody looks at a frame
+constexpr double pick_tolerance = 0.003;      ///< of the window's diagonal: thin twigs must be hit too
 constexpr double usual_dots_per_inch = 96;
 
 float scale_of(vtkRenderWindow& window) {
@@ -42,6 +44,21 @@ std::vector<FieldLook> looks_of(const RecordedRun& run) {
         }
     }
     return looks;
+}
+
+void merge(StageSurvey& all, const StageSurvey& one) {
+    if (!one.box.empty()) {
+        all.box.add(one.box.lower);
+        all.box.add(one.box.upper);
+    }
+    all.outline.add(one.outline);
+    const auto widen = [](std::array<double, 2>& range, const std::array<double, 2>& by) {
+        range = {std::min(range[0], by[0]), std::max(range[1], by[1])};
+    };
+    if (one.range) widen(all.range ? *all.range : all.range.emplace(*one.range), *one.range);
+    for (const auto& [name, range] : one.field_ranges) {
+        widen(all.field_ranges.try_emplace(name, range).first->second, range);
+    }
 }
 
 }  // namespace
@@ -87,6 +104,7 @@ void Viewer::tick() {
     }
     play();
     show_frame();
+    add_shadows();
     read_history();
     if (size_ != std::array{window_.GetSize()[0], window_.GetSize()[1]}) dirty_ = true;
     if (dirty_) draw();
@@ -95,6 +113,7 @@ void Viewer::tick() {
 bool Viewer::is_settled() const {
     if (frames().empty()) return !simulation_.running;
     const bool has_frame = shown_ == frames()[frame_].step || !error_.empty();
+    if (wants_shadows() && error_.empty()) return false;
     return has_frame && !dirty_ && !playing_ && (!organ_ || (history_ && history_->finished));
 }
 
@@ -173,24 +192,52 @@ void Viewer::put_on_stage(const RecordedFrame& frame, const std::shared_ptr<cons
     error_ = data->error;
     dirty_ = true;
     shown_ = frame.step;
+    frame_since_ = Clock::now();
     asked_.reset();
     if (!error_.empty()) return;
     const bool is_first = !stage_;
     if (is_first) make_stage();
     try {
-        stage_->show(frame, {data, &data->geometry});
+        if (!simulation_.running && !settled_) settle();
+        stage_->shade(false);
+        stage_frame();
     } catch (const UserError& error) {
         error_ = error.what();
         return;
     }
     turntable_->set_flat(stage_->is_flat());
-    if (!simulation_.running && !settled_) settle();
     if (is_first || (camera_is_mine_ && live_)) reset_camera();
     // What comes next while this is looked at.
     std::vector<RecordedFrame> next;
     for (std::size_t i = frame_ + 1; i < frames().size() && next.size() < frames_ahead; ++i)
         next.push_back(frames()[i]);
     reader_.want(follower_.run(), std::move(next));
+}
+
+void Viewer::stage_frame() {
+    if (data_->internodes + data_->organs > slow_organs) {
+        busy_ = "drawing ...";
+        draw();
+        busy_.clear();
+    }
+    stage_->show(run().frame(*shown_), {data_, &data_->geometry});
+    dirty_ = true;
+}
+
+bool Viewer::is_at_rest() const {
+    return !playing_ && !sliding_ && Clock::now() - frame_since_ > rest;
+}
+
+bool Viewer::wants_shadows() const {
+    return stage_ && data_ && style_.shading && !stage_->style().shading && !stage_->is_flat() &&
+           data_->internodes + data_->organs <= slow_organs;
+}
+
+// They take longer than the frame itself: not while frames follow each other.
+void Viewer::add_shadows() {
+    if (!wants_shadows() || !is_at_rest() || shown_ != frames()[frame_].step) return;
+    stage_->shade(true);
+    stage_frame();
 }
 
 void Viewer::make_stage() {
@@ -201,12 +248,18 @@ void Viewer::make_stage() {
 }
 
 // Colours and camera hold for the whole run: those that fit its first frame and its last, where plants are largest.
+// They hold from the next stage_frame() on.
 void Viewer::settle() {
     if (!stage_ || !data_ || frames().empty()) return;
     settled_ = true;
-    const RecordedFrame* const surveyed[] = {&frames().front(), &frames().back()};
-    stage_->settle(stage_->survey(surveyed));
-    stage_->show(RecordedFrame(*stage_->shown()), {data_, &data_->geometry});
+    const RecordedFrame &first = frames().front(), &last = frames().back();
+    StageSurvey survey;
+    for (const RecordedFrame* frame : {&first, &last}) {
+        if (frame->plants.empty()) continue;
+        std::shared_ptr<const FrameData> data = shown_ == frame->step ? data_ : reader_.find(*frame);
+        merge(survey, data ? stage_->survey(*frame, data->geometry) : stage_->survey(*frame, run().geometry(*frame)));
+    }
+    stage_->settle(survey);
 }
 
 void Viewer::ask_history() {

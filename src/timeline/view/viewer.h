@@ -61,8 +61,13 @@ private:
     void ask_simulation();
     void play();
     void show_frame();
+    bool is_at_rest() const;
+    bool wants_shadows() const;
+    void add_shadows();
     void put_on_stage(const RecordedFrame& frame, const std::shared_ptr<const FrameData>& data);
     void make_stage();
+    /// Shows what data_ holds.
+    void stage_frame();
     void settle();
     void read_history();
     void ask_history();
@@ -103,7 +108,7 @@ private:
     vtkNew<vtkRenderer> paper_;  ///< behind all else
     vtkNew<Turntable> turntable_;
     WindowLayout layout_;
-    PictureStyle style_;
+    PictureStyle style_;  ///< `shading`: what is wished; the stage has it where there is time for it
 
     std::size_t frame_ = 0;             ///< that is asked for
     std::optional<std::size_t> asked_;  ///< of the reader
@@ -113,12 +118,12 @@ private:
     bool camera_is_mine_ = true;  ///< nobody moved it yet
     double frames_per_second_ = 10;
     std::size_t play_from_ = 0;
-    Clock::time_point play_since_, last_look_;
+    Clock::time_point play_since_, last_look_, frame_since_;
     std::vector<FieldLook> looks_;  ///< what `f` goes through, after none
     std::size_t look_ = 0;          ///< 0: none
     std::optional<OrganKey> organ_;
     std::optional<HistoryReader::Answer> history_;
-    std::string message_, error_;
+    std::string message_, error_, busy_;
     bool dirty_ = true, ended_ = false;
     std::array<int, 2> size_{0, 0};
 };

@@ -22,7 +22,7 @@ void Viewer::go_to(std::size_t frame) {
     play_from_ = frame_;
     play_since_ = Clock::now();
     dirty_ = true;
-    if (!settled_ && stage_ && shown_ && shown_ != frames()[frame_].step) settle();
+    if (!settled_ && shown_ && shown_ != frames()[frame_].step) settle();
 }
 
 void Viewer::step_by(int count) {
@@ -86,14 +86,22 @@ void Viewer::do_control(Control control) {
 }
 
 void Viewer::restyle(const PictureStyle& style) {
+    const bool needs_survey = style.colour_by != style_.colour_by || style.fields.size() != style_.fields.size();
     try {
-        if (stage_) stage_->restyle(style);
+        if (stage_) {
+            PictureStyle staged = style;
+            staged.shading = false;
+            stage_->restyle(staged);
+        }
         style_ = style;
-        if (settled_) settle();
-        if (camera_is_mine_) reset_camera();  // legends take room
+        if (settled_ && needs_survey) {
+            settle();
+            stage_frame();
+        }
     } catch (const UserError& error) {
         say(error.what());
     }
+    if (camera_is_mine_) reset_camera();  // legends take room
     dirty_ = true;
 }
 

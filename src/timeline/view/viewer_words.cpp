@@ -96,6 +96,7 @@ std::vector<std::string> Viewer::heading() const {
 }
 
 std::string Viewer::status() const {
+    if (!busy_.empty()) return busy_;
     if (!error_.empty()) return error_;
     if (!follower_.error().empty()) return follower_.error();
     if (simulation_.failed) return simulation_.text;
