@@ -13,10 +13,10 @@ namespace {
 
 const char* const scene = R"([simulation]
 steps = 4
-[[plants]]
+[[plant]]
 name = "left"
 model = "bush.l"
-[[plants]]
+[[plant]]
 name = "right"
 model = "bush.l"
 position = [4, 0, 0]
@@ -107,7 +107,7 @@ TEST_CASE("render: a scene is grown first, a model too", "[render]") {
     const RenderPlace place;
     if (!place.grow()) return;
     const Outcome outcome = place.run("render pair.toml --run-output grown --steps 3 --size 60x40 --output s.png");
-    CHECK(outcome.err == "");
+    CHECK_THAT(outcome.out, Contains("3 of 3 steps") && Contains("s.png"));
     CHECK(outcome.code == 0);
     CHECK(place.size_of("s.png") == std::array{60, 40});
     CHECK(std::filesystem::exists(place.path() / "grown" / "run.json"));
@@ -158,7 +158,7 @@ TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[rend
     const RenderPlace place;
     REQUIRE(place.run("run pair.toml --output run --quiet").code == 0);
     const auto refuses = [&](const std::string& words, const std::string& answer) {
-        const Outcome outcome = place.run("render run --size 32x24 --output x.png " + words);
+        const Outcome outcome = place.run("render run --output x.png " + words);
         if (outcome.code == 2) return;  // nothing can be drawn here
         CHECK(outcome.code == 1);
         CHECK_THAT(outcome.err, Contains(answer));

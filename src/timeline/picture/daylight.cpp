@@ -15,8 +15,8 @@ namespace {
 
 constexpr int sky_texels = 384, sun_texels = 1536;
 /// Triangles times directions: more triangles are seen from fewer directions.
-constexpr std::size_t budget = 60'000'000;
-constexpr std::size_t fewest_directions = 12, most_directions = 48;
+constexpr std::size_t budget = 30'000'000;
+constexpr std::size_t fewest_directions = 12, most_directions = 32;
 
 /// Spread evenly over the upper half of the sphere (Vogel 1979), from the zenith down.
 glm::vec3 sky_direction(std::size_t i, std::size_t count) {

@@ -14,7 +14,7 @@
 namespace espalier {
 namespace {
 
-constexpr int texels = 640;
+constexpr int texels = 416;
 
 std::array<float, 3> soil_of(const PictureBackground& background) {
     return background.is_dark() ? std::array{74.0f, 76.0f, 80.0f} : std::array{226.0f, 222.0f, 214.0f};

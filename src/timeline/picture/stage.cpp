@@ -336,8 +336,8 @@ private:
         part.actor->SetMapper(mapper);
         vtkProperty& property = *part.actor->GetProperty();
         // Some of the light goes through what is thin.
-        property.SetAmbient(mesh.is_of_axes ? 0.12 : 0.48);
-        property.SetDiffuse(mesh.is_of_axes ? 0.9 : 0.6);
+        property.SetAmbient(mesh.is_of_axes ? 0.12 : 0.56);
+        property.SetDiffuse(mesh.is_of_axes ? 0.9 : 0.5);
         property.SetSpecular(mesh.is_of_axes ? 0.03 : 0.1);
         property.SetSpecularPower(15);
         property.SetLighting(!is_flat());
@@ -360,9 +360,10 @@ private:
     void add_field_props() {
         const auto& ranges = survey_ && !survey_->field_ranges.empty() ? survey_->field_ranges : here_.field_ranges;
         const glm::dvec3 middle = here_.box.empty() ? glm::dvec3(0) : (here_.box.lower + here_.box.upper) / 2.0;
-        std::size_t number = 0;
+        std::map<std::string, std::size_t> hues;
         for (const FieldLook& look : style_.fields) {
-            const auto colours = field_colours(number++, style_.background.is_dark());
+            const std::size_t hue = hues.try_emplace(look.name, hues.size()).first->second;
+            const auto colours = field_colours(hue, style_.background.is_dark());
             if (!frame_->fields.contains(look.name)) continue;
             const RecordedField field = run_->field(*frame_, look.name);
             const auto range = ranges.find(look.name);

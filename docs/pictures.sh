@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Makes every picture of README.md and docs/ anew from the scenes of this repository.
+#   docs/pictures.sh [PROGRAM]     default: build/release/espalier
+# ffmpeg (apt-get install ffmpeg) gives pictures of plants a palette, which makes them small, and writes the film.
+set -euo pipefail
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+espalier="$(realpath "${1:-$root/build/release/espalier}")"
+pictures="$root/docs/pictures"
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+cd "$root"
+
+grow() { # FOLDER SCENE [OPTIONS]
+    "$espalier" run "$2" --output "$work/$1" --quiet "${@:3}"
+}
+render() { # PICTURE RUN [OPTIONS]
+    "$espalier" render "$work/$2" --output "$work/$1" --quiet "${@:3}"
+    local palette="split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none"
+    ffmpeg -loglevel error -y -i "$work/$1" -filter_complex "$palette" -fflags +bitexact "$pictures/$1"
+}
+
+grow two-trees environments/two-trees.toml
+grow lone-tree environments/lone-tree.toml
+grow two-roots environments/two-roots.toml
+grow root-2d environments/root-2d.toml
+grow topiary environments/topiary-3d.toml
+grow forest environments/forest.toml --set plant.0.grid.columns=7 --set plant.0.grid.rows=7
+grow lychnis models/herbs/lychnis.l --colour-map models/plants.map
+
+render two-trees.png two-trees --size 640x480 --azimuth 20 --elevation 10
+render two-roots.png two-roots --size 640x480 --field water:volume --azimuth 15 --elevation 8 --no-legend
+render topiary.png topiary --size 640x480 --azimuth 25 --elevation 10
+render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar
+render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth
+render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --zoom 1.15 --scale-bar --dark
+render light.png forest --size 720x450 --colour-by light --elevation 25 --scale-bar
+render water.png two-roots --size 800x600 --field water:iso=0.285 --field water:slice=x --azimuth 35
+render lychnis.png lychnis --size 640x480
+"$espalier" render "$work/two-trees" --output "$pictures/growth.gif" --size 280x210 --frames 36 --step 0:180 --no-ground \
+    --rate 9 --quiet
+
+"$espalier" plot "$work/two-trees" --quantity height,organs,length,light.mean --output "$pictures/plot.png" \
+    --size 960x620
+"$espalier" plot "$work/two-trees" "$work/lone-tree" --per total --quantity organs,light.mean --dark \
+    --output "$pictures/plot-dark.png" --size 960x330
+"$espalier" analyse "$work/two-trees" --size 1100x760 --output "$work/trees-measured" >/dev/null
+"$espalier" analyse "$work/two-roots" --step last --layer 0.05 --size 960x330 --output "$work/roots-measured" >/dev/null
+cp "$work/trees-measured/analysis.png" "$work/roots-measured/layers.png" "$pictures"
+"$espalier" sweep environments/two-roots.toml --vary environment.water.initial=0.02:0.14:7 --vary simulation.seed=1..6 \
+    --statistic length,water.drunk --output "$work/sweep" --plot "$pictures/sweep.png" --quiet
+ls -l "$pictures"
