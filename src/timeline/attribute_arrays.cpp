@@ -1,5 +1,8 @@
 #include "timeline/attribute_arrays.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +10,24 @@
 #include <limits>
 
 namespace espalier {
+namespace {
+
+/// By several threads, if there are many: `visit` gets the run's number and its owner.
+template <class Visit>
+void for_each_owner(const Owners& owners, const Visit& visit) {
+    constexpr std::size_t worth_sharing = std::size_t{1} << 16;
+    const std::size_t count = owners.values.size();
+    const auto visit_some = [&](const tbb::blocked_range<std::size_t>& some) {
+        for (std::size_t i = some.begin(); i < some.end(); ++i) visit(i, owners.values[i]);
+    };
+    if (count < worth_sharing) {
+        visit_some({0, count});
+    } else {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, worth_sharing / 4), visit_some);
+    }
+}
+
+}  // namespace
 
 bool OwnerArrays::same_values(const OwnerArrays& other) const {
     if (count_ != other.count_) return false;
@@ -29,23 +50,26 @@ AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std
 }
 
 void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) const {
-    const auto string = [&](const Owner& owner) -> const ModuleString& { return *plants_[owner.plant].frame->string; };
-    const auto lineage = [&](const Owner& owner) { return plants_[owner.plant].lineage; };
-    arrays.add<std::uint64_t>("identity", owners, [&](const Owner& owner) {
-        return lineage(owner) ? string(owner).identities[owner.module] : 0;
+    auto* const identity = arrays.append<std::uint64_t>("identity", owners, 1);
+    auto* const parent = arrays.append<std::uint64_t>("parent", owners, 1);
+    auto* const number = arrays.append<std::uint32_t>("plant", owners, 1);
+    auto* const symbol = arrays.append<std::uint16_t>("symbol", owners, 1);
+    auto* const birth = arrays.append<std::int32_t>("birth", owners, 1);
+    auto* const order = arrays.append<std::uint16_t>("order", owners, 1);
+    auto* const colour = arrays.append<std::uint16_t>("colour", owners, 1);
+    auto* const kind = arrays.append<std::uint8_t>("kind", owners, 1);
+    for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
+        const Plant& plant = plants_[owner.plant];
+        const ModuleString& string = *plant.frame->string;
+        identity[i] = plant.lineage ? string.identities[owner.module] : 0;
+        parent[i] = plant.lineage ? string.parents[owner.module] : 0;
+        number[i] = plant.frame->plant;
+        symbol[i] = (*plant.symbols)[string.letters[owner.module]];
+        birth[i] = plant.lineage ? static_cast<std::int32_t>(string.births[owner.module]) : 0;
+        order[i] = owner.order;
+        colour[i] = owner.colour;
+        kind[i] = static_cast<std::uint8_t>(owner.kind);
     });
-    arrays.add<std::uint64_t>(
-        "parent", owners, [&](const Owner& owner) { return lineage(owner) ? string(owner).parents[owner.module] : 0; });
-    arrays.add<std::uint32_t>("plant", owners, [&](const Owner& owner) { return plants_[owner.plant].frame->plant; });
-    arrays.add<std::uint16_t>("symbol", owners, [&](const Owner& owner) {
-        return (*plants_[owner.plant].symbols)[string(owner).letters[owner.module]];
-    });
-    arrays.add<std::int32_t>("birth", owners, [&](const Owner& owner) {
-        return lineage(owner) ? static_cast<std::int32_t>(string(owner).births[owner.module]) : 0;
-    });
-    arrays.add<std::uint16_t>("order", owners, [](const Owner& owner) { return owner.order; });
-    arrays.add<std::uint16_t>("colour", owners, [](const Owner& owner) { return owner.colour; });
-    arrays.add<std::uint8_t>("kind", owners, [](const Owner& owner) { return static_cast<std::uint8_t>(owner.kind); });
 }
 
 void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
@@ -95,12 +119,13 @@ void AttributeArrays::add_colours(OwnerArrays& arrays, const Owners& owners) con
 
 void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) const {
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        arrays.add<double>(chosen_[k].name, owners, [&](const Owner& owner) {
+        double* const values = arrays.append<double>(chosen_[k].name, owners, 1);
+        for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
             const Plant& plant = plants_[owner.plant];
             const ModuleString& string = *plant.frame->string;
             const int slot = plant.slots[k].find(string, owner.module);
-            if (slot < 0) return std::numeric_limits<double>::quiet_NaN();
-            return string.parameters[plant.offsets[owner.module] + static_cast<std::size_t>(slot)];
+            values[i] = slot < 0 ? std::numeric_limits<double>::quiet_NaN()
+                                 : string.parameters[plant.offsets[owner.module] + static_cast<std::size_t>(slot)];
         });
     }
 }

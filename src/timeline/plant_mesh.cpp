@@ -119,6 +119,10 @@ void PlantMesh::resize(std::size_t count) {
     radii.resize(count);
 }
 
+void PlantMesh::reserve(std::size_t count) {
+    if (count > radii.size()) resize(std::min(count, most_points));
+}
+
 void PlantMesh::trim() {
     resize(size_);
 }

@@ -108,6 +108,8 @@ struct PlantMesh {
         set_point(static_cast<std::size_t>(point), vertex, radius);
         return point;
     }
+    /// Makes room for so many points in all; there may be more.
+    void reserve(std::size_t count);
     void trim();
     /// True if both would be shown the same but for what their owners are.
     bool same_shape(const PlantMesh& other) const;

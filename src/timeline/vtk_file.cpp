@@ -13,8 +13,8 @@
 namespace espalier {
 namespace {
 
-/// Less than this is encoded before another thread is awake.
-constexpr std::size_t worth_sharing = std::size_t{1} << 20;
+/// Less than this is encoded in some milliseconds; the run, which goes on beside, needs its threads itself.
+constexpr std::size_t worth_sharing = std::size_t{1} << 23;
 
 std::string_view view(const Column<char>& text) {
     return {text.data(), text.size()};

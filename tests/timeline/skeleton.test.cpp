@@ -4,6 +4,7 @@
 #include "timeline/collections.h"
 #include "timeline/frames.h"
 
+#include <tbb/global_control.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -11,6 +12,7 @@
 #include <vtkStringArray.h>
 
 #include <cmath>
+#include <random>
 
 using namespace espalier;
 
@@ -197,6 +199,71 @@ TEST_CASE("arrays are the same in every frame, whatever lives in it", "[timeline
         CHECK(data->GetNumberOfCells() == cells[static_cast<std::size_t>(step)]);
         CHECK(layout(data) == layout(first));
         CHECK(values(data->GetFieldData(), "TimeValue") == std::vector<double>{0.5 * step});
+    }
+}
+
+TEST_CASE("a frame has the same bytes whatever was recorded before it", "[timeline]") {
+    const std::string table = "parameters = { vigour = 'F.2' }";
+    std::mt19937 random(7);
+    const RunFolder folder;
+    Timeline timeline(folder.path / "all", timeline_table(table), 60);
+    HandmadePlant plant = branched_plant(), other = branched_plant();
+    for (int step = 0; step <= 60; ++step) {
+        INFO("step " << step);
+        // Some change, some do not; what grows may shrink again.
+        PlantGeometry& geometry = plant.interpretation.geometry;
+        switch (random() % 6) {
+            case 0:
+                geometry.internodes[random() % geometry.internodes.size()].tip.x += 1;
+                break;
+            case 1:
+                plant.string.parameters[1] = double(random());
+                break;
+            case 2:
+                plant.add_organ(Organ::Shape::surface, 100 + Identity(step), 0.5);
+                break;
+            case 3:
+                other.add_internode(200 + Identity(step), 1, std::uint32_t(step), 0, 0, {0, 1, 0}, {0, 2, 0}, 0.5);
+                break;
+            case 4:
+                other = branched_plant();
+                break;
+        }
+        record(timeline, step, {&plant, &other});
+        const std::string file = read_collection(folder.path / "all/plants.pvd").back().file;
+        const int written = std::stoi(file.substr(file.find('/') + 1));
+        Timeline alone(folder.path / std::to_string(step), timeline_table(table), 60);
+        record(alone, written, {&plant, &other});
+        const std::string name = read_collection(folder.path / std::to_string(step) / "plants.pvd").back().file;
+        if (written < step) continue;  // an older file shows the same
+        CHECK((bytes_of(folder.path / "all" / file) == bytes_of(folder.path / std::to_string(step) / name)));
+    }
+}
+
+TEST_CASE("a large frame has the same bytes with any number of threads", "[timeline]") {
+    HandmadePlant plant;
+    for (std::uint32_t i = 0; i < 80000; ++i) {
+        plant.add_internode(i + 1, i, i / 100, i / 7, std::uint16_t(i % 3), {0, i, 0}, {0, i + 1, 0}, 0.5 * i);
+    }
+    const RunFolder folder;
+    std::string first;
+    for (const std::size_t threads : {1, 2, 8}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        Timeline timeline(folder.path, timeline_table("parameters = { vigour = 'F.2' }"), 0, true);
+        record(timeline, 0, {&plant});
+        timeline.finish();
+        const std::string bytes = bytes_of(folder.path / "plants/0000.vtp");
+        if (first.empty()) first = bytes;
+        CHECK((bytes == first));
+    }
+    const auto data = read_vtp(folder.path / "plants/0000.vtp");
+    vtkPointData* points = data->GetPointData();
+    REQUIRE(points->GetArray("identity")->GetNumberOfTuples() > 80000);
+    for (vtkIdType i = 0; i < points->GetArray("identity")->GetNumberOfTuples(); i += 997) {
+        const double identity = points->GetArray("identity")->GetTuple1(i);
+        CHECK(points->GetArray("parent")->GetTuple1(i) == identity - 1);
+        CHECK(points->GetArray("vigour")->GetTuple1(i) == 0.5 * (identity - 1));
+        CHECK(points->GetArray("birth")->GetTuple1(i) == std::floor((identity - 1) / 100));
     }
 }
 

@@ -232,14 +232,14 @@ TEST_CASE("files for viewers keep their data inline, which every reader understa
 
 TEST_CASE("a large file has the same bytes with any number of threads", "[timeline]") {
     std::mt19937 random(2);
-    const std::vector<std::uint64_t> numbers = mixed_values<std::uint64_t>(300000, random);
-    const std::vector<float> floats = mixed_values<float>(300000, random);
+    const std::vector<std::uint64_t> numbers = mixed_values<std::uint64_t>(1000000, random);
+    const std::vector<float> floats = mixed_values<float>(1000000, random);
     const TemporaryFolder folder;
     std::string first;
     for (const std::size_t threads : {1, 2, 8}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         write_points(
-            folder.path() / "a.vtp", 300000,
+            folder.path() / "a.vtp", 1000000,
             {data_array<std::uint64_t>("numbers", std::span(numbers)), data_array<float>("floats", std::span(floats))});
         const std::string text = read_text(folder.path() / "a.vtp");
         if (first.empty()) first = text;

@@ -47,6 +47,16 @@ struct PlantData {
     }
 };
 
+// Most organs are rhombi.
+std::size_t points_foreseen(const Frame& frame) {
+    std::size_t points = 0;
+    for (const PlantFrame& plant : frame.plants) {
+        const PlantGeometry& geometry = plant.interpretation->geometry;
+        points += 2 * geometry.internodes.size() + 4 * geometry.organs.size() + geometry.vertices.size();
+    }
+    return points;
+}
+
 void add_cells(VtkFile& file, const char* element, const Cells& cells) {
     file.open(element);
     file.add(data_array<std::int32_t>("connectivity", cells.connectivity));
@@ -119,6 +129,7 @@ private:
 
     void fill_mesh(const Frame& frame) {
         PlantMesh& mesh = now_.mesh;
+        mesh.reserve(points_foreseen(frame));
         for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
             const PlantFrame& plant = frame.plants[i];
             add_asked_queries(plant, i);
