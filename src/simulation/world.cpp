@@ -10,6 +10,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <chrono>
 #include <exception>
@@ -103,6 +104,7 @@ struct World::State {
     template <class Rewrite>
     void derive(const Rewrite& rewrite);
     void interpret_and_exchange();
+    [[noreturn]] void refuse_strings() const;
     void take_derived(const Totals& derived);
     void require_memory(const PlantMemory& needed) const;
     void make_frames();
@@ -140,15 +142,42 @@ Totals World::State::for_every_plant(const Action& action) {
     }
 }
 
+// Strings never give memory back: as soon as those that are there take too much, the others need not be made.
 template <class Rewrite>
 void World::State::derive(const Rewrite& rewrite) {
     const Stopwatch stopwatch(times.derive);
-    take_derived(for_every_plant([&](Plant& plant) {
+    std::atomic<std::size_t> held = totals.memory.strings;
+    const auto is_too_much = [&] {
+        PlantMemory needed = totals.memory;
+        needed.strings = held;
+        return needed.recorded() > shares.plants;
+    };
+    const Totals derived = for_every_plant([&](Plant& plant) {
+        if (is_too_much()) return;
         rewrite(plant);
-        plant.memory.strings = plant.string.bytes() + plant.next.bytes();
+        const std::size_t bytes = plant.string.bytes() + plant.next.bytes();
+        if (bytes != plant.memory.strings) held += bytes - plant.memory.strings;
+        plant.memory.strings = bytes;
         plant.length = plant.derivation.length();
         plant.stopped = plant.derivation.stopped();
-    }));
+    });
+    if (plants.size() > 1 && is_too_much()) refuse_strings();
+    take_derived(derived);
+}
+
+/// Which plants were rewritten when the others were given up depends on the threads: tells of the strings before.
+void World::State::refuse_strings() const {
+    const auto before = [&](const Plant& plant) -> const ModuleString& {
+        return plant.derivation.steps_done() < step ? plant.string : plant.next;
+    };
+    const auto largest = std::max_element(plants.begin(), plants.end(), [&](const Plant& a, const Plant& b) {
+        return before(a).size() < before(b).size();
+    });
+    throw RunError(
+        fmt::format("step {}: {} modules grow beyond the {} MiB that --memory leaves for plants; the largest was '{}' "
+                    "with {} modules{}",
+                    step, totals.modules, shares.plants >> 20, largest->description->name, before(*largest).size(),
+                    commonest_module(*largest->model, before(*largest))));
 }
 
 void World::State::take_derived(const Totals& derived) {

@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <set>
 
@@ -189,4 +190,18 @@ TEST_CASE_METHOD(Worlds, "a process nobody defined, and one nobody answers for, 
 TEST_CASE_METHOD(Worlds, "a parameter no process reads is refused with its place", "[simulation]") {
     CHECK_THROWS_WITH(World(scene(doubling, "[environment.light]\nprocess = 'voxel-shade'\nvoxle = 0.5\n")),
                       Contains("scene.toml:5:1: 'voxle' means nothing here (did you mean 'voxel'?)"));
+}
+
+TEST_CASE_METHOD(Worlds, "plants that are many outgrow the memory together before all of their strings are made",
+                 "[simulation]") {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 1);
+    const std::string square = "lsystem: 1\nderivation length: 9\naxiom: A\nA --> AAAAAAAAAAAAAAAA\nendlsystem\n";
+    const Scene many = scene(square, "", "name = 'square'\ngrid = { columns = 200, spacing = 1 }\n");
+    constexpr std::size_t memory = 8 << 20;
+    World world(many, memory);
+    CHECK_THROWS_WITH(walk(world, 9), Contains("step 3: 51200 modules grow beyond the 7 MiB") &&
+                                          Contains("'square-1' with 256 modules, most of them A"));
+    std::size_t held = 0;
+    for (std::size_t plant = 0; plant < world.size(); ++plant) held += world.string(plant).bytes();
+    CHECK(held < memory);  // all would be 18 MB
 }
