@@ -14,7 +14,7 @@ bool same_field(const FieldGrid& a, const FieldGrid& b);
 /// The same for grids that are the same_field, and hardly ever for others.
 std::uint64_t digest_of(const FieldGrid& grid);
 
-/// Complete or not at all; Blosc and active masks. Throws RunError.
+/// Complete or not at all; active values only, by Blosc where they are many. Throws RunError.
 void write_vdb(const std::filesystem::path& path, const Field& field);
 
 /// The field over its box as a .vti with a value at every voxel's centre. Throws RunError if that is more than
