@@ -59,8 +59,8 @@ class Neighbours {
 public:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-    /// `grain` modules are looked at by one thread before another may have its turn.
-    explicit Neighbours(std::size_t grain = 8192) : grain_(grain) {}
+    /// So many modules are looked at by one thread before another may have its turn.
+    explicit Neighbours(std::size_t modules = 8192) : grain_(modules) {}
 
     void find(const Gazes& gazes, const ModuleString& string);
 
