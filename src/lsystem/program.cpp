@@ -1,5 +1,7 @@
 #include "program.h"
 
+#include "espalier/lsystem/constant.h"
+
 #include "functions.h"
 
 #include <fmt/format.h>
@@ -328,29 +330,7 @@ void ProgramCompiler::loop(const Statement& statement) {
 }
 
 std::optional<double> ProgramCompiler::fold(const Expression& expression) const {
-    if (expression.kind == Expression::Kind::number) return expression.value;
-    if (expression.kind == Expression::Kind::call) return fold_call(expression);
-    if (expression.kind == Expression::Kind::conditional) {
-        const std::optional<double> condition = fold(expression.operands[0]);
-        if (!condition) return std::nullopt;
-        return fold(expression.operands[*condition != 0 ? 1 : 2]);
-    }
-    if (expression.kind != Expression::Kind::apply) return std::nullopt;
-    const std::optional<double> a = fold(expression.operands[0]);
-    if (!a) return std::nullopt;
-    if (is_unary(expression.op)) return espalier::apply(expression.op, *a, 0);
-    if (expression.op == Operator::logical_and && *a == 0) return 0;
-    if (expression.op == Operator::logical_or && *a != 0) return 1;
-    const std::optional<double> b = fold(expression.operands[1]);
-    if (!b) return std::nullopt;
-    if (expression.op == Operator::divide || expression.op == Operator::remainder) {
-        // A division by zero is a mistake only where it is evaluated, as in if (N > 0) { x = 1 / N; }.
-        const bool by_zero = (expression.op == Operator::divide ? *b : std::trunc(*b)) == 0;
-        if (by_zero && !quirks_) return std::nullopt;
-        return expression.op == Operator::divide ? espalier::divide(*a, *b, quirks_, expression.place)
-                                                 : espalier::remainder(*a, *b, quirks_, expression.place);
-    }
-    return espalier::apply(expression.op, *a, *b);
+    return constant_value(expression, quirks_);
 }
 
 std::uint32_t ProgramCompiler::register_count(std::uint32_t formals) const {

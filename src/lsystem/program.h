@@ -171,7 +171,6 @@ private:
     void land(std::size_t jump) { program_.code[jump].b = static_cast<std::uint32_t>(program_.code.size()); }
     void begin();
     Program finish(const Place& place);
-    std::optional<double> fold_call(const Expression& expression) const;
     void require_arguments(const Expression& expression) const;
 
     const LSystem& system_;

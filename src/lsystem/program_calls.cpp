@@ -114,16 +114,4 @@ ProgramCompiler::Operand ProgramCompiler::scan_file(const Expression& expression
     return count;
 }
 
-std::optional<double> ProgramCompiler::fold_call(const Expression& expression) const {
-    if (!is_pure(expression.function)) return std::nullopt;
-    require_arguments(expression);
-    std::vector<double> values;
-    for (const Expression& operand : expression.operands) {
-        const std::optional<double> value = fold(operand);
-        if (!value) return std::nullopt;
-        values.push_back(*value);
-    }
-    return espalier::call(expression.function, values, quirks_);
-}
-
 }  // namespace espalier

@@ -1,3 +1,5 @@
+#include "espalier/lsystem/constant.h"
+
 #include "catch.h"
 #include "lsystem/functions.h"
 #include "lsystem/model_builder.h"
@@ -54,6 +56,23 @@ TEST_CASE("functions work in degrees, folded or not", "[lsystem]") {
     CHECK(value_of(call(Function::min, {number(3), formal(0), number(7)}), 5) == 3);
     CHECK(value_of(call(Function::clamp, {formal(0), number(0), number(1)}), 5) == 1);
     CHECK(value_of(call(Function::lerp, {number(10), number(20), formal(0)}), 0.25) == 12.5);
+}
+
+TEST_CASE("a constant is known where what it depends on is", "[lsystem]") {
+    const auto value = [](const Expression& expression) { return constant_value(expression, false); };
+    CHECK(value(apply(Operator::add, {number(2), apply(Operator::negate, {number(5)})})) == -3);
+    CHECK(value(call(Function::max, {number(2), number(7), number(5)})) == 7);
+    CHECK_FALSE(value(formal(0)));
+    CHECK_FALSE(value(call(Function::ran, {number(1)})));
+    // What is never evaluated may be anything.
+    CHECK(value(apply(Operator::logical_and, {number(0), formal(0)})) == 0);
+    CHECK(value(apply(Operator::logical_or, {number(2), formal(0)})) == 1);
+    CHECK_FALSE(value(apply(Operator::logical_and, {number(1), formal(0)})));
+    // A division by zero is a mistake of whoever gets there, and a number arguments short is no call.
+    CHECK_FALSE(value(apply(Operator::divide, {number(1), number(0)})));
+    CHECK_FALSE(value(apply(Operator::remainder, {number(1), number(0.5)})));
+    CHECK(constant_value(apply(Operator::divide, {number(3), number(0)}), true) == 3);
+    CHECK_FALSE(value(call(Function::atan2, {})));
 }
 
 TEST_CASE("operators are those of the language", "[lsystem]") {
