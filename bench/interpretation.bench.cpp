@@ -23,11 +23,19 @@ struct Tree {
         symbols = symbol_table(model.model());
     }
 
-    /// Puts ?P(0, 0, 0) behind every apex.
+    /// Puts ?P(0, 0, 0) behind every apex, of branches, too.
     void ask() {
         for (Production& production : model.system().productions) {
-            production.successor.push_back(model.module("?", {}));
-            production.successor.push_back(model.module("P", {number(0), number(0), number(0)}));
+            std::vector<ModuleTemplate> asking;
+            for (ModuleTemplate& module : production.successor) {
+                const bool apex =
+                    std::string("ABC").find(model.model().alphabet.name(module.letter)) != std::string::npos;
+                asking.push_back(std::move(module));
+                if (!apex) continue;
+                asking.push_back(model.module("?", {}));
+                asking.push_back(model.module("P", {number(0), number(0), number(0)}));
+            }
+            production.successor = std::move(asking);
         }
         model.rule(std::vector<Pattern>{{"?", 0}, {"P", 3}}, {});
     }
