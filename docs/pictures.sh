@@ -16,6 +16,9 @@ grow() { # FOLDER SCENE [OPTIONS]
 }
 render() { # PICTURE RUN [OPTIONS]
     "$espalier" render "$work/$2" --output "$work/$1" --quiet "${@:3}"
+    with_palette "$1"
+}
+with_palette() { # PICTURE
     local palette="split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none"
     ffmpeg -loglevel error -y -i "$work/$1" -filter_complex "$palette" -fflags +bitexact "$pictures/$1"
 }
@@ -37,6 +40,9 @@ render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --z
 render light.png forest --size 720x450 --colour-by light --elevation 25 --scale-bar
 render water.png two-roots --size 800x600 --field water:iso=0.285 --field water:slice=x --azimuth 35
 render lychnis.png lychnis --size 640x480
+printf 'click 350 490\ndrag 500 300 530 290\n' >"$work/window.txt"
+"$espalier" view "$work/two-trees" --size 1100x700 --script "$work/window.txt" --screenshot "$work/view.png"
+with_palette view.png
 "$espalier" render "$work/two-trees" --output "$pictures/growth.gif" --size 280x210 --frames 36 --step 0:180 --no-ground \
     --rate 9 --quiet
 

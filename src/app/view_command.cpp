@@ -89,8 +89,10 @@ public:
           picture_(app()) {
         app().add_option("--step", step_, "the frame to begin with: N, first or last; default: last, and live");
         app()
-            .add_option("--colour", options_.style.colour_by, "what organs are coloured by, as `c` in the window does")
+            .add_option("--colour-by", options_.style.colour_by,
+                        "what organs are coloured by, as `c` in the window does")
             ->capture_default_str();
+        app().add_option("--field", field_, "a field as volume, slice or iso, as `f` in the window does: light:slice");
         app().add_option("--screenshot", options_.screenshot, "write what the window shows as .png, and end");
         app().add_option("--script", script_, "do what a file says, line by line, and end: docs/view.md");
         app().add_option("--output", arguments_.output, "of a scene: folder; default: output/<scene>-<time>");
@@ -109,6 +111,7 @@ A screenshot and a script need no display.)");
         arguments_.model = model_.arguments();
         options_.size = picture_.size(options_.size);
         if (picture_.dark()) options_.style.background = dark_background;
+        if (!field_.empty()) options_.style.fields.push_back(field_look(field_));
         if (!script_.empty()) options_.script = read_text(script_);
         options_.print = [](const std::string& line) { fmt::print("{}\n", line); };
         const bool needs_display = script_.empty() && options_.screenshot.empty();
@@ -171,7 +174,7 @@ private:
     PictureOptions picture_;
     RunArguments arguments_;
     ViewOptions options_;
-    std::string step_;
+    std::string step_, field_;
     fs::path script_;
     bool keep_running_ = false;
 };

@@ -280,7 +280,7 @@ TEST_CASE_METHOD(Viewed, "mistakes on the command line of view are named", "[app
     CHECK_THAT(run("view run --step 9 --screenshot a.png").err, Contains("no frame of step 9"));
     CHECK_THAT(run("view run --step x --screenshot a.png").err, Contains("--step x"));
     CHECK_THAT(run("view nowhere --screenshot a.png").err, Contains("nowhere"));
-    const Outcome colour = run("view run --colour agee --screenshot a.png", "env -u DISPLAY");
+    const Outcome colour = run("view run --colour-by agee --screenshot a.png", "env -u DISPLAY");
     if (!drew(colour)) return;
     CHECK(colour.code == 1);
     CHECK_THAT(colour.err, Contains("agee") && Contains("age"));
