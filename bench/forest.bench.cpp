@@ -4,23 +4,17 @@
 #include "espalier/simulation/world.h"
 #include "espalier/timeline/timeline.h"
 
+#include "seconds_of.h"
 #include "table.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>
 
 #include <benchmark/benchmark.h>
-#include <chrono>
 #include <cmath>
 
 namespace espalier::bench {
 namespace {
-
-double seconds_of(const auto& work) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// Grows a world by so many steps: seconds and modules of all of them.
 struct Growth {

@@ -2,25 +2,19 @@
 #include "espalier/simulation/world.h"
 #include "espalier/timeline/timeline.h"
 
+#include "seconds_of.h"
 #include "table.h"
 #include "temporary_folder.h"
 
 #include <tbb/global_control.h>
 
 #include <benchmark/benchmark.h>
-#include <chrono>
 #include <filesystem>
 
 namespace espalier::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-double seconds_of(const auto& work) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 struct Recorded {
     double waited = 0;     ///< seconds in the timeline's functions
