@@ -4,6 +4,7 @@
 #include "espalier/timeline/render.h"
 
 #include "command.h"
+#include "end_signals.h"
 #include "frame_option.h"
 #include "options.h"
 #include "picture_options.h"
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <unistd.h>
 
@@ -23,6 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t pictures_of_a_turn = 72;
+
+std::atomic<bool> interrupt{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+/// Thrown between two pictures, so that what was begun is removed.
+struct Interrupted {};
 
 /// One living line on a terminal, nothing in a pipe.
 class PictureProgress {
@@ -92,9 +100,17 @@ holds; docs/render.md shows what all this looks like.)");
         job.camera.front_if_flat = app().count("--azimuth") == 0 && app().count("--elevation") == 0;
         job.style.sun_azimuth = camera_.azimuth - 50;
         PictureProgress progress(run_.quiet || wants_json());
-        job.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
+        job.progress = [&](std::size_t done, std::size_t all) {
+            progress(done, all);
+            if (interrupt) throw Interrupted();
+        };
         const fs::path output = output_.empty() ? recorded.folder() / "render.png" : output_;
-        print_files(draw(job, output));
+        const EndSignals signals([](int) { interrupt = true; }, true);
+        try {
+            print_files(draw(job, output));
+        } catch (const Interrupted&) {
+            return exit_code::interrupted;
+        }
         return exit_code::done;
     }
 

@@ -154,6 +154,23 @@ TEST_CASE("render: without ffmpeg it says what to install, exit code 2, and leav
     CHECK_FALSE(std::filesystem::exists(place.path() / "f.mp4"));
 }
 
+TEST_CASE("render: a film that is interrupted leaves nothing", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    const auto begun = [&] {
+        for (const auto& entry : std::filesystem::directory_iterator(place.path())) {
+            if (entry.path().filename().string().find(".film.") == 0) return true;
+        }
+        return false;
+    };
+    const Outcome outcome = place.run_until(
+        {"render", "run", "--output", "film.ogv", "--frames", "100000", "--step", "last", "--orbit", "1"}, begun,
+        [](pid_t child) { kill(child, SIGINT); });
+    CHECK(outcome.code == 130);
+    CHECK_FALSE(begun());
+    CHECK_FALSE(std::filesystem::exists(place.path() / "film.ogv"));
+}
+
 TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[render]") {
     const RenderPlace place;
     REQUIRE(place.run("run pair.toml --output run --quiet").code == 0);

@@ -110,8 +110,8 @@ TEST_CASE("render: ffmpeg writes the other films, odd sizes too", "[pictures]") 
     const Rendered rendered;
     RenderJob job = rendered.job();
     job.size = {95, 71};
-    render_film(job, 10, rendered.path("growth.gif"));
-    CHECK(bytes_of(rendered.path("growth.gif")).starts_with("GIF89a"));
+    render_film(job, 10, rendered.path("growth.GIF"));
+    CHECK(bytes_of(rendered.path("growth.GIF")).starts_with("GIF89a"));
     CHECK_THROWS_AS(render_film(job, 10, rendered.path("no/growth.gif")), RunError);
 }
 

@@ -11,6 +11,7 @@
 #include <vtkOggTheoraWriter.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -102,7 +103,7 @@ public:
         };
         add({"-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", size.width, size.height), "-r",
              fmt::format("{:g}", pictures_per_second), "-i", "pipe:0", "-an"});
-        add(encoding_of(path.extension().string()));
+        add(encoding_of(kind_of_file(path)));
         add({"-fflags", "+bitexact", "-flags:v", "+bitexact", "file:" + path.string()});
         start(words);
     }
@@ -146,7 +147,13 @@ private:
         posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, fileno(words_.get()), STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions, fileno(words_.get()), STDERR_FILENO);
-        const int error = posix_spawnp(&child_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+        // A group of its own: Ctrl-C is for this program, which ends its child.
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+        posix_spawnattr_setpgroup(&attributes, 0);
+        const int error = posix_spawnp(&child_, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+        posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         close(ends[0]);
         pipe_ = ends[1];
@@ -195,11 +202,14 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Film> theora_film(const fs::path& path, double pictures_per_second) {
-    return std::make_unique<TheoraFilm>(path, pictures_per_second);
+std::string kind_of_file(const fs::path& path) {
+    std::string kind = path.extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+    return kind;
 }
 
-std::unique_ptr<Film> ffmpeg_film(const fs::path& path, const PictureSize& size, double pictures_per_second) {
+std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, double pictures_per_second) {
+    if (kind_of_file(path) == ".ogv") return std::make_unique<TheoraFilm>(path, pictures_per_second);
     return std::make_unique<FfmpegFilm>(path, size, pictures_per_second);
 }
 

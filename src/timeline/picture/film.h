@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 class vtkImageData;
 
@@ -19,11 +20,11 @@ public:
     virtual void finish() = 0;
 };
 
-/// Ogg Theora, which VTK writes itself.
-std::unique_ptr<Film> theora_film(const std::filesystem::path& path, double pictures_per_second);
+/// What the extension says: .ogv is written by VTK itself, .mp4, .webm and .gif by ffmpeg. Throws RunError saying what
+/// to install if there is none.
+std::unique_ptr<Film> film_of(const std::filesystem::path& path, const PictureSize& size, double pictures_per_second);
 
-/// What the extension says, by ffmpeg. Throws RunError saying what to install if there is none.
-std::unique_ptr<Film> ffmpeg_film(const std::filesystem::path& path, const PictureSize& size,
-                                  double pictures_per_second);
+/// The path's extension in small letters: ".png".
+std::string kind_of_file(const std::filesystem::path& path);
 
 }  // namespace espalier

@@ -106,26 +106,16 @@ fs::path numbered(const fs::path& path, int step) {
     return path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), step, path.extension().string());
 }
 
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 void require_png(const fs::path& path) {
-    if (lower_case(path.extension().string()) == ".png") return;
+    if (kind_of_file(path) == ".png") return;
     throw UserError(
         fmt::format("'{}' is no picture that can be written: .png, or a film: .ogv, .mp4, .webm, .gif", path.string()));
-}
-
-std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, double pictures_per_second) {
-    if (lower_case(path.extension().string()) == ".ogv") return theora_film(path, pictures_per_second);
-    return ffmpeg_film(path, size, pictures_per_second);
 }
 
 }  // namespace
 
 bool is_film(const fs::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = kind_of_file(path);
     return extension == ".ogv" || extension == ".mp4" || extension == ".webm" || extension == ".gif";
 }
 
