@@ -217,13 +217,20 @@ TEST_CASE_METHOD(Viewed, "a screenshot needs no display", "[app][view]") {
 }
 
 TEST_CASE_METHOD(Viewed, "a scene is shown while it grows, to its end", "[app][view]") {
-    const Outcome outcome = without_display("stalk.l --steps 12 --output grown", "wait\nprint\n");
+    const Outcome outcome = without_display("stalk.l --steps 12 --output grown", "wait\nprint\nscreenshot end.png\n");
     if (!drew(outcome)) return;
     INFO(outcome.err << outcome.out);
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("step 12") && Contains("frame: 13 of 13") && Contains("the run has ended"));
     CHECK_THAT(outcome.out, Contains("grown/\n"));
     CHECK(json::parse(text_of(path() / "grown/run.json"))["exit"] == "done");
+    // The camera went back as the stalk grew: all of it is seen, and as large as there is room.
+    const Picture end(path() / "end.png");
+    const Pixel paper = end.at(100, 400);
+    CHECK(end.at(640, 8) == paper);
+    CHECK_FALSE(end.at(640, 80) == paper);
+    CHECK_FALSE(end.at(640, 680) == paper);
+    CHECK(end.at(640, 740) == paper);
 }
 
 TEST_CASE_METHOD(Viewed, "closing the window ends the run after the step at hand, and nothing is lost", "[app][view]") {

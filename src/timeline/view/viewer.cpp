@@ -127,7 +127,10 @@ void Viewer::ask_simulation() {
     if (before.running == simulation_.running && before.text == simulation_.text) return;
     dirty_ = true;
     // The last frame was there before the run said that it ended.
-    if (before.running && !simulation_.running) follow();
+    if (before.running && !simulation_.running) {
+        follow();
+        settled_ = false;
+    }
     if (!simulation_.running) live_ = false;
 }
 
@@ -143,7 +146,7 @@ void Viewer::take_new_run() {
         reader_.forget();
         select(std::nullopt);
         shown_.reset();
-        settled_ = false;
+        settled_ = surveyed_ = false;
         if (stage_) window_.RemoveRenderer(&stage_->renderer());
         stage_.reset();
         frame_ = newest();
@@ -152,7 +155,10 @@ void Viewer::take_new_run() {
     if (stage_) stage_->use(run());
     if (stage_) staged_run_ = follower_.run();
     if (looks_.empty()) looks_ = looks_of(run());
-    if (live_) frame_ = newest();
+    if (live_) {
+        frame_ = newest();
+        settled_ = false;
+    }
     frame_ = std::min(frame_, newest());
     if (organ_ && !follower_.is_another()) ask_history();
 }
@@ -197,8 +203,10 @@ void Viewer::put_on_stage(const RecordedFrame& frame, const std::shared_ptr<cons
     if (!error_.empty()) return;
     const bool is_first = !stage_;
     if (is_first) make_stage();
+    // While a run grows, each frame is its own measure, until another one was looked at.
+    const bool settles = !settled_ && (!simulation_.running || surveyed_);
     try {
-        if (!simulation_.running && !settled_) settle();
+        if (settles) settle();
         stage_->shade(false);
         stage_frame();
     } catch (const UserError& error) {
@@ -206,7 +214,7 @@ void Viewer::put_on_stage(const RecordedFrame& frame, const std::shared_ptr<cons
         return;
     }
     turntable_->set_flat(stage_->is_flat());
-    if (is_first || (camera_is_mine_ && live_)) reset_camera();
+    if (is_first || (camera_is_mine_ && (live_ || settles))) reset_camera();
     // What comes next while this is looked at.
     std::vector<RecordedFrame> next;
     for (std::size_t i = frame_ + 1; i < frames().size() && next.size() < frames_ahead; ++i)
@@ -251,7 +259,7 @@ void Viewer::make_stage() {
 // They hold from the next stage_frame() on.
 void Viewer::settle() {
     if (!stage_ || !data_ || frames().empty()) return;
-    settled_ = true;
+    settled_ = surveyed_ = true;
     const RecordedFrame &first = frames().front(), &last = frames().back();
     StageSurvey survey;
     for (const RecordedFrame* frame : {&first, &last}) {

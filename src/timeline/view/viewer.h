@@ -114,8 +114,9 @@ private:
     std::optional<std::size_t> asked_;  ///< of the reader
     std::optional<int> shown_;          ///< the step on the stage
     std::shared_ptr<const FrameData> data_;
-    bool live_ = false, playing_ = false, help_ = false, sliding_ = false, settled_ = false;
-    bool camera_is_mine_ = true;  ///< nobody moved it yet
+    bool live_ = false, playing_ = false, help_ = false, sliding_ = false;
+    bool settled_ = false, surveyed_ = false;  ///< the stage has the measures of the whole run; of some of it
+    bool camera_is_mine_ = true;               ///< nobody moved it yet
     double frames_per_second_ = 10;
     std::size_t play_from_ = 0;
     Clock::time_point play_since_, last_look_, frame_since_;

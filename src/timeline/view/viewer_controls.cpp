@@ -42,7 +42,10 @@ void Viewer::set_playing(bool playing) {
 void Viewer::set_live(bool live) {
     playing_ = false;
     live_ = live && simulation_.running;
-    if (live_) frame_ = newest();
+    if (live_) {
+        frame_ = newest();
+        settled_ = false;
+    }
     dirty_ = true;
 }
 
