@@ -107,7 +107,7 @@ std::size_t compare(unsigned seed, const Kind& kind, bool lineage, std::size_t t
     for (std::uint32_t step = 1; step <= 40; ++step) {
         plain = plain_step(model.builder.model(), plain, step);
         if (plain.size() > longest_string) break;
-        if (step % 3 == 0) string = ModuleString(ModuleString(string));  // a copy has no room behind it
+        if (step % 3 == 0) string = ModuleString(string);  // a copy has no room behind it
         derivation.step(string, next);
         std::swap(string, next);
         INFO("seed " << seed << ", step " << step);
