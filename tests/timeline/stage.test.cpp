@@ -184,6 +184,28 @@ TEST_CASE("stage: a crown's shadow falls on the ground away from the sun", "[pic
     CHECK(lit[0] < 255);
 }
 
+TEST_CASE("stage: what is thin is as bright from behind as in front, what is closed is dark beneath", "[pictures]") {
+    if (!can_draw()) return;
+    HandmadePlant plant = stem(0, 0, 0);
+    Pose level;
+    level.position = {0, 2, 0};
+    level.heading = {0, 0, 1};
+    plant.add_organ(Organ::Shape::disc, 7, 1.6, level);
+    Pose upright;
+    upright.position = {3, 2, 0};
+    plant.add_organ(Organ::Shape::sphere, 8, 1.6, upright);
+    Pictured pictured({&plant});
+    PictureStyle style = Pictured::plain();
+    style.sun_elevation = 80;
+    const auto above = pictured.picture(style, {0, 60, 1, false});
+    const Pixel disc_above = pictured.seen(*above, {0.4, 2, 0}), sphere_above = pictured.seen(*above, {3, 2.8, 0});
+    const auto beneath = pictured.picture(style, {0, -60, 1, false});
+    const Pixel disc_beneath = pictured.seen(*beneath, {0.4, 2, 0}),
+                sphere_beneath = pictured.seen(*beneath, {3, 1.2, 0});
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(disc_above[k] - disc_beneath[k]) <= 8);
+    CHECK(sphere_above[1] > sphere_beneath[1] + 20);
+}
+
 TEST_CASE("stage: a picked triangle tells its module, which can be made bright", "[pictures]") {
     if (!can_draw()) return;
     const HandmadePlant left = stem(0, 0, 0), right = stem(1, 2, 0);

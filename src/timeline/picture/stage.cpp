@@ -6,19 +6,18 @@
 #include "timeline/picture/field_props.h"
 #include "timeline/picture/ground.h"
 #include "timeline/picture/legend.h"
+#include "timeline/picture/stage_light.h"
 #include "timeline/picture/stage_mesh.h"
+#include "timeline/picture/stage_survey.h"
 #include "timeline/picture/stage_texture.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 #include <vtkBillboardTextActor3D.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
-#include <vtkFloatArray.h>
-#include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
@@ -26,8 +25,6 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,40 +35,11 @@ namespace {
 constexpr Rgb bright{255, 60, 0}, ink{30, 30, 30}, chalk{235, 235, 235};
 constexpr std::size_t most_labels = 300;
 
-std::span<const glm::vec3> points_of(const StageMesh& mesh) {
-    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPoints()->GetData());
-    return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
-}
-
-std::span<const glm::vec3> normals_of(const StageMesh& mesh) {
-    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPointData()->GetNormals());
-    return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
-}
-
-std::span<const std::int32_t> corners_of(const StageMesh& mesh) {
-    auto* array = vtkTypeInt32Array::SafeDownCast(mesh.data->GetPolys()->GetConnectivityArray());
-    return {array->GetPointer(0), 3 * mesh.row_of_triangle.size()};
-}
-
 /// Also with what thickness its organs have.
 bool is_flat_box(const Box& box) {
     if (box.empty()) return false;
     const glm::dvec3 size = box.upper - box.lower;
     return size.z <= 0.02 * std::max(size.x, size.y);
-}
-
-bool is_drawn(Kind kind) {
-    return kind != Kind::query && kind != Kind::label;
-}
-
-void add_light(vtkRenderer& renderer, const glm::vec3& from, double intensity) {
-    vtkNew<vtkLight> light;
-    light->SetLightTypeToSceneLight();
-    light->PositionalOff();
-    light->SetFocalPoint(0, 0, 0);
-    light->SetPosition(from.x, from.y, from.z);
-    light->SetIntensity(intensity);
-    renderer.AddLight(light);
 }
 
 /// The time as a reader wants it: "step 12", or "6 days" where a scene says how long a step is.
@@ -139,9 +107,7 @@ public:
     }
 
     void add_survey(const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) const {
-        add_plants(geometry, survey);
-        add_range(frame, geometry, survey);
-        add_fields(frame, survey);
+        espalier::add_survey(*run_, style_, *colouring_, frame, geometry, survey);
     }
 
     void place_camera(const CameraPlace& place, bool follow) {
@@ -201,46 +167,6 @@ private:
         renderer_->SetBackgroundAlpha(style_.background.transparent ? 0 : 1);
     }
 
-    void add_plants(const RecordedGeometry& geometry, StageSurvey& survey) const {
-        for (std::size_t i = 0; i < geometry.points.size(); ++i) {
-            const bool shown = !style_.plant || geometry.of_points.plants[i] == *style_.plant;
-            if (!shown || !is_drawn(geometry.of_points.kinds[i])) continue;
-            const glm::dvec3 point(geometry.points[i]);
-            if (!std::isfinite(point.x + point.y + point.z)) continue;
-            survey.box.add(point);
-            survey.outline.add(point, std::isfinite(geometry.radii[i]) ? geometry.radii[i] : 0);
-        }
-    }
-
-    void add_range(const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) const {
-        if (!colouring_->is_number()) return;
-        const auto range = range_of(colouring_->values(*run_, frame, geometry));
-        if (!range) return;
-        if (!survey.range) survey.range = range;
-        (*survey.range)[0] = std::min((*survey.range)[0], (*range)[0]);
-        (*survey.range)[1] = std::max((*survey.range)[1], (*range)[1]);
-    }
-
-    void add_fields(const RecordedFrame& frame, StageSurvey& survey) const {
-        for (const FieldLook& look : style_.fields) {
-            if (!frame.fields.contains(look.name)) continue;
-            const RecordedField field = run_->field(frame, look.name);
-            add_field_range(field, survey.field_ranges);
-            const glm::dvec3 lower = field.origin - 0.5 * field.voxel, size = field.voxel * glm::dvec3(field.size);
-            for (int corner = 0; corner < 8; ++corner) {
-                const glm::dvec3 share(corner & 1, corner >> 1 & 1, corner >> 2);
-                survey.outline.add(lower + share * size, 0);
-            }
-        }
-    }
-
-    static void add_field_range(const RecordedField& field, std::map<std::string, std::array<double, 2>>& ranges) {
-        const auto range = range_of({field.values.begin(), field.values.end()});
-        if (!range) return;
-        auto& all = ranges.try_emplace(field.name, *range).first->second;
-        all = {std::min(all[0], (*range)[0]), std::max(all[1], (*range)[1])};
-    }
-
     std::array<double, 2> colour_range() const {
         if (style_.range) return *style_.range;
         if (survey_ && survey_->range) return *survey_->range;
@@ -282,16 +208,8 @@ private:
     }
 
     void add_lights_and_colours() {
-        renderer_->RemoveAllLights();
-        renderer_->AutomaticLightCreationOff();
         const glm::vec3 sun = direction_at(style_.sun_azimuth, style_.sun_elevation);
-        add_light(*renderer_, sun, 0.8);
-        add_light(*renderer_, glm::vec3(0, 1, 0), 0.25);
-        vtkNew<vtkLight> fill_in;
-        fill_in->SetLightTypeToHeadlight();
-        fill_in->SetIntensity(0.5);
-        renderer_->AddLight(fill_in);
-
+        set_lights(*renderer_, sun);
         std::optional<Daylight> daylight;
         if (style_.shading && !is_flat()) {
             std::vector<Occluder> occluders;
@@ -300,7 +218,16 @@ private:
         }
         std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
         if (is_line_drawing()) std::fill(colours.begin(), colours.end(), style_.background.is_dark() ? chalk : ink);
-        for (Part& part : parts_) dress(part, colours, daylight ? &*daylight : nullptr);
+        MeshDress dress{colours, daylight ? &*daylight : nullptr, 1, !is_flat()};
+        // Colours that mean a number are only tinged, or nobody could read them.
+        if (!colouring_->is_natural()) dress.shade = 0.5F;
+        for (Part& part : parts_) {
+            dress_actor(*part.actor, part.mesh, dress);
+            if (part.mesh.texture > 0 && style_.textures && colouring_->is_natural()) {
+                part.actor->SetTexture(texture_of(run_->folder(), geometry_->texture_files[part.mesh.texture]));
+            }
+            renderer_->AddActor(part.actor);
+        }
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
     }
 
@@ -308,43 +235,6 @@ private:
     bool is_line_drawing() const {
         return colouring_->is_natural() && is_flat() && geometry_->of_points.rgb.empty() &&
                geometry_->polygons.size() == 0;
-    }
-
-    void dress(Part& part, const std::vector<Rgb>& colours, const Daylight* daylight) {
-        const StageMesh& mesh = part.mesh;
-        const auto points = points_of(mesh), normals = normals_of(mesh);
-        vtkNew<vtkUnsignedCharArray> rgb;
-        rgb->SetNumberOfComponents(3);
-        rgb->SetNumberOfTuples(static_cast<vtkIdType>(points.size()));
-        unsigned char* const to = rgb->GetPointer(0);
-        // Colours that mean a number are only tinged, or nobody could read them.
-        const float strength = colouring_->is_natural() ? 1.0f : 0.5f;
-        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-            float light = 1;
-            if (daylight) {
-                light = brightness(daylight->sky(points[i], normals[i], !mesh.is_of_axes), daylight->sun(points[i], 1));
-                light = 1 - strength * (1 - light);
-            }
-            const Rgb& colour = colours[mesh.row_of_point[i]];
-            for (std::size_t k = 0; k < 3; ++k) {
-                to[3 * i + k] = static_cast<unsigned char>(std::lround(light * static_cast<float>(colour[k])));
-            }
-        });
-        mesh.data->GetPointData()->SetScalars(rgb);
-        vtkNew<vtkPolyDataMapper> mapper;
-        mapper->SetInputData(mesh.data);
-        part.actor->SetMapper(mapper);
-        vtkProperty& property = *part.actor->GetProperty();
-        // Some of the light goes through what is thin.
-        property.SetAmbient(mesh.is_of_axes ? 0.12 : 0.56);
-        property.SetDiffuse(mesh.is_of_axes ? 0.9 : 0.5);
-        property.SetSpecular(mesh.is_of_axes ? 0.03 : 0.1);
-        property.SetSpecularPower(15);
-        property.SetLighting(!is_flat());
-        if (mesh.texture > 0 && style_.textures && colouring_->is_natural()) {
-            part.actor->SetTexture(texture_of(run_->folder(), geometry_->texture_files[mesh.texture]));
-        }
-        renderer_->AddActor(part.actor);
     }
 
     void add_ground(const Daylight* daylight) {

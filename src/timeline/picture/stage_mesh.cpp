@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace espalier {
 namespace {
@@ -147,6 +148,44 @@ void fill_tube(const PlacedTube& placed, MeshFiller& filler) {
     }
 }
 
+/// A triangle fan's area, along its normal.
+glm::dvec3 area_of(const RecordedGeometry& geometry, std::size_t cell) {
+    const auto corners = geometry.polygons[cell];
+    const auto corner = [&](std::size_t k) {
+        return glm::dvec3(geometry.points[static_cast<std::size_t>(corners[k])]);
+    };
+    glm::dvec3 area(0);
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+        area += glm::cross(corner(k - 1) - corner(0), corner(k) - corner(0)) / 2.0;
+    }
+    return area;
+}
+
+/// How many cells from `cell` on belong to its module.
+std::size_t cells_of_module(const RecordedGeometry& geometry, std::size_t cell) {
+    const RecordedAttributes& of = geometry.of_cells;
+    const std::size_t row = geometry.polygons.first + cell;
+    std::size_t count = 1;
+    while (cell + count < geometry.polygons.size() && of.identities[row + count] == of.identities[row] &&
+           of.plants[row + count] == of.plants[row]) {
+        ++count;
+    }
+    return count;
+}
+
+/// The areas of a closed surface cancel out; of anything that can be seen from behind they hardly do.
+bool is_closed(const RecordedGeometry& geometry, std::size_t cell, std::size_t count) {
+    constexpr double rounding = 1e-4;
+    glm::dvec3 sum(0);
+    double all = 0;
+    for (std::size_t i = cell; i < cell + count; ++i) {
+        const glm::dvec3 area = area_of(geometry, i);
+        sum += area;
+        all += glm::length(area);
+    }
+    return glm::length(sum) < rounding * all;
+}
+
 /// The cells that wear one texture.
 StageMesh surface_of(const RecordedGeometry& geometry, const std::vector<std::size_t>& cells) {
     std::size_t points = 0, triangles = 0;
@@ -186,18 +225,37 @@ StageMesh tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& opt
 }
 
 std::vector<StageMesh> surfaces_of(const RecordedGeometry& geometry, const StageMeshOptions& options) {
-    std::map<std::uint16_t, std::vector<std::size_t>> cells_with;
-    for (std::size_t cell = 0; cell < geometry.polygons.size(); ++cell) {
-        const std::size_t row = geometry.polygons.first + cell;
-        const bool shown = !options.plant || geometry.of_cells.plants[row] == *options.plant;
-        if (shown && geometry.polygons[cell].size() >= 3) cells_with[geometry.textures[row]].push_back(cell);
+    std::map<std::pair<std::uint16_t, bool>, std::vector<std::size_t>> cells_with;
+    for (std::size_t cell = 0, count = 0; cell < geometry.polygons.size(); cell += count) {
+        count = cells_of_module(geometry, cell);
+        if (options.plant && geometry.of_cells.plants[geometry.polygons.first + cell] != *options.plant) continue;
+        const bool is_thin = !is_closed(geometry, cell, count);
+        for (std::size_t i = cell; i < cell + count; ++i) {
+            if (geometry.polygons[i].size() < 3) continue;
+            cells_with[{geometry.textures[geometry.polygons.first + i], is_thin}].push_back(i);
+        }
     }
     std::vector<StageMesh> meshes;
-    for (const auto& [texture, cells] : cells_with) {
+    for (const auto& [kind, cells] : cells_with) {
         meshes.push_back(surface_of(geometry, cells));
-        meshes.back().texture = texture;
+        std::tie(meshes.back().texture, meshes.back().is_thin) = kind;
     }
     return meshes;
+}
+
+std::span<const glm::vec3> points_of(const StageMesh& mesh) {
+    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPoints()->GetData());
+    return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
+}
+
+std::span<const glm::vec3> normals_of(const StageMesh& mesh) {
+    auto* array = vtkFloatArray::SafeDownCast(mesh.data->GetPointData()->GetNormals());
+    return {reinterpret_cast<const glm::vec3*>(array->GetPointer(0)), mesh.row_of_point.size()};
+}
+
+std::span<const std::int32_t> corners_of(const StageMesh& mesh) {
+    auto* array = vtkTypeInt32Array::SafeDownCast(mesh.data->GetPolys()->GetConnectivityArray());
+    return {array->GetPointer(0), 3 * mesh.row_of_triangle.size()};
 }
 
 }  // namespace espalier

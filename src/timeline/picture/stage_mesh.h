@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace espalier {
@@ -17,6 +18,7 @@ struct StageMesh {
     std::vector<std::uint32_t> row_of_point;     ///< of `of_points`
     std::vector<std::uint32_t> row_of_triangle;  ///< of `of_points` for axes, of `of_cells` for surfaces
     bool is_of_axes = false;
+    bool is_thin = false;       ///< seen from both sides: no axis, and no closed surface
     std::uint16_t texture = 0;  ///< the same for all of it
 };
 
@@ -29,7 +31,12 @@ struct StageMeshOptions {
 /// Axes, joined where one continues another, and outlines.
 StageMesh tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options);
 
-/// Polygons and organs, a mesh for each texture.
+/// Polygons and organs, a mesh for each texture, of what is thin and of what is closed.
 std::vector<StageMesh> surfaces_of(const RecordedGeometry& geometry, const StageMeshOptions& options);
+
+std::span<const glm::vec3> points_of(const StageMesh& mesh);
+std::span<const glm::vec3> normals_of(const StageMesh& mesh);
+/// Three points a triangle.
+std::span<const std::int32_t> corners_of(const StageMesh& mesh);
 
 }  // namespace espalier
