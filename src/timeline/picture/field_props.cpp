@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "timeline/picture/textured_plane.h"
+
 #include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkAutoInit.h>
@@ -11,12 +13,10 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
-#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkSmartVolumeMapper.h>
-#include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
@@ -131,24 +131,7 @@ vtkSmartPointer<vtkProp3D> plane(const RecordedField& field, char axis, double p
     glm::dvec3 right = corner, up = corner;
     right[axes[0]] += field.voxel[axes[0]] * field.size[axes[0]];
     up[axes[1]] += field.voxel[axes[1]] * field.size[axes[1]];
-    vtkNew<vtkPlaneSource> source;
-    source->SetOrigin(&corner.x);
-    source->SetPoint1(&right.x);
-    source->SetPoint2(&up.x);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(source->GetOutputPort());
-    vtkNew<vtkTexture> texture;
-    texture->SetInputData(plane_image(field, axes, place, range, colours));
-    texture->SetColorModeToDirectScalars();
-    texture->InterpolateOn();
-    texture->RepeatOff();
-    texture->EdgeClampOn();
-    const auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    actor->SetTexture(texture);
-    actor->GetProperty()->LightingOff();
-    actor->ForceTranslucentOn();
-    return actor;
+    return textured_plane(corner, right, up, *plane_image(field, axes, place, range, colours));
 }
 
 vtkSmartPointer<vtkProp3D> surface(const RecordedField& field, double level, const Rgb& rgb) {

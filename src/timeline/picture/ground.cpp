@@ -1,12 +1,10 @@
 #include "timeline/picture/ground.h"
 
+#include "timeline/picture/textured_plane.h"
+
 #include <tbb/parallel_for.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkTexture.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,24 +48,8 @@ vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, 
             *pixel = static_cast<unsigned char>(std::lround(255 * presence(static_cast<float>(std::hypot(x, z)))));
         }
     });
-    vtkNew<vtkPlaneSource> plane;
-    plane->SetOrigin(middle.x - radius, 0, middle.z - radius);
-    plane->SetPoint1(middle.x + radius, 0, middle.z - radius);
-    plane->SetPoint2(middle.x - radius, 0, middle.z + radius);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(plane->GetOutputPort());
-    vtkNew<vtkTexture> texture;
-    texture->SetInputData(image);
-    texture->SetColorModeToDirectScalars();
-    texture->InterpolateOn();
-    texture->RepeatOff();
-    texture->EdgeClampOn();
-    const auto actor = vtkSmartPointer<vtkActor>::New();
-    actor->SetMapper(mapper);
-    actor->SetTexture(texture);
-    actor->GetProperty()->LightingOff();
-    actor->ForceTranslucentOn();
-    return actor;
+    const glm::dvec3 corner(middle.x - radius, 0, middle.z - radius);
+    return textured_plane(corner, corner + glm::dvec3(2 * radius, 0, 0), corner + glm::dvec3(0, 0, 2 * radius), *image);
 }
 
 }  // namespace espalier
