@@ -20,7 +20,7 @@ inline constexpr std::size_t run_value_block = 8;
 inline constexpr std::size_t lineage_block = 8;
 
 /// What columns have room for behind their last element, so that the last modules are read and written in whole blocks,
-// too, as those of small strings all are.
+/// too, as those of small strings all are.
 inline constexpr std::size_t spare_letters = letter_block, spare_values = run_value_block,
                              spare_lineage = lineage_block;
 

@@ -123,7 +123,8 @@ bool raise_to_power(const CompiledSystem& model, const ModuleString& from, int s
     for (int k = 1; k <= steps; ++k) {
         const std::size_t size = powers.size_after(k);
         // Strings have an eighth more room than they need.
-        const std::size_t bytes = bytes_needed(before + before / 8, 0, Ancestry::none) + bytes_needed(size, 0, Ancestry::none);
+        const std::size_t bytes =
+            bytes_needed(before + before / 8, 0, Ancestry::none) + bytes_needed(size, 0, Ancestry::none);
         if (size >= BranchLinks::none || bytes > memory) return false;
         before = size;
     }
