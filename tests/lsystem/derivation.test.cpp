@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 using namespace espalier;
@@ -326,4 +327,19 @@ TEST_CASE("a parameter of -0 stays -0 whichever way it is written", "[lsystem]")
     model.system().axiom = {model.module("A", {number(1)})};
     model.rule({{"A", 1}}, {model.module("A", {number(-0.0)})});
     CHECK(text_after(model, 1) == "A(-0)");
+}
+
+TEST_CASE("a model that lies where another lay before is derived by its own programs", "[lsystem]") {
+    std::set<const CompiledModel*> places;
+    for (int k = 0; k < 50; ++k) {
+        ModelBuilder model;
+        const Expression x = formal(0);
+        model.system().axiom = {model.module("A", {number(1)})};
+        model.rule({{"A", 1}}, {model.module("A", {choose(x < number(2), x * x + number(k), number(-1))})});
+        const std::shared_ptr<const CompiledModel> compiled = model.compiled();
+        places.insert(compiled.get());
+        Derivation derivation(compiled);
+        CHECK(grow(derivation, 1).parameters == Column<double>{1.0 + k});
+    }
+    CHECK(places.size() < 50);
 }

@@ -1,5 +1,6 @@
 // Whatever a step is taken for, it writes what the plain derivation writes.
 #include "catch.h"
+#include "lsystem/plans.h"
 #include "lsystem/reference_derivation.h"
 
 #include <tbb/global_control.h>
@@ -126,6 +127,44 @@ void compare_many(const Kind& kind) {
     CHECK(longest > 30'000);  // more than a chunk
 }
 
+/// Marks what a string's columns have behind the room that is spared behind so many elements.
+class Marks {
+public:
+    Marks(ModuleString& string, const ModuleString& expected) : string_(string), expected_(expected) {
+        for_each([](auto& column, std::size_t end) {
+            column.resize(end + count);
+            std::fill_n(column.data() + end, count, mark<decltype(column[0])>);
+            column.clear();
+        });
+    }
+    bool stand() {
+        bool all = true;
+        for_each([&](const auto& column, std::size_t end) {
+            REQUIRE(column.capacity() >= end + count);  // the memory is that which was marked
+            const auto* const first = column.data() + end;
+            all &= std::all_of(first, first + count, [](auto value) { return value == mark<decltype(value)>; });
+        });
+        return all;
+    }
+
+private:
+    static constexpr std::size_t count = 64;
+    template <class T>
+    static constexpr std::decay_t<T> mark = 12345;
+
+    template <class Action>
+    void for_each(const Action& action) {
+        action(string_.letters, expected_.letters.size() + spare_letters);
+        action(string_.parameters, expected_.parameters.size() + spare_values);
+        action(string_.identities, expected_.identities.size() + spare_lineage);
+        action(string_.parents, expected_.parents.size() + spare_lineage);
+        action(string_.births, expected_.births.size() + spare_lineage);
+    }
+
+    ModuleString& string_;
+    const ModuleString& expected_;
+};
+
 }  // namespace
 
 TEST_CASE("random bare models grow as the plain derivation does", "[lsystem]") {
@@ -151,6 +190,34 @@ TEST_CASE("random models with predecessors of several modules grow as the plain 
 TEST_CASE("predecessors of several modules replace what stands across any place of the string", "[lsystem]") {
     compare_many({.parameters = true, .several = true, .letters = 2});
     compare_many({.several = true, .longest = 300, .letters = 3});
+}
+
+TEST_CASE("what is written in whole blocks stays in the room behind the string", "[lsystem]") {
+    const Kind kinds[] = {{.longest = 40},
+                          {.parameters = true},
+                          {.parameters = true, .conditions = true},
+                          {.parameters = true, .conditions = true, .several = true}};
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        RandomModel model(seed, kinds[seed % 4]);
+        DerivationSettings settings;
+        settings.lineage = seed % 8 < 4;
+        const auto compiled = model.builder.compiled();
+        Derivation derivation(compiled, settings), again(compiled, settings);
+        ModuleString string, next, marked;
+        derivation.start(string);
+        again.start(next);
+        for (int step = 1; step <= 20 && string.size() < 20'000; ++step) {
+            INFO("seed " << seed << ", step " << step);
+            derivation.step(string, next);
+            Marks marks(marked, next);
+            again.step(string, marked);
+            CHECK(marks.stand());
+            CHECK(marked.letters == next.letters);
+            CHECK(marked.parameters == next.parameters);
+            CHECK(marked.identities == next.identities);
+            std::swap(string, next);
+        }
+    }
 }
 
 TEST_CASE("the leftmost predecessor of several modules replaces its modules, however long the string", "[lsystem]") {
