@@ -1,6 +1,9 @@
 #include "timeline/picture/chart_look.h"
 
+#include <vtkContext2D.h>
+#include <vtkNew.h>
 #include <vtkPen.h>
+#include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
 namespace espalier {
@@ -35,6 +38,16 @@ void set_text(vtkTextProperty& text, const ChartColour& colour, float size) {
     text.SetFontSize(static_cast<int>(size));
     text.SetBold(0);
     text.SetItalic(0);
+}
+
+void write(vtkContext2D& painter, const std::string& text, float x, float y, const ChartLetters& letters) {
+    vtkNew<vtkTextProperty> property;
+    set_text(*property, letters.colour, letters.size);
+    property->SetJustification(letters.justification);
+    property->SetVerticalJustificationToCentered();
+    property->SetOrientation(letters.turned);
+    painter.ApplyTextProp(property);
+    painter.DrawString(x, y, text);
 }
 
 }  // namespace espalier

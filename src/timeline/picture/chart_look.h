@@ -4,10 +4,14 @@
 #include "espalier/timeline/chart_page.h"
 
 #include <vtkColor.h>
+#include <vtkContextItem.h>
+#include <vtkSmartPointer.h>
 
 #include <array>
 #include <string>
 
+class vtkContext2D;
+class vtkRectf;
 class vtkTextProperty;
 
 namespace espalier {
@@ -25,5 +29,22 @@ ChartLook look_of(const ChartPage& page);
 int dash_of(const Key& key);
 
 void set_text(vtkTextProperty& text, const ChartColour& colour, float size);
+
+struct ChartLetters {
+    ChartColour colour;
+    float size;
+    int justification;  ///< along the line, as VTK says it; across it the middle is meant
+    double turned;      ///< degrees
+};
+void write(vtkContext2D& painter, const std::string& text, float x, float y, const ChartLetters& letters);
+
+/// An item that draws a chart at its place on a page.
+template <class Item>
+vtkSmartPointer<vtkContextItem> placed_item(const ChartPage& page, const Chart& chart, const vtkRectf& place,
+                                            float font) {
+    const auto item = vtkSmartPointer<Item>::New();
+    item->set(page, chart, place, font);
+    return item;
+}
 
 }  // namespace espalier

@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
-#include <vtkNew.h>
 #include <vtkPen.h>
 #include <vtkRect.h>
-#include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
@@ -119,13 +117,7 @@ private:
     /// Its middle at (x, y).
     void write(vtkContext2D& painter, const std::string& text, float x, float y, const ChartColour& of,
                float size = 0.85F, double turned = 0) const {
-        vtkNew<vtkTextProperty> property;
-        set_text(*property, of, size * font_);
-        property->SetJustificationToCentered();
-        property->SetVerticalJustificationToCentered();
-        property->SetOrientation(turned);
-        painter.ApplyTextProp(property);
-        painter.DrawString(x, y, text);
+        espalier::write(painter, text, x, y, {of, size * font_, VTK_TEXT_CENTERED, turned});
     }
 
     const Chart* chart_ = nullptr;
@@ -138,9 +130,7 @@ private:
 
 vtkSmartPointer<vtkContextItem> heat_map_item(const ChartPage& page, const Chart& chart, const vtkRectf& place,
                                               float font) {
-    const auto item = vtkSmartPointer<HeatMapItem>::New();
-    item->set(page, chart, place, font);
-    return item;
+    return placed_item<HeatMapItem>(page, chart, place, font);
 }
 
 }  // namespace espalier

@@ -8,7 +8,6 @@
 #include <vtkPen.h>
 #include <vtkPoints2D.h>
 #include <vtkRect.h>
-#include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
@@ -142,13 +141,7 @@ private:
 
     void write(vtkContext2D& painter, const std::string& text, float x, float y, float size,
                int justification = VTK_TEXT_CENTERED, double turned = 0) const {
-        vtkNew<vtkTextProperty> property;
-        set_text(*property, look_.text, size * font_);
-        property->SetJustification(justification);
-        property->SetVerticalJustificationToCentered();
-        property->SetOrientation(turned);
-        painter.ApplyTextProp(property);
-        painter.DrawString(x, y, text);
+        espalier::write(painter, text, x, y, {look_.text, size * font_, justification, turned});
     }
 
     /// What lies between gaps.
@@ -211,9 +204,7 @@ private:
 
 vtkSmartPointer<vtkContextItem> line_chart_item(const ChartPage& page, const Chart& chart, const vtkRectf& place,
                                                 float font) {
-    const auto item = vtkSmartPointer<LineChartItem>::New();
-    item->set(page, chart, place, font);
-    return item;
+    return placed_item<LineChartItem>(page, chart, place, font);
 }
 
 }  // namespace espalier
