@@ -11,6 +11,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -161,6 +162,12 @@ TEST_CASE("ticks: multiples of 1, 2 or 5 that hold the range, with short labels"
     CHECK(ticks_over(0, 24800, 5).labels == std::vector<std::string>{"0", "5000", "10k", "15k", "20k", "25k"});
     CHECK(ticks_over(0, 2.4e6, 5).labels[1] == "500k");
     CHECK(ticks_over(0, 2.4e6, 5).labels.back() == "2.5M");
+    CHECK(ticks_over(1'000'000, 1'000'003, 4).labels[1] == "1.000001M");
+    for (const auto& [low, high] : {std::pair(1e6, 1e6 + 3), {0.3, 0.3 + 1e-9}, {-7e9, -7e9 + 5}, {1.0, 1 + 1e-11}}) {
+        std::vector<std::string> labels = ticks_over(low, high, 4).labels;
+        std::sort(labels.begin(), labels.end());
+        CHECK(std::adjacent_find(labels.begin(), labels.end()) == labels.end());
+    }
     CHECK(ticks_over(-0.35, 0.1, 5).places.front() == Approx(-0.4));
     CHECK(ticks_over(-0.35, 0.1, 5).labels.back() == "0.1");
     CHECK(ticks_over(3, 3, 4).low == 0);

@@ -30,7 +30,9 @@ std::string label_of(double value, double step) {
         return std::abs(value) >= of.size * (of.size < 1e4 ? 10 : 1) || (step >= of.size && std::abs(value) >= 10000);
     });
     const double shown = unit == units.end() ? value : value / unit->size;
-    return fmt::format("{:.6g}{}", shown, unit == units.end() ? "" : unit->name);
+    // As many digits as tell neighbours apart.
+    const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / step))) + 1, 6, 15);
+    return fmt::format("{:.{}g}{}", shown, digits, unit == units.end() ? "" : unit->name);
 }
 
 }  // namespace
