@@ -103,34 +103,34 @@ TEST_CASE("camera: an outline of few points stands for all", "[pictures]") {
 TEST_CASE("daylight: under a roof it is dark, on it and far from it light", "[pictures]") {
     const Square roof(10, 1);
     const std::vector<Occluder> occluders{roof.occluder()};
-    const Daylight daylight(occluders, glm::vec3(0, 1, 0));
+    const Daylight lit(occluders, glm::vec3(0, 1, 0));
     const glm::vec3 up(0, 1, 0);
-    CHECK(daylight.sky({0, 0, 0}, up, false) < 0.1);
-    CHECK(daylight.sun({0, 0, 0}, 1) == 0);
-    CHECK(daylight.sky({0, 1, 0}, up, true) > 0.99);
-    CHECK(daylight.sun({0, 1, 0}, 1) == 1);
-    CHECK(daylight.sky({40, 0, 0}, up, false) > 0.9);
-    CHECK(daylight.sun({11, 0, 0}, 1) == 1);
+    CHECK(lit.sky({0, 0, 0}, up, false) < 0.1);
+    CHECK(lit.sun({0, 0, 0}, 1) == 0);
+    CHECK(lit.sky({0, 1, 0}, up, true) > 0.99);
+    CHECK(lit.sun({0, 1, 0}, 1) == 1);
+    CHECK(lit.sky({40, 0, 0}, up, false) > 0.9);
+    CHECK(lit.sun({11, 0, 0}, 1) == 1);
     // Under the edge half of the sky is seen.
-    CHECK(daylight.sky({10, 0, 0}, up, false) == Approx(0.5).margin(0.12));
+    CHECK(lit.sky({10, 0, 0}, up, false) == Approx(0.5).margin(0.12));
 }
 
 TEST_CASE("daylight: a slanting sun throws the shadow sideways", "[pictures]") {
     const Square roof(1, 2);
     const std::vector<Occluder> occluders{roof.occluder()};
-    const Daylight daylight(occluders, direction_at(90, 45));
-    CHECK(daylight.sun({-2, 0, 0}, 1) == 0);
-    CHECK(daylight.sun({0, 0, 0}, 1) == 1);
-    CHECK(daylight.sun({2, 0, 0}, 1) == 1);
-    const float edge = daylight.sun({-3, 0, 0}, 6);
+    const Daylight lit(occluders, direction_at(90, 45));
+    CHECK(lit.sun({-2, 0, 0}, 1) == 0);
+    CHECK(lit.sun({0, 0, 0}, 1) == 1);
+    CHECK(lit.sun({2, 0, 0}, 1) == 1);
+    const float edge = lit.sun({-3, 0, 0}, 6);
     CHECK(edge > 0.2);
     CHECK(edge < 0.8);
 }
 
 TEST_CASE("daylight: nothing casts no shadow", "[pictures]") {
-    const Daylight daylight({}, glm::vec3(0, 1, 0));
-    CHECK(daylight.sky({0, 0, 0}, {0, 1, 0}, false) == 1);
-    CHECK(daylight.sun({5, 0, 0}, 2) == 1);
+    const Daylight lit({}, glm::vec3(0, 1, 0));
+    CHECK(lit.sky({0, 0, 0}, {0, 1, 0}, false) == 1);
+    CHECK(lit.sun({5, 0, 0}, 2) == 1);
 }
 
 TEST_CASE("palettes: ends and middles are their anchors, and what is beyond stays at the ends", "[pictures]") {

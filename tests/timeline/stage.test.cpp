@@ -272,7 +272,7 @@ TEST_CASE("stage: names that a run has not are told with the nearest", "[picture
     CHECK_THROWS_WITH(Stage(run, coloured_by("vigor")), Contains("did you mean 'vigour'?"));
     CHECK_THROWS_AS(Stage(run, coloured_by("nothing")), UserError);
     PictureStyle style;
-    style.fields.push_back({"ligth"});
+    style.fields.push_back({"ligth", FieldLook::Kind::slice, 'z', {}, {}});
     CHECK_THROWS_WITH(Stage(run, style), Contains("did you mean 'light'?"));
     // The parameter 'light' is an answer of queries alone, which nobody draws: the name means the field.
     const std::vector<std::string> names = Stage(run, {}).colour_names();
