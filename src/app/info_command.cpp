@@ -72,6 +72,7 @@ Json summary_of(const fs::path& folder) {
     for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
         summary[key] = run.value(key, Json());
     }
+    summary["exit"] = exit_of_run(folder);
     summary["scene"] = run.value("scene", Json::object()).value("name", "");
     summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
     summary["memory"] = run.value("memory", Json());

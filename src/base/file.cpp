@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
@@ -14,6 +15,7 @@
 #include <sys/file.h>
 #include <sys/uio.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -24,6 +26,11 @@ namespace fs = std::filesystem;
 
 std::string reason(int error) {
     return std::generic_category().message(error);
+}
+
+/// 0, or the system's error.
+int try_lock(int descriptor, int kind) {
+    return ::flock(descriptor, kind | LOCK_NB) == 0 ? 0 : errno;
 }
 
 [[noreturn]] void fail_to_write(const fs::path& path, const std::string& why) {
@@ -129,8 +136,13 @@ FolderLock::FolderLock(const fs::path& folder) {
     const fs::path file = folder / ".lock";
     descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) throw RunError(fmt::format("cannot write into {}: {}", folder.string(), reason(errno)));
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        const int error_number = errno;
+    int error_number = try_lock(descriptor_, LOCK_EX);
+    // `is_locked` holds it for a moment, too.
+    for (int i = 0; i < 5 && error_number == EWOULDBLOCK; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        error_number = try_lock(descriptor_, LOCK_EX);
+    }
+    if (error_number != 0) {
         ::close(descriptor_);
         if (error_number != EWOULDBLOCK) {
             throw RunError(fmt::format("cannot lock {}: {}", folder.string(), reason(error_number)));
@@ -144,6 +156,14 @@ FolderLock::FolderLock(const fs::path& folder) {
 
 FolderLock::~FolderLock() {
     if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool is_locked(const fs::path& folder) {
+    const int descriptor = ::open((folder / ".lock").c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return errno != ENOENT;
+    const int error_number = try_lock(descriptor, LOCK_SH);
+    ::close(descriptor);
+    return error_number != 0;
 }
 
 }  // namespace espalier

@@ -253,6 +253,8 @@ TEST_CASE_METHOD(BadInput, "a run that is killed leaves a collection of whole fr
         [&](pid_t process) { kill(process, SIGKILL); });
     CHECK(outcome.code == -SIGKILL);
     CHECK(exit_of("out") == "running");
+    CHECK_THAT(run("info out").out, Contains("ended: killed"));
+    CHECK_THAT(run("info out --json").out, Contains("\"exit\": \"killed\""));
     const std::string collection = text_of(path() / "out/plants.pvd");
     CHECK_THAT(collection, Contains("plants/0002.vtp") && Contains("</VTKFile>"));
 }

@@ -7,6 +7,8 @@
 #include "timeline/frames.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 namespace espalier {
 
@@ -30,6 +32,21 @@ inline HandmadePlant seedling() {
     plant.add_query(4, {0, 1, 0}, 0.125);
     return plant;
 }
+
+/// A run that is going: its first frame is there.
+struct GoingRun {
+    RunFolder folder;
+    HandmadePlant plant = seedling();
+    std::optional<Timeline> timeline;
+
+    explicit GoingRun(const std::string& exit = "done") {
+        timeline.emplace(folder.path, timeline_table(), 4);
+        grow(0);
+        std::string json = run_json;
+        timeline->write_run(json.replace(json.find("done"), 4, exit));
+    }
+    void grow(int step) { record(*timeline, step, {&plant}); }
+};
 
 /// A branched plant that is a seedling at step 0, and one with a triangle 5 m beside it, with a field.
 struct RecordedFolder {

@@ -1,5 +1,6 @@
 // A run read back: what the recorders wrote, found again; damage named, never trusted.
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include "catch.h"
 #include "timeline/recorded_folder.h"
@@ -109,26 +110,37 @@ TEST_CASE("statistics and life spans read back", "[reading]") {
 }
 
 TEST_CASE("an index is read while it gets longer", "[reading]") {
-    RunFolder folder;
-    Timeline timeline(folder.path, timeline_table(), 4);
-    const HandmadePlant plant = seedling();
-    record(timeline, 0, {&plant});
-    timeline.write_run(run_json);
+    GoingRun going;
     std::atomic<bool> done{false};
     std::thread writer([&] {
-        for (int step = 1; step <= 300; ++step) record(timeline, step, {&plant});
+        for (int step = 1; step <= 300; ++step) going.grow(step);
         done = true;
     });
     std::size_t before = 1, readings = 0;
     while (!done) {
-        const std::size_t frames = RecordedRun(folder.path).frames().size();
+        const std::size_t frames = RecordedRun(going.folder.path).frames().size();
         CHECK(frames >= before);
         before = frames;
         ++readings;
     }
     writer.join();
     CHECK(readings > 1);
-    CHECK(RecordedRun(folder.path).frames().size() == 301);
+    CHECK(RecordedRun(going.folder.path).frames().size() == 301);
+}
+
+TEST_CASE("a step of which only a part is written is no frame yet", "[reading]") {
+    const RecordedFolder recorded;
+    for (const std::string file : {"plants.pvd", "fields.pvd"}) {
+        const std::filesystem::path path = recorded.folder.path / file;
+        const std::string whole = read_text(path);
+        const std::size_t last = whole.rfind("<DataSet");
+        write_text(path, whole.substr(0, last) + whole.substr(whole.find("/>", last) + 2));
+        const RecordedRun run(recorded.folder.path);
+        CHECK(run.frames().size() == 1);
+        CHECK(run.frames().back().step == 0);
+        write_text(path, whole);
+        CHECK(RecordedRun(recorded.folder.path).frames().size() == 2);
+    }
 }
 
 TEST_CASE("what is missing is named", "[reading]") {

@@ -1,5 +1,6 @@
 // The window without a window: where its controls stand, what scripts say, how it follows and reads runs.
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include "catch.h"
 #include "timeline/recorded_folder.h"
@@ -155,21 +156,30 @@ TEST_CASE("a history is read beside the window, and the last question wins", "[v
 }
 
 TEST_CASE("a run is followed while it gets more frames", "[view]") {
-    RunFolder folder;
-    Timeline timeline(folder.path, timeline_table(), 4);
-    const HandmadePlant plant = seedling();
-    record(timeline, 0, {&plant});
-    timeline.write_run(run_json);
-    RunFollower follower(folder.path);
+    GoingRun going;
+    RunFollower follower(going.folder.path);
     CHECK(follower.run()->frames().size() == 1);
     CHECK_FALSE(follower.look());
     const auto before = follower.run();
     std::this_thread::sleep_for(20ms);
-    record(timeline, 1, {&plant});
+    going.grow(1);
     CHECK(follower.look());
     CHECK(follower.run()->frames().size() == 2);
     CHECK_FALSE(follower.is_another());
     CHECK(before->frames().size() == 1);  // who holds the old one is not disturbed
+}
+
+TEST_CASE("a run that is killed is known by the lock that it no longer holds", "[view]") {
+    GoingRun going("running");
+    RunFollower follower(going.folder.path);
+    CHECK(follower.run()->exit() == "running");
+    CHECK_FALSE(follower.look());
+    going.timeline.reset();
+    CHECK(follower.look());
+    CHECK(follower.run()->exit() == "killed");
+    CHECK_FALSE(follower.is_another());
+    const FolderLock again(going.folder.path);  // looking takes it from nobody
+    CHECK(is_locked(going.folder.path));
 }
 
 TEST_CASE("another run in the same folder is noticed, and what cannot be read leaves the old one", "[view]") {

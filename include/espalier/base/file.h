@@ -35,4 +35,7 @@ private:
     int descriptor_ = -1;
 };
 
+/// True while a process holds a folder's lock, and where that cannot be known.
+bool is_locked(const std::filesystem::path& folder);
+
 }  // namespace espalier

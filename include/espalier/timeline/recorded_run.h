@@ -136,6 +136,9 @@ struct RecordedFrame {
     std::map<std::string, std::filesystem::path> fields;  ///< .vti, or .vdb where only that was recorded
 };
 
+/// How the run in a folder ended, as `RecordedRun::exit` says it. Throws UserError if there is none.
+std::string exit_of_run(const std::filesystem::path& folder);
+
 /// Opens a run's folder, also of a run that is still going. Everything that is missing or damaged, at once or when it
 /// is loaded, throws UserError naming the file.
 class RecordedRun {
@@ -144,7 +147,7 @@ public:
 
     const std::filesystem::path& folder() const { return folder_; }
     const std::string& scene() const { return scene_; }  ///< its name
-    /// How it ended: "done", "interrupted", "failed: why"; "running" if it is going still, or was killed.
+    /// How it ended: "done", "interrupted", "failed: why", "killed"; "running" while it is going.
     const std::string& exit() const { return exit_; }
     const std::string& time_unit() const { return time_unit_; }
     double dt() const { return dt_; }  ///< of a step, in time units

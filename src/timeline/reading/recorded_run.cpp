@@ -72,6 +72,19 @@ std::vector<CollectionEntry> read_collection(const fs::path& path) {
     }
 }
 
+// Plants and fields of a step are written one after the other: a run that goes on, or was killed, may have but one.
+void drop_unfinished(std::vector<RecordedFrame>& frames) {
+    const auto holds = [&](auto member) {
+        return std::any_of(frames.begin(), frames.end(),
+                           [&](const RecordedFrame& of) { return !(of.*member).empty(); });
+    };
+    const bool has_plants = holds(&RecordedFrame::plants), has_fields = holds(&RecordedFrame::fields);
+    const auto is_whole = [&](const RecordedFrame& frame) {
+        return (!has_plants || !frame.plants.empty()) && (!has_fields || !frame.fields.empty());
+    };
+    if (frames.size() > 1 && !is_whole(frames.back()) && is_whole(frames[frames.size() - 2])) frames.pop_back();
+}
+
 std::vector<RecordedFrame> read_frames(const fs::path& folder, double dt) {
     std::map<int, RecordedFrame> frames;
     const auto frame_at = [&](const fs::path& path, double time) -> RecordedFrame& {
@@ -89,6 +102,7 @@ std::vector<RecordedFrame> read_frames(const fs::path& folder, double dt) {
     }
     std::vector<RecordedFrame> sorted;
     for (auto& [step, frame] : frames) sorted.push_back(std::move(frame));
+    drop_unfinished(sorted);
     return sorted;
 }
 
@@ -103,6 +117,14 @@ Json read_run_json(const fs::path& folder) {
         throw UserError(fmt::format("{} is not what a run writes", file.string()));
     }
     return run;
+}
+
+std::string written_exit(const fs::path& folder) {
+    const Json run = read_run_json(folder);
+    if (!run["exit"].is_string()) {
+        throw UserError(fmt::format("{} is not what a run writes", (folder / "run.json").string()));
+    }
+    return run["exit"].get<std::string>();
 }
 
 // Cells between commas; in quotes commas are text.
@@ -133,7 +155,6 @@ RecordedRun::RecordedRun(fs::path folder) : folder_(std::move(folder)) {
     const Json run = read_run_json(folder_);
     try {
         scene_ = run.at("scene").at("name").get<std::string>();
-        exit_ = run.at("exit").get<std::string>();
         time_unit_ = run.at("time_unit").get<std::string>();
         dt_ = run.at("dt").get<double>();
         for (const Json& plant : run.at("plants")) {
@@ -144,7 +165,16 @@ RecordedRun::RecordedRun(fs::path folder) : folder_(std::move(folder)) {
         throw UserError(fmt::format("{} is not what a run writes: {}", (folder_ / "run.json").string(), error.what()));
     }
     if (!(dt_ > 0) || !std::isfinite(dt_)) fail(folder_ / "run.json", fmt::format("a step cannot last {}", dt_));
+    exit_ = exit_of_run(folder_);
     frames_ = read_frames(folder_, dt_);
+}
+
+// Who is killed cannot say so, but holds no lock any more.
+std::string exit_of_run(const fs::path& folder) {
+    const std::string exit = written_exit(folder);
+    if (exit != "running" || is_locked(folder)) return exit;
+    const std::string again = written_exit(folder);  // it may have ended just then
+    return again == "running" ? "killed" : again;
 }
 
 std::uint32_t RecordedRun::plant(const std::string& name) const {

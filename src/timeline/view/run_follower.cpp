@@ -1,6 +1,7 @@
 #include "timeline/view/run_follower.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include <system_error>
 
@@ -23,12 +24,12 @@ RunFollower::RunFollower(std::filesystem::path folder) : folder_(std::move(folde
 }
 
 RunFollower::Stamp RunFollower::stamp() const {
-    Stamp result;
+    Stamp result{{}, is_locked(folder_)};
     std::size_t i = 0;
     for (const char* name : {"run.json", "plants.pvd", "fields.pvd"}) {
         std::error_code error;
         const auto written = std::filesystem::last_write_time(folder_ / name, error);
-        result[i++] = error ? std::filesystem::file_time_type::min() : written;
+        result.written[i++] = error ? std::filesystem::file_time_type::min() : written;
     }
     return result;
 }

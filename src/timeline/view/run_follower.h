@@ -23,7 +23,13 @@ public:
     const std::string& error() const { return error_; }
 
 private:
-    using Stamp = std::array<std::filesystem::file_time_type, 3>;
+    /// What changes when the run goes on, ends or is killed.
+    struct Stamp {
+        std::array<std::filesystem::file_time_type, 3> written;
+        bool locked;
+
+        bool operator==(const Stamp&) const = default;
+    };
     Stamp stamp() const;
 
     std::filesystem::path folder_;

@@ -122,7 +122,9 @@ void Viewer::ask_simulation() {
     if (options_.simulation) {
         simulation_ = options_.simulation();
     } else {
-        simulation_ = {run().exit() == "running", run().exit().starts_with("failed"), run().exit()};
+        const std::string& exit = run().exit();
+        const bool killed = exit == "killed";
+        simulation_ = {exit == "running", killed || exit.starts_with("failed"), killed ? "the run was killed" : exit};
     }
     if (before.running == simulation_.running && before.text == simulation_.text) return;
     dirty_ = true;
