@@ -1,6 +1,7 @@
 // render: pictures, films and contact sheets of a run, or of a scene that is grown first.
 #include "espalier/base/error.h"
 #include "espalier/base/text.h"
+#include "espalier/simulation/scene.h"
 #include "espalier/timeline/render.h"
 
 #include "command.h"
@@ -92,6 +93,7 @@ holds; docs/render.md shows what all this looks like.)");
         run_.model = model_.arguments();
         const bool is_run = fs::exists(run_.model.file / "run.json");
         if (!is_run) {
+            check_before_growing();
             const int code = grow();
             if (code != exit_code::done) return code;
         }
@@ -168,6 +170,39 @@ private:
             .add_option("--orbit", orbit_, "degrees that the camera goes round during a film")
             ->check(CLI::Range(-36000.0, 36000.0));
         app().add_flag("--follow", follow_, "frame each step's plants anew, instead of those of all steps");
+    }
+
+    /// A mistake that can be known from the words and the scene should not cost the growing.
+    void check_before_growing() const {
+        (void)range();
+        if (!background_.empty()) (void)picture_background(background_);
+        if (!output_.empty() && (!sheet_.empty() || !is_film(output_))) require_png(output_);
+        std::vector<std::string> looks;
+        for (const std::string& field : fields_) looks.push_back(field_look(field).name);
+        if (!is_scene(run_.model.file)) return;
+        const Scene scene = read_scene(run_.model.file, {sets_.overrides(), growth_.steps(), growth_.seed()});
+        const std::vector<std::string> fields = scene.timeline.texts_or("fields", {});
+        std::vector<std::string> colours = colours_of_every_run(), plants;
+        for (const std::string& name : scene.timeline.table("parameters").keys()) colours.push_back(name);
+        for (const std::string& name : fields) colours.insert(colours.end(), {name, "field." + name});
+        for (const PlantDescription& plant : scene.plants) plants.push_back(plant.name);
+        const bool has_all_fields = fields == std::vector<std::string>{"all"};
+        for (const std::string& look : looks) {
+            if (!has_all_fields)
+                require("--field", look, fields, "`fields = [...]` under [timeline] names what is recorded");
+        }
+        if (!has_all_fields) {
+            require("--colour-by", colour_by_, colours,
+                    "`parameters` and `fields` under [timeline] say what more there is");
+        }
+        if (!plant_.empty()) require("--plant", plant_, plants, "the plants of the scene have other names");
+    }
+
+    void require(const char* option, const std::string& name, const std::vector<std::string>& known,
+                 const char* hint) const {
+        if (std::find(known.begin(), known.end(), name) != known.end()) return;
+        throw UserError(fmt::format("{} {}: {} will have nothing of that name{}; {}", option, name,
+                                    run_.model.file.string(), did_you_mean(name, known), hint));
     }
 
     int grow() {

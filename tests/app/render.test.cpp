@@ -201,3 +201,20 @@ TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[rend
     CHECK(place.run("render nothere").code == 1);
     CHECK(place.run("render").code == 1);
 }
+
+TEST_CASE("render: what a scene will not hold is told before it is grown", "[render]") {
+    const RenderPlace place;
+    const auto fails = [&](const std::string& options, const std::string& words) {
+        const Outcome outcome = place.run("render pair.toml --run-output grown --quiet " + options);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains(words));
+        CHECK_FALSE(std::filesystem::exists(place.path() / "grown"));
+    };
+    fails("--field light:slice", "--field light: pair.toml will have nothing of that name");
+    fails("--colour-by lenght", "did you mean 'length'?");
+    fails("--plant lef", "did you mean 'left'?");
+    fails("--output x.jpg", "no picture that can be written");
+    fails("--sheet 2x2 --output x.mp4", "no picture that can be written");
+    fails("--range 2:1", "--range 2:1");
+    fails("--background pale", "--background pale");
+}

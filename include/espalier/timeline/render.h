@@ -35,6 +35,10 @@ std::vector<std::filesystem::path> render_pictures(const RenderJob& job, const s
 void render_film(const RenderJob& job, double pictures_per_second, const std::filesystem::path& path);
 /// True if `render_film` knows the extension.
 bool is_film(const std::filesystem::path& path);
+/// Throws UserError unless it is a .png.
+void require_png(const std::filesystem::path& path);
+/// What organs of every run can be coloured by, "natural" first.
+std::vector<std::string> colours_of_every_run();
 
 /// One PNG with frames side by side, row after row, each of `job.size` and with its time beneath.
 void render_sheet(const RenderJob& job, int columns, const std::filesystem::path& path);

@@ -94,12 +94,17 @@ Colouring::Colouring(const RecordedRun& run, const std::string& name) : name_(na
     if (std::find(parameters.begin(), parameters.end(), name) != parameters.end()) field_.clear();
 }
 
-std::vector<std::string> Colouring::names(const RecordedRun& run) {
+std::vector<std::string> Colouring::names_of_every_run() {
     std::vector<std::string> result{"natural"};
+    for (const Array& array : arrays) result.emplace_back(array.name);
+    return result;
+}
+
+std::vector<std::string> Colouring::names(const RecordedRun& run) {
+    std::vector<std::string> result = names_of_every_run();
     const auto add = [&](const std::string& name) {
         if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
     };
-    for (const Array& array : arrays) add(array.name);
     for (const std::string& parameter : parameter_names(run)) add(parameter);
     for (const std::string& field : run.field_names()) {
         const bool taken = std::find(result.begin(), result.end(), field) != result.end();

@@ -28,6 +28,8 @@ public:
 
     /// Every name it may bear for a run, "natural" first.
     static std::vector<std::string> names(const RecordedRun& run);
+    /// Those that need nothing chosen.
+    static std::vector<std::string> names_of_every_run();
 
     bool is_natural() const { return name_ == "natural"; }
     bool is_number() const { return !is_natural() && !is_category(); }

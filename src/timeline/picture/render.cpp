@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "timeline/picture/colouring.h"
 #include "timeline/picture/film.h"
 #include "timeline/picture/frame_painter.h"
 #include "timeline/picture/legend.h"
@@ -106,17 +107,21 @@ fs::path numbered(const fs::path& path, int step) {
     return path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), step, path.extension().string());
 }
 
+}  // namespace
+
+bool is_film(const fs::path& path) {
+    const std::string extension = kind_of_file(path);
+    return extension == ".ogv" || extension == ".mp4" || extension == ".webm" || extension == ".gif";
+}
+
 void require_png(const fs::path& path) {
     if (kind_of_file(path) == ".png") return;
     throw UserError(
         fmt::format("'{}' is no picture that can be written: .png, or a film: .ogv, .mp4, .webm, .gif", path.string()));
 }
 
-}  // namespace
-
-bool is_film(const fs::path& path) {
-    const std::string extension = kind_of_file(path);
-    return extension == ".ogv" || extension == ".mp4" || extension == ".webm" || extension == ".gif";
+std::vector<std::string> colours_of_every_run() {
+    return Colouring::names_of_every_run();
 }
 
 std::vector<const RecordedFrame*> evenly(const std::vector<const RecordedFrame*>& frames, std::size_t count) {
