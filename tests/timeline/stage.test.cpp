@@ -10,6 +10,8 @@
 #include <vtkActorCollection.h>
 #include <vtkImageData.h>
 
+#include <fstream>
+
 using namespace espalier;
 using Catch::Matchers::Contains;
 
@@ -204,6 +206,36 @@ TEST_CASE("stage: what is thin is as bright from behind as in front, what is clo
                 sphere_beneath = pictured.seen(*beneath, {3, 1.2, 0});
     for (std::size_t k = 0; k < 3; ++k) CHECK(std::abs(disc_above[k] - disc_beneath[k]) <= 8);
     CHECK(sphere_above[1] > sphere_beneath[1] + 20);
+}
+
+TEST_CASE("stage: a texture is seen in its own colours where nobody gave others", "[pictures]") {
+    if (!can_draw()) return;
+    const RunFolder files;
+    std::filesystem::create_directories(files.path);
+    const std::filesystem::path file = files.path / "leaf.ppm";
+    std::ofstream(file) << "P6\n1 1\n255\n\xff" << '\0' << '\xff';
+    HandmadePlant plant;
+    auto shapes = std::make_shared<Shapes>();
+    BicubicPatch patch;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) patch.points[i][j] = {double(j), double(i), 0};
+    }
+    shapes->surfaces['l'].patches.push_back(patch);
+    shapes->textures = {{file}};
+    plant.interpretation.geometry.shapes = shapes;
+    plant.add_organ(Organ::Shape::surface, 5, 1);
+    plant.interpretation.geometry.organs.back().surface = 'l';
+    plant.interpretation.geometry.organs.back().look = {4, 1};
+    Pictured pictured({&plant});
+    const auto image = pictured.picture(Pictured::plain(), {30, 30, 1, false});
+    int magenta = 0;
+    for (int y = 0; y < Pictured::height; ++y) {
+        for (int x = 0; x < Pictured::width; ++x) {
+            const Pixel pixel = pixel_at(*image, x, y);
+            magenta += pixel[0] > 140 && pixel[1] < 60 && pixel[2] > 140;
+        }
+    }
+    CHECK(magenta > 500);
 }
 
 TEST_CASE("stage: a picked triangle tells its module, which can be made bright", "[pictures]") {

@@ -218,17 +218,25 @@ private:
         }
         std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
         if (is_line_drawing()) std::fill(colours.begin(), colours.end(), style_.background.is_dark() ? chalk : ink);
-        MeshDress dress{colours, daylight ? &*daylight : nullptr, 1, !is_flat()};
         // Colours that mean a number are only tinged, or nobody could read them.
-        if (!colouring_->is_natural()) dress.shade = 0.5F;
+        const float shade = colouring_->is_natural() ? 1.0F : 0.5F;
+        const std::vector<Rgb> white(colours.size(), Rgb{255, 255, 255});
         for (Part& part : parts_) {
-            dress_actor(*part.actor, part.mesh, dress);
-            if (part.mesh.texture > 0 && style_.textures && colouring_->is_natural()) {
-                part.actor->SetTexture(texture_of(run_->folder(), geometry_->texture_files[part.mesh.texture]));
-            }
+            const auto texture = texture_worn(part.mesh);
+            // Where nobody gave a colour the picture has it.
+            const bool has_own_colours = texture && geometry_->of_points.rgb.empty();
+            dress_actor(*part.actor, part.mesh,
+                        {has_own_colours ? white : colours, daylight ? &*daylight : nullptr, shade, !is_flat()});
+            part.actor->SetTexture(texture);
             renderer_->AddActor(part.actor);
         }
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
+    }
+
+    /// Null where there is none, or something else is shown.
+    vtkSmartPointer<vtkTexture> texture_worn(const StageMesh& mesh) const {
+        if (mesh.texture == 0 || !style_.textures || !colouring_->is_natural()) return nullptr;
+        return texture_of(run_->folder(), geometry_->texture_files[mesh.texture]);
     }
 
     /// A flat curve that nobody coloured.
