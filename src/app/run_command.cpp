@@ -154,6 +154,9 @@ public:
         app().add_option("--output", arguments_.output, "folder; default: output/<scene>-<time>");
         app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in that folder");
         app()
+            .add_option("--every", every_, "N steps from frame to frame; default: what the scene says, else 1")
+            ->check(CLI::Range(1, 1000000000));
+        app()
             .add_option("--checkpoint-every", arguments_.checkpoint_every,
                         "N steps; `espalier resume` goes on from the last; default: only when interrupted")
             ->check(CLI::Range(1, 1000000000));
@@ -173,6 +176,7 @@ Ctrl-C ends the run after the step at hand and keeps what was recorded; once mor
     int run() override {
         arguments_.model = model_.arguments();
         arguments_.overrides = sets_.overrides();
+        if (every_ > 0) arguments_.overrides.emplace_back("timeline.every", std::to_string(every_));
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
@@ -186,6 +190,7 @@ private:
     SetOptions sets_;
     GrowthOptions growth_;
     RunArguments arguments_;
+    int every_ = 0;
     bool is_child_ = false;
 };
 

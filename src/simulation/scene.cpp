@@ -99,7 +99,7 @@ void read_timeline(const Settings& table, Scene& scene) {
     scene.timeline = table;
     if (!table.has("animation")) return;
     const std::filesystem::path path = table.path("animation");
-    for (const char* other : {"first", "every"}) {
+    for (const char* other : {"first", "every", "keyframes"}) {
         if (table.has(other)) {
             throw UserError(table.place(other),
                             fmt::format("the animation file says which steps are frames; without '{}'", other));

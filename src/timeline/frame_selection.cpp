@@ -1,14 +1,12 @@
 #include "espalier/timeline/frame_selection.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace espalier {
 namespace {
 
 int sum(int frame, int step) {
-    const int most = std::numeric_limits<int>::max();
-    return frame > most - step ? most : frame + step;
+    return frame > FrameSelection::never - step ? FrameSelection::never : frame + step;
 }
 
 const FrameSelection::Interval* interval_with(const std::vector<FrameSelection::Interval>& intervals, int frame) {
@@ -17,18 +15,29 @@ const FrameSelection::Interval* interval_with(const std::vector<FrameSelection::
     return found == intervals.end() ? nullptr : &*found;
 }
 
+int after_by_step(const FrameSelection& selection, int frame) {
+    if (frame < selection.first) return selection.first;
+    const int step = std::max(1, selection.step);
+    return sum(selection.first + (frame - selection.first) / step * step, step);
+}
+
 }  // namespace
 
 int FrameSelection::after(int frame) const {
+    if (intervals.empty()) {
+        const auto key = std::upper_bound(keyframes.begin(), keyframes.end(), frame);
+        const int regular = after_by_step(*this, frame);
+        return key == keyframes.end() ? regular : std::min(regular, *key);
+    }
     const Interval* const here = interval_with(intervals, frame);
     const int ordinary = sum(frame, std::max(1, step));
     const int next = !here ? ordinary : here->step > 0 ? sum(frame, here->step) : sum(here->end, 1);
     if (interval_with(intervals, next)) return next;
-    int beginning = std::numeric_limits<int>::max();
+    int beginning = never;
     for (const Interval& interval : intervals) {
         if (interval.begin > frame) beginning = std::min(beginning, interval.begin);
     }
-    return beginning < std::numeric_limits<int>::max() ? beginning : ordinary;
+    return beginning < never ? beginning : ordinary;
 }
 
 }  // namespace espalier

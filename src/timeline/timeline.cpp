@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <sstream>
 
@@ -77,6 +78,25 @@ void remove_timeline(const fs::path& folder) {
     }
 }
 
+// Keyframes alone, unless `first` or `every` says that there are others.
+FrameSelection frames_of(const Settings& table) {
+    FrameSelection frames;
+    constexpr double most = 1e9;
+    for (const double step : table.numbers_or("keyframes", {})) {
+        if (!(step >= 0 && step <= most && step == std::floor(step))) {
+            throw UserError(table.place("keyframes"),
+                            fmt::format("'keyframes' are steps, whole numbers from 0 on, not {}", step));
+        }
+        frames.keyframes.push_back(static_cast<int>(step));
+    }
+    std::sort(frames.keyframes.begin(), frames.keyframes.end());
+    const bool alone = !frames.keyframes.empty() && !table.has("first") && !table.has("every");
+    if (alone) return {frames.keyframes.front(), FrameSelection::never, {}, frames.keyframes};
+    frames.step = static_cast<int>(table.integer_or("every", 1, Range::between(1, most)));
+    frames.first = static_cast<int>(table.integer_or("first", 0, Range::between(0, most)));
+    return frames;
+}
+
 }  // namespace
 
 Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool overwrite)
@@ -99,9 +119,8 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const 
 }
 
 void Timeline::make_recorders(Settings& table) {
-    frames_.step = static_cast<int>(table.integer_or("every", 1, Range::between(1, 1e9)));
-    frames_.first = static_cast<int>(table.integer_or("first", 0, Range::between(0, 1e9)));
-    next_ = frames_.first;
+    frames_ = frames_of(table);
+    next_ = frames_.after(-1);
     const RecorderContext context{folder_, last_step_};
     for (const auto& [name, entry] : RecorderRegistry::entries()) {
         if (auto recorder = entry.make(table, context)) recorders_.push_back(std::move(recorder));
