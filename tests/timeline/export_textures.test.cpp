@@ -39,14 +39,7 @@ std::string sgi_picture() {
 /// A leaf of two patches, or a triangle of the same identity, that wear a file; a second leaf wears nothing.
 HandmadePlant leafy_plant(const std::filesystem::path& texture) {
     HandmadePlant plant;
-    auto shapes = std::make_shared<Shapes>();
-    BicubicPatch patch;
-    for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) patch.points[i][j] = {double(j), double(i), 0};
-    }
-    shapes->surfaces['l'].patches.push_back(patch);
-    shapes->textures = {{texture}};
-    plant.interpretation.geometry.shapes = shapes;
+    plant.interpretation.geometry.shapes = square_leaf(texture);
     for (const std::uint16_t worn : {1, 0}) {
         plant.add_organ(Organ::Shape::surface, 5u + worn, 1);
         Organ& organ = plant.interpretation.geometry.organs.back();

@@ -33,6 +33,18 @@ inline HandmadePlant seedling() {
     return plant;
 }
 
+/// Shapes whose surface 'l' is one flat patch, and whose texture 1 is a file.
+inline std::shared_ptr<Shapes> square_leaf(const std::filesystem::path& texture) {
+    auto shapes = std::make_shared<Shapes>();
+    BicubicPatch patch;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) patch.points[i][j] = {double(j), double(i), 0};
+    }
+    shapes->surfaces['l'].patches.push_back(patch);
+    shapes->textures = {{texture}};
+    return shapes;
+}
+
 /// A run that is going: its first frame is there.
 struct GoingRun {
     RunFolder folder;

@@ -25,6 +25,16 @@ HandmadePlant stem(std::uint32_t number, double x, double z) {
     return plant;
 }
 
+/// A disc of 1.6 m lies on its tip.
+HandmadePlant tree_with_flat_crown() {
+    HandmadePlant plant = stem(0, 0, 0);
+    Pose level;
+    level.position = {0, 2, 0};
+    level.heading = {0, 0, 1};
+    plant.add_organ(Organ::Shape::disc, 7, 1.6, level);
+    return plant;
+}
+
 bool is_blue(const Pixel& pixel) {
     return pixel[2] > pixel[0] + 40;
 }
@@ -170,11 +180,7 @@ TEST_CASE("stage: a transparent background is clear, plants are not", "[pictures
 
 TEST_CASE("stage: a crown's shadow falls on the ground away from the sun", "[pictures]") {
     if (!can_draw()) return;
-    HandmadePlant plant = stem(0, 0, 0);
-    Pose level;
-    level.position = {0, 2, 0};
-    level.heading = {0, 0, 1};
-    plant.add_organ(Organ::Shape::disc, 7, 1.6, level);
+    HandmadePlant plant = tree_with_flat_crown();
     Pictured pictured({&plant});
     PictureStyle style;
     style.ground = true;
@@ -188,11 +194,7 @@ TEST_CASE("stage: a crown's shadow falls on the ground away from the sun", "[pic
 
 TEST_CASE("stage: what is thin is as bright from behind as in front, what is closed is dark beneath", "[pictures]") {
     if (!can_draw()) return;
-    HandmadePlant plant = stem(0, 0, 0);
-    Pose level;
-    level.position = {0, 2, 0};
-    level.heading = {0, 0, 1};
-    plant.add_organ(Organ::Shape::disc, 7, 1.6, level);
+    HandmadePlant plant = tree_with_flat_crown();
     Pose upright;
     upright.position = {3, 2, 0};
     plant.add_organ(Organ::Shape::sphere, 8, 1.6, upright);
@@ -215,14 +217,7 @@ TEST_CASE("stage: a texture is seen in its own colours where nobody gave others"
     const std::filesystem::path file = files.path / "leaf.ppm";
     std::ofstream(file) << "P6\n1 1\n255\n\xff" << '\0' << '\xff';
     HandmadePlant plant;
-    auto shapes = std::make_shared<Shapes>();
-    BicubicPatch patch;
-    for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) patch.points[i][j] = {double(j), double(i), 0};
-    }
-    shapes->surfaces['l'].patches.push_back(patch);
-    shapes->textures = {{file}};
-    plant.interpretation.geometry.shapes = shapes;
+    plant.interpretation.geometry.shapes = square_leaf(file);
     plant.add_organ(Organ::Shape::surface, 5, 1);
     plant.interpretation.geometry.organs.back().surface = 'l';
     plant.interpretation.geometry.organs.back().look = {4, 1};
