@@ -8,7 +8,7 @@ namespace espalier {
 
 class TemporaryFolder {
 public:
-    /// `/tmp/espalier-<purpose>-XXXXXX`, absolute whatever TMPDIR says. Throws RunError.
+    /// `espalier-<purpose>-XXXXXX` where the system keeps such folders, absolute whatever TMPDIR says. Throws RunError.
     explicit TemporaryFolder(const std::string& purpose);
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;

@@ -353,13 +353,23 @@ TEST_CASE("contexts reach from thread to thread", "[lsystem]") {
     }
 }
 
+namespace {
+
+/// Brackets and five other letters.
+ModuleString short_string(Randomly& random) {
+    ModuleString string;
+    for (const char symbol : random.word(std::size_t(random.below(80)), symbols)) {
+        string.append(symbol == '[' ? 0 : symbol == ']' ? 1 : static_cast<LetterId>(2 + symbol % 5));
+    }
+    return string;
+}
+
+}  // namespace
+
 TEST_CASE("neighbours do not depend on the parts that a string is looked at in", "[lsystem]") {
     for (unsigned seed = 0; seed < 2000; ++seed) {
         Randomly random(seed);
-        ModuleString string;
-        for (const char symbol : random.word(std::size_t(random.below(80)), symbols)) {
-            string.append(symbol == '[' ? 0 : symbol == ']' ? 1 : static_cast<LetterId>(2 + symbol % 5));
-        }
+        const ModuleString string = short_string(random);
         Gazes gazes;
         gazes.ring = random.once_in(2);
         for (Gaze* gaze : {&gazes.left, &gazes.right, &gazes.next}) {
@@ -391,10 +401,7 @@ TEST_CASE("neighbours do not depend on the parts that a string is looked at in",
 TEST_CASE("both sides seen at once are those that are looked for one after the other", "[lsystem]") {
     for (unsigned seed = 0; seed < 2000; ++seed) {
         Randomly random(seed);
-        ModuleString string;
-        for (const char symbol : random.word(std::size_t(random.below(80)), symbols)) {
-            string.append(symbol == '[' ? 0 : symbol == ']' ? 1 : static_cast<LetterId>(2 + symbol % 5));
-        }
+        const ModuleString string = short_string(random);
         Gazes gazes;
         gazes.left.wanted = gazes.right.wanted = true;
         for (std::uint16_t letter = 0; letter < 7; ++letter) {

@@ -79,7 +79,7 @@ public:
     /// Contexts are those of the original string; draws come from the homomorphism's own stream. Thread safe.
     std::size_t picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
                         std::size_t module, std::size_t parameters_at, ModuleString& picture) const;
-    /// False if `picture` returns false for this letter whatever its context: the test the turtle makes first.
+    /// False if `picture` returns 0 for this letter whatever its context.
     bool may_have_picture(LetterId letter) const;
     bool has_homomorphism() const;
 
