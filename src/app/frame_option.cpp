@@ -49,6 +49,10 @@ Steps steps_of(const std::string& text) {
 
 }  // namespace
 
+void require_frame_option(const std::string& text) {
+    if (text != "first" && text != "last" && !whole_number(text)) (void)steps_of(text);
+}
+
 std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const std::string& text) {
     std::vector<const RecordedFrame*> recorded;
     for (const RecordedFrame& frame : run.frames()) recorded.push_back(&frame);

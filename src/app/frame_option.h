@@ -13,6 +13,9 @@ namespace espalier {
 /// frame is left.
 std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const std::string& text);
 
+/// Throws UserError for text that is none of these, whatever the run.
+void require_frame_option(const std::string& text);
+
 /// What --step may be, for the help of commands.
 inline constexpr const char* frame_option_help = "which frames: N, first, last, all, or FROM:TO[:EVERY]";
 

@@ -176,7 +176,11 @@ private:
     void check_before_growing() const {
         (void)range();
         if (!background_.empty()) (void)picture_background(background_);
-        if (!output_.empty() && (!sheet_.empty() || !is_film(output_))) require_png(output_);
+        if (!step_.empty()) require_frame_option(step_);
+        if (!sheet_.empty()) (void)sheet_cells();
+        if (!output_.empty()) {
+            sheet_.empty() && is_film(output_) ? require_film_writer(output_) : require_png(output_);
+        }
         std::vector<std::string> looks;
         for (const std::string& field : fields_) looks.push_back(field_look(field).name);
         if (!is_scene(run_.model.file)) return;
@@ -245,13 +249,21 @@ private:
         throw UserError(fmt::format("--range {}: LOW:HIGH is expected, as 0:0.5", range_));
     }
 
+    /// Columns and rows.
+    PictureSize sheet_cells() const {
+        const PictureSize cells = picture_size("--sheet", sheet_);
+        if (std::int64_t{cells.width} * cells.height > 10000) {
+            throw UserError(fmt::format("--sheet {}: more than 10,000 frames on one page", sheet_));
+        }
+        return cells;
+    }
+
     std::vector<fs::path> draw(RenderJob& job, const fs::path& output) const {
         const bool many = is_film(output) || !sheet_.empty();
         job.frames = chosen_frames(job.run, !step_.empty() ? step_ : many ? "all" : "last");
         if (!sheet_.empty()) {
-            const PictureSize cells = picture_size("--sheet", sheet_);
+            const PictureSize cells = sheet_cells();
             const std::size_t count = static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
-            if (count > 10000) throw UserError(fmt::format("--sheet {}: more than 10,000 frames on one page", sheet_));
             if (count < job.frames.size()) job.frames = evenly(job.frames, count);
             job.size = picture_.size({400, 300});
             render_sheet(job, cells.width, output);

@@ -204,9 +204,10 @@ TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[rend
 
 TEST_CASE("render: what a scene will not hold is told before it is grown", "[render]") {
     const RenderPlace place;
-    const auto fails = [&](const std::string& options, const std::string& words) {
-        const Outcome outcome = place.run("render pair.toml --run-output grown --quiet " + options);
-        CHECK(outcome.code == 1);
+    const auto fails = [&](const std::string& options, const std::string& words, int code = 1,
+                           const std::string& surroundings = {}) {
+        const Outcome outcome = place.run("render pair.toml --run-output grown --quiet " + options, surroundings);
+        CHECK(outcome.code == code);
         CHECK_THAT(outcome.err, Contains(words));
         CHECK_FALSE(std::filesystem::exists(place.path() / "grown"));
     };
@@ -217,4 +218,7 @@ TEST_CASE("render: what a scene will not hold is told before it is grown", "[ren
     fails("--sheet 2x2 --output x.mp4", "no picture that can be written");
     fails("--range 2:1", "--range 2:1");
     fails("--background pale", "--background pale");
+    fails("--step 3:x", "--step 3:x: a step, first, last");
+    fails("--sheet 200x200", "10,000");
+    fails("--output x.mp4", "apt-get install ffmpeg", 2, "PATH=/nowhere");
 }

@@ -35,6 +35,8 @@ std::vector<std::filesystem::path> render_pictures(const RenderJob& job, const s
 void render_film(const RenderJob& job, double pictures_per_second, const std::filesystem::path& path);
 /// True if `render_film` knows the extension.
 bool is_film(const std::filesystem::path& path);
+/// Throws RunError saying what to install if the film's extension needs a program that is not in PATH.
+void require_film_writer(const std::filesystem::path& path);
 /// Throws UserError unless it is a .png.
 void require_png(const std::filesystem::path& path);
 /// What organs of every run can be coloured by, "natural" first.

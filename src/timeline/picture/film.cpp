@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/timeline/render.h"
 
 #include "timeline/picture/listening.h"
 
@@ -19,6 +20,7 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
 #include <system_error>
@@ -93,11 +95,29 @@ std::vector<std::string> encoding_of(const std::string& extension) {
     return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-vf", even};
 }
 
+constexpr const char* ffmpeg = "ffmpeg";
+
+[[noreturn]] void reject_without_ffmpeg(const fs::path& path, int error) {
+    throw RunError(
+        fmt::format("{} is written by ffmpeg, which is not here ({}).\n"
+                    "On Debian: apt-get install ffmpeg; .ogv needs nothing more",
+                    path.extension().string(), std::generic_category().message(error)));
+}
+
+bool is_in_path(const std::string& program) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "/bin:/usr/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+    }
+    return false;
+}
+
 /// ffmpeg as a child that reads raw pictures.
 class FfmpegFilm final : public Film {
 public:
     FfmpegFilm(const fs::path& path, const PictureSize& size, double pictures_per_second) : path_(path) {
-        std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"};
+        std::vector<std::string> words{ffmpeg, "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"};
         const auto add = [&](const std::vector<std::string>& more) {
             words.insert(words.end(), more.begin(), more.end());
         };
@@ -152,7 +172,7 @@ private:
         posix_spawnattr_init(&attributes);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
         posix_spawnattr_setpgroup(&attributes, 0);
-        const int error = posix_spawnp(&child_, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+        const int error = posix_spawnp(&child_, ffmpeg, &actions, &attributes, arguments.data(), environ);
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         close(ends[0]);
@@ -160,10 +180,7 @@ private:
         if (error == 0) return;
         child_ = 0;
         close_pipe();
-        throw RunError(
-            fmt::format("{} is written by ffmpeg, which is not here ({}).\n"
-                        "On Debian: apt-get install ffmpeg; .ogv needs nothing more",
-                        path_.extension().string(), std::generic_category().message(error)));
+        reject_without_ffmpeg(path_, error);
     }
 
     void write(const char* from, std::size_t count) {
@@ -206,6 +223,10 @@ std::string kind_of_file(const fs::path& path) {
     std::string kind = path.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
     return kind;
+}
+
+void require_film_writer(const fs::path& path) {
+    if (kind_of_file(path) != ".ogv" && !is_in_path(ffmpeg)) reject_without_ffmpeg(path, ENOENT);
 }
 
 std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, double pictures_per_second) {
