@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <map>
 #include <sys/wait.h>
 #include <thread>
@@ -21,6 +22,15 @@ namespace espalier {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What a run that failed said first, warnings and excerpts of files aside; "" if nothing.
+std::string complaint(const fs::path& log) {
+    std::ifstream in(log);
+    for (std::string line; std::getline(in, line);) {
+        if (!line.empty() && line[0] != ' ' && line.find("warning:") == std::string::npos) return line;
+    }
+    return "";
+}
 
 // Ended by itself, told the same at the same place, and everything it read is still what it was.
 bool is_done(const SweepRun& run) {
@@ -77,8 +87,9 @@ private:
         if (code == 0 && fs::is_empty(sweep_.log(run), ignored)) fs::remove(sweep_.log(run), ignored);
         if (code != 0 && code != exit_code::interrupted) ++failed_;
         if (code != 0) {
-            fmt::print(stderr, "{} of {}: {}: ended with code {}, see {}\n", ended_, total_, run.variant.name, code,
-                       sweep_.log(run).string());
+            const std::string reason = complaint(sweep_.log(run));
+            fmt::print(stderr, "{} of {}: {}: ended with code {}{}{}, see {}\n", ended_, total_, run.variant.name, code,
+                       reason.empty() ? "" : ": ", reason, sweep_.log(run).string());
         } else if (!quiet_) {
             fmt::print(stderr, "{} of {}: {}\n", ended_, total_, run.variant.name);
         }

@@ -3,6 +3,7 @@
 #include "espalier/base/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -49,6 +50,14 @@ std::shared_ptr<Node> scalar(Node::Type type, Value Node::*member, Value value) 
     auto node = std::make_shared<Node>(type);
     (*node).*member = std::move(value);
     return node;
+}
+
+/// The name that was meant, or else all that are known.
+std::string what_may_stand(const std::string& name, std::vector<std::string> known) {
+    std::string meant = did_you_mean(name, known);
+    if (!meant.empty() || known.empty()) return meant;
+    std::sort(known.begin(), known.end());
+    return fmt::format("; what can stand here: {}", fmt::join(known, ", "));
 }
 
 }  // namespace
@@ -121,8 +130,9 @@ void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {
     }
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (type == Type::table && !items[i]->was_read) {
-            diagnostics.push_back({Diagnostic::Severity::error, items[i]->place,
-                                   fmt::format("'{}' means nothing here{}", names[i], did_you_mean(names[i], known))});
+            diagnostics.push_back(
+                {Diagnostic::Severity::error, items[i]->place,
+                 fmt::format("'{}' means nothing here{}", names[i], what_may_stand(names[i], known))});
         } else {
             items[i]->collect_unread(diagnostics);
         }

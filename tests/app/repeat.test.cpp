@@ -194,7 +194,8 @@ TEST_CASE_METHOD(Workplace, "a run that fails does not keep the others of its sw
     write("shrub.l", shrub);
     const Outcome outcome = run("sweep shrub.l --vary D=0,1.1 --output s");
     CHECK(outcome.code == 2);
-    CHECK_THAT(outcome.err, Contains("D=0: ended with code 2, see s/D=0.log") && Contains("1 runs failed"));
+    CHECK_THAT(outcome.err, Contains("D=0: ended with code 2: shrub.l:5") && Contains(", see s/D=0.log") &&
+                                Contains("1 runs failed"));
     CHECK_THAT(text_of(path() / "s" / "D=0.log"), Contains("shrub.l:5"));
     CHECK(fs::exists(path() / "s" / "D=1.1" / "plants.pvd"));
 }
