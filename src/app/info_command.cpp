@@ -1,6 +1,6 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/timeline/csv_file.h"
+#include "espalier/base/text.h"
 #include "espalier/timeline/recorded_run.h"
 
 #include "command.h"
@@ -10,6 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 namespace espalier {
 namespace {
@@ -22,17 +26,40 @@ struct InfoArguments {
     bool json = false;
 };
 
-// The rows of the last step: column name to value, one object per plant.
-Json last_statistics(const fs::path& file) {
-    Json rows = Json::array();
-    if (!fs::exists(file)) return rows;
+/// What statistics.csv says of the last step.
+struct LastStep {
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;  ///< one a plant
+};
+
+LastStep last_step_of(const fs::path& run) {
+    const fs::path file = run / "statistics.csv";
+    if (!fs::exists(file)) return {};
     const RecordedTable table = read_table(file);
-    for (const std::vector<double>& values : table.last_rows()) {
+    return {table.columns, table.last_rows()};
+}
+
+// One object per plant; what a plant has not is null.
+Json json_of(const LastStep& last) {
+    Json rows = Json::array();
+    for (const std::vector<double>& values : last.rows) {
         Json row;
-        for (std::size_t i = 0; i < values.size(); ++i) row[table.columns[i]] = csv_number(values[i]);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double whole = std::trunc(values[i]);
+            const bool counts = whole == values[i] && std::abs(whole) < 0x1p53;
+            row[last.columns[i]] = counts ? Json(static_cast<std::int64_t>(whole)) : Json(values[i]);
+        }
         rows.push_back(std::move(row));
     }
     return rows;
+}
+
+std::uintmax_t bytes_in(const fs::path& folder) {
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) bytes += entry.file_size();
+    }
+    return bytes;
 }
 
 std::size_t count_files(const fs::path& folder, const std::string& extension) {
@@ -66,8 +93,7 @@ Json read_run(const fs::path& folder) {
     return run;
 }
 
-Json summary_of(const fs::path& folder) {
-    const Json run = read_run(folder);
+Json summary_of(const fs::path& folder, const Json& run, const LastStep& last) {
     Json summary;
     for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
         summary[key] = run.value(key, Json());
@@ -80,21 +106,58 @@ Json summary_of(const fs::path& folder) {
     summary["frames"] = count_files(folder / "plants", ".vtp");
     summary["fields"] = fields_of(folder / "fields");
     summary["plants"] = run.value("plants", Json::array());
-    summary["last_step"] = last_statistics(folder / "statistics.csv");
+    summary["bytes"] = bytes_in(folder);
+    summary["last_step"] = json_of(last);
     return summary;
 }
 
-// A table with aligned columns; long stands are cut after 20 plants.
-void print_statistics(const Json& rows) {
-    if (rows.empty()) return;
-    constexpr std::size_t most_rows = 20;
-    const std::size_t shown = std::min(rows.size(), most_rows);
-    for (const auto& [column, first] : rows.front().items()) {
-        std::string line = fmt::format("  {:24}", column);
-        for (std::size_t i = 0; i < shown; ++i) line += fmt::format(" {:>12}", rows[i][column].get<std::string>());
-        fmt::print("{}\n", line);
+/// Columns of a printed table, each below its heading.
+using Headed = std::vector<std::pair<std::string, std::vector<double>>>;
+
+Headed one_each(const LastStep& last, const Json& plants) {
+    Headed columns;
+    for (std::size_t i = 0; i < last.rows.size(); ++i) {
+        columns.emplace_back(i < plants.size() ? plants[i].value("name", "") : "", last.rows[i]);
     }
-    if (shown < rows.size()) fmt::print("  ... and {} plants more in statistics.csv\n", rows.size() - shown);
+    return columns;
+}
+
+/// The least, the mean and the most of those plants that have a value.
+Headed of_all(const LastStep& last) {
+    const std::size_t count = last.columns.size();
+    const std::vector<double> none(count, std::numeric_limits<double>::quiet_NaN());
+    Headed columns{{"least", none}, {"mean", none}, {"most", none}};
+    for (std::size_t i = 0; i < count; ++i) {
+        std::vector<double> values;
+        for (const std::vector<double>& row : last.rows) {
+            if (std::isfinite(row[i])) values.push_back(row[i]);
+        }
+        if (values.empty()) continue;
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+        const double figures[] = {*least, sum / static_cast<double>(values.size()), *most};
+        for (std::size_t k = 0; k < columns.size(); ++k) columns[k].second[i] = figures[k];
+    }
+    return columns;
+}
+
+/// A column for every plant of a few.
+void print_statistics(const LastStep& last, const Json& plants) {
+    if (last.rows.empty()) return;
+    constexpr std::size_t most_columns = 6;
+    const bool few = last.rows.size() <= most_columns;
+    const Headed columns = few ? one_each(last, plants) : of_all(last);
+    fmt::print("{:26}", few ? "last step" : fmt::format("last step, {} plants", last.rows.size()));
+    for (const auto& column : columns) fmt::print(" {:>12}", column.first);
+    fmt::print("\n");
+    for (std::size_t i = 0; i < last.columns.size(); ++i) {
+        if (last.columns[i] == "step" || last.columns[i] == "plant") continue;
+        fmt::print("  {:24}", last.columns[i]);
+        for (const auto& column : columns) {
+            fmt::print(" {:>12}", std::isfinite(column.second[i]) ? format_general(column.second[i]) : "");
+        }
+        fmt::print("\n");
+    }
 }
 
 void print_summary(const fs::path& folder, const Json& summary) {
@@ -111,17 +174,19 @@ void print_summary(const fs::path& folder, const Json& summary) {
     }
     fmt::print("frames: {} of plants", text("frames"));
     for (const auto& [name, count] : summary["fields"].items()) fmt::print(", {} of field {}", count.dump(), name);
-    fmt::print("\nlast step, one column a plant:\n");
-    print_statistics(summary["last_step"]);
+    fmt::print("\nsize: {:.1f} MB\n", static_cast<double>(summary["bytes"].get<std::uint64_t>()) / 1e6);
 }
 
 int info(const InfoArguments& arguments) {
     try {
-        const Json summary = summary_of(arguments.folder);
+        const Json run = read_run(arguments.folder);
+        const LastStep last = last_step_of(arguments.folder);
+        const Json summary = summary_of(arguments.folder, run, last);
         if (arguments.json) {
             fmt::print("{}\n", summary.dump(2, ' ', false, Json::error_handler_t::replace));
         } else {
             print_summary(arguments.folder, summary);
+            print_statistics(last, summary["plants"]);
         }
     } catch (const Json::exception& error) {
         throw UserError(

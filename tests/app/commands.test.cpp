@@ -2,9 +2,12 @@
 #include "catch.h"
 #include "program.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -14,6 +17,17 @@ namespace {
 
 std::size_t lines_in(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Of the line that begins so.
+std::vector<std::string> words_after(const std::string& beginning, const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind(beginning, 0) != 0) continue;
+        std::istringstream words(line.substr(beginning.size()));
+        return {std::istream_iterator<std::string>(words), {}};
+    }
+    return {};
 }
 
 }  // namespace
@@ -42,7 +56,28 @@ TEST_CASE_METHOD(Workplace, "a model on its own runs, tells where its output is,
     CHECK(summary["exit"] == "done");
     CHECK(summary["frames"] == 6);
     CHECK(summary["last_step"].size() == 1);
-    CHECK(summary["last_step"][0]["step"] == "5");
+    CHECK(summary["last_step"][0]["step"] == 5);
+    CHECK(summary["bytes"] > std::filesystem::file_size(path() / "there" / "run.json"));
+}
+
+TEST_CASE_METHOD(Workplace, "info shows a few plants side by side, of a stand the least, the mean and the most",
+                 "[app]") {
+    write("row.l", "Lsystem: 1\n#define N 1\nderivation length: 1\nAxiom: A\nA --> A F(N)\nendlsystem\n");
+    const auto plant = [](int n) {
+        return fmt::format("[[plant]]\nname = 'p{0}'\nmodel = 'row.l'\ndefine = {{ N = {0} }}\n", n);
+    };
+    const auto told = [&](int plants) {
+        std::string scene;
+        for (int n = 1; n <= plants; ++n) scene += plant(n);
+        write("row.toml", scene);
+        REQUIRE(run("run row.toml --quiet --overwrite --output row").code == 0);
+        return run("info row").out;
+    };
+    using Words = std::vector<std::string>;
+    CHECK(words_after("last step", told(2)) == Words{"p1", "p2"});
+    CHECK(words_after("  length", told(2)) == Words{"1", "2"});
+    CHECK(words_after("last step, 7 plants", told(7)) == Words{"least", "mean", "most"});
+    CHECK(words_after("  length", told(7)) == Words{"1", "4", "7"});
 }
 
 TEST_CASE_METHOD(Workplace, "without --output the folder is named after scene and time", "[app]") {
