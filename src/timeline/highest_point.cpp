@@ -59,9 +59,12 @@ public:
 private:
     void add_surface(const Organ& organ) {
         const Surface* const surface = find(organ.surface);
-        if (!surface) return add(organ.pose.position.y);
         const double largest = std::max({std::abs(organ.size.x), std::abs(organ.size.y), std::abs(organ.size.z)});
-        if (organ.pose.position.y + largest * reach_.at(organ.surface) <= top_) return;
+        if (organ.pose.position.y + largest * (surface ? reach_.at(organ.surface) : 1) <= top_) return;
+        if (!surface) {
+            for (const glm::dvec3& corner : rhombus_of(organ)) add(corner.y);
+            return;
+        }
         const auto add_point = [&](const glm::dvec3& point) { add(placed({point, {}, {}}, organ).position.y); };
         for (const BicubicPatch& patch : surface->patches) {
             for (const auto& row : patch.points) std::for_each(row.begin(), row.end(), add_point);

@@ -90,14 +90,10 @@ void place_sphere(const Organ& organ, const std::vector<glm::dvec4>& angles, std
 }
 
 void place_rhombus(const Organ& organ, std::vector<SurfaceVertex>& vertices) {
-    const Pose& pose = organ.pose;
-    const glm::dvec3 middle = pose.position + 0.5 * organ.size.y * pose.heading;
-    const glm::dvec3 half_width = 0.25 * organ.size.x * pose.left;
+    const std::array<glm::dvec3, 4> corners = rhombus_of(organ);
+    constexpr glm::dvec2 uvs[] = {{0.5, 0}, {1, 0.5}, {0.5, 1}, {0, 0.5}};
     vertices.resize(4);
-    vertices[0] = {pose.position, pose.up, {0.5, 0}};
-    vertices[1] = {middle + half_width, pose.up, {1, 0.5}};
-    vertices[2] = {pose.position + organ.size.y * pose.heading, pose.up, {0.5, 1}};
-    vertices[3] = {middle - half_width, pose.up, {0, 0.5}};
+    for (std::size_t i = 0; i < 4; ++i) vertices[i] = {corners[i], organ.pose.up, uvs[i]};
 }
 
 /// x and y of the vertices as shares of the box they fill.
@@ -205,6 +201,13 @@ const SurfaceMeshes::Entry* SurfaceMeshes::find(std::uint32_t id) {
 bool SurfaceMeshes::textured_as_whole(const Organ& organ) const {
     const std::size_t texture = organ.look.texture;
     return texture >= 1 && texture <= shapes_->textures.size() && shapes_->textures[texture - 1].per_surface;
+}
+
+std::array<glm::dvec3, 4> rhombus_of(const Organ& organ) {
+    const Pose& pose = organ.pose;
+    const glm::dvec3 middle = pose.position + 0.5 * organ.size.y * pose.heading;
+    const glm::dvec3 half_width = 0.25 * organ.size.x * pose.left;
+    return {pose.position, middle + half_width, pose.position + organ.size.y * pose.heading, middle - half_width};
 }
 
 SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ) {

@@ -5,6 +5,7 @@
 
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -68,6 +69,9 @@ private:
     std::shared_ptr<const Shapes> shapes_;
     std::map<std::uint32_t, Entry> entries_;
 };
+
+/// The corners of what stands for a surface that no view file describes, from the foot around.
+std::array<glm::dvec3, 4> rhombus_of(const Organ& organ);
 
 /// A vertex of a surface where the organ stands, stretched as the organ is.
 SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ);

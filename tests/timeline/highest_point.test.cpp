@@ -48,3 +48,15 @@ TEST_CASE("a surface is as high as its control points, wherever it is turned", "
     geometry.organs[0].pose = {{0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     CHECK(highest_point(geometry) == 3.0);
 }
+
+TEST_CASE("a surface that no view file describes is as high as the rhombus that is drawn for it", "[timeline]") {
+    PlantGeometry geometry;
+    Organ organ{0, Organ::Shape::surface, 0, 0, 'l', Pose(), glm::dvec3(4, 6, 1)};
+    organ.pose.position.y = 1;
+    geometry.organs = {organ};
+    CHECK(highest_point(geometry) == 7.0);
+    std::swap(geometry.organs[0].pose.heading, geometry.organs[0].pose.left);  // its widest place lies half-way
+    CHECK(highest_point(geometry) == 2.0);
+    geometry.organs[0].pose.left = {0, -1, 0};
+    CHECK(highest_point(geometry) == 2.0);
+}
