@@ -43,10 +43,10 @@ public:
         app()
             .add_option("--format", formats_, fmt::format("one or several of {}", fmt::join(known_formats(), ", ")))
             ->delimiter(',')
-            ->allow_extra_args(false)  // or it would take the run's folder for a format
-            ->required();
+            ->allow_extra_args(false);  // or it would take the run's folder for a format
         app().add_option("--step", step_, frame_option_help)->capture_default_str();
-        app().add_option("--output", output_, "folder; default: RUN/export");
+        app().add_option("--output", output_,
+                         "a folder, or a file of the format that its name ends with; default: RUN/export");
         app().add_option("--plant", plant_, "this plant alone, by its name in the scene");
         app()
             .add_option("--sides", options_.sides, "corners of the rings of tubes")
@@ -66,6 +66,7 @@ public:
         app().footer(R"(Nothing is grown again. Lengths are metres. Files appear complete or not at all.
 Examples:
   espalier export output/two-trees --format obj                      the last frame, for any 3-D program
+  espalier export output/two-trees --output trees.obj                the same, as this file
   espalier export output/two-trees --format gltf --step all          the growth as an animation, one file
   espalier export output/two-trees --format usd --step 0:274:8       every eighth step
   espalier export output/two-trees --format stl --plant left --sides 16 --up z
@@ -79,7 +80,7 @@ Examples:
         if (!plant_.empty()) options_.plant = recorded.plant(plant_);
         options_.up = up_[0];
         const std::vector<const RecordedFrame*> frames = chosen_frames(recorded, step_);
-        const std::filesystem::path output = output_.empty() ? folder_ / "export" : output_;
+        const Target target = this->target();
         Json files = Json::array();
         const auto report = [&](const ExportedFile& file) {
             if (wants_json()) {
@@ -88,7 +89,7 @@ Examples:
                 print_file(file);
             }
         };
-        export_run({recorded, frames, options_, output, report}, formats_);
+        export_run({recorded, frames, options_, target.folder, report, target.name}, target.formats);
         if (wants_json()) {
             fmt::print("{}\n", Json{{"files", files}}.dump(2, ' ', false, Json::error_handler_t::replace));
         }
@@ -96,6 +97,24 @@ Examples:
     }
 
 private:
+    struct Target {
+        std::filesystem::path folder;
+        std::string name;
+        std::vector<std::string> formats;
+    };
+
+    Target target() const {
+        const std::string told = format_of_extension(output_.extension().string());
+        const bool is_file = !told.empty() && !std::filesystem::is_directory(output_) &&
+                             (formats_.empty() || formats_ == std::vector{told});
+        if (is_file) return {output_.parent_path(), output_.stem().string(), {told}};
+        if (formats_.empty()) {
+            throw UserError(fmt::format("which format? --format {}, or an --output that ends with one, as plant.obj",
+                                        fmt::join(known_formats(), ", ")));
+        }
+        return {output_.empty() ? folder_ / "export" : output_, "", formats_};
+    }
+
     std::filesystem::path folder_, output_;
     std::vector<std::string> formats_;
     std::string step_ = "last", plant_, up_ = "y";

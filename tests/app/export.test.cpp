@@ -47,6 +47,22 @@ TEST_CASE("export takes chosen steps into a folder, and says what it wrote as JS
     CHECK(!exists(place, "run/export"));
 }
 
+TEST_CASE("export writes the file it is told, in the format of its name", "[export]") {
+    const RunPlace place;
+    CHECK(place.run("export run --output bush.glb").out.find("bush.glb: ") == 0);
+    CHECK(std::filesystem::is_regular_file(place.path() / "bush.glb"));
+    CHECK(place.run("export run --format usd --step all --output made/growth.usda").code == 0);
+    CHECK(exists(place, "made/growth.usda"));
+    CHECK(place.run("export run --step 1:2 --output two.ply --quiet").code == 0);
+    CHECK(exists(place, "two-0001.ply"));
+    CHECK(exists(place, "two-0002.ply"));
+    CHECK(place.run("export run --format csv --output of.ply --quiet").code == 0);  // a folder as good as any
+    CHECK(exists(place, "of.ply/bush.csv"));
+    const Outcome vague = place.run("export run --output meshes");
+    CHECK(vague.code == 1);
+    CHECK(vague.err.find("which format? --format csv, gltf, ") != std::string::npos);
+}
+
 TEST_CASE("export says how many vertices and triangles it wrote", "[export]") {
     const RunPlace place;
     CHECK(place.run("export run --format usd").out.find(" vertices, 0 triangles, 1 time samples") != std::string::npos);

@@ -32,10 +32,11 @@ struct ExportJob {
     const RecordedRun& run;
     std::span<const RecordedFrame* const> frames;  ///< at least one
     ExportOptions options;
-    std::filesystem::path folder;  ///< exists
+    std::filesystem::path folder;  ///< is made if need be
     std::function<void(const ExportedFile&)> report;
+    std::string name{};  ///< of the files; empty: the scene's, and the step of a frame that has a file of its own
 
-    /// A file of the whole job, or of a frame: the scene's name, and the frame's step.
+    /// A file of the whole job, or of a frame.
     std::filesystem::path path(const std::string& extension) const;
     std::filesystem::path path(const RecordedFrame& frame, const std::string& extension) const;
 };
@@ -44,6 +45,8 @@ struct ExportJob {
 class Exporter {
 public:
     virtual ~Exporter() = default;
+    /// Of its files: "obj".
+    virtual std::string extension() const = 0;
     virtual void write(const ExportJob& job) const = 0;
 };
 
@@ -56,6 +59,9 @@ struct RegisteredExporter {
         ExporterRegistry::entries()[name] = {std::move(description), std::move(make)};
     }
 };
+
+/// The format whose files have this extension, ".glb"; empty if there is none.
+std::string format_of_extension(const std::string& extension);
 
 /// Writes the frames in every format. Throws UserError for a format that is none, RunError if a file cannot be written.
 void export_run(const ExportJob& job, std::span<const std::string> formats);

@@ -21,11 +21,19 @@ std::string file_name(const RecordedRun& run) {
 }  // namespace
 
 std::filesystem::path ExportJob::path(const std::string& extension) const {
-    return folder / fmt::format("{}.{}", file_name(run), extension);
+    return folder / fmt::format("{}.{}", name.empty() ? file_name(run) : name, extension);
 }
 
 std::filesystem::path ExportJob::path(const RecordedFrame& frame, const std::string& extension) const {
-    return folder / fmt::format("{}-{:04}.{}", file_name(run), frame.step, extension);
+    if (!name.empty() && frames.size() == 1) return path(extension);
+    return folder / fmt::format("{}-{:04}.{}", name.empty() ? file_name(run) : name, frame.step, extension);
+}
+
+std::string format_of_extension(const std::string& extension) {
+    for (const auto& [name, entry] : ExporterRegistry::entries()) {
+        if (extension == "." + entry.make()->extension()) return name;
+    }
+    return "";
 }
 
 void export_run(const ExportJob& job, std::span<const std::string> formats) {
@@ -40,7 +48,7 @@ void export_run(const ExportJob& job, std::span<const std::string> formats) {
         }
         exporters.push_back(entry->second.make());
     }
-    make_folder(job.folder);
+    if (!job.folder.empty()) make_folder(job.folder);
     for (const auto& exporter : exporters) exporter->write(job);
 }
 

@@ -153,10 +153,12 @@ private:
 
 class Csv final : public Exporter {
 public:
+    std::string extension() const override { return "csv"; }
+
     void write(const ExportJob& job) const override {
         Table table(job);
         for (const RecordedFrame* frame : job.frames) table.add(*frame);
-        const auto path = job.path("csv");
+        const auto path = job.path(extension());
         write_text(path, table.text());
         job.report({path, 0, 0, table.rows(), "rows"});
     }

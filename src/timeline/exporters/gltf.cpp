@@ -158,6 +158,8 @@ private:
 
 class Gltf final : public Exporter {
 public:
+    std::string extension() const override { return "glb"; }
+
     void write(const ExportJob& job) const override {
         job.report(job.frames.size() == 1 ? write_frame(job, *job.frames[0]) : Growth(job).write());
     }

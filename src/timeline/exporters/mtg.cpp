@@ -115,10 +115,12 @@ private:
 
 class Mtg final : public Exporter {
 public:
+    std::string extension() const override { return "mtg"; }
+
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
             const AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, "mtg");
+            const auto path = job.path(*frame, extension());
             write_text(path, MtgText(job, tree).text());
             job.report({path, 0, 0, tree.internodes.size(), "internodes"});
         }

@@ -76,11 +76,13 @@ private:
 
 class Obj final : public Exporter {
 public:
+    std::string extension() const override { return "obj"; }
+
     void write(const ExportJob& job) const override {
         TextureCopies textures(job);
         for (const RecordedFrame* frame : job.frames) {
             const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, "obj"), library = job.path(*frame, "mtl");
+            const auto path = job.path(*frame, extension()), library = job.path(*frame, "mtl");
             write_text(library, mtl(mesh, textures));
             write_text(path, ObjText(job.run, mesh).text(library.filename().string()));
             job.report({path, mesh.points.size(), mesh.triangles.size(), 0, ""});

@@ -42,10 +42,12 @@ std::string ply(const ExportMesh& mesh) {
 
 class Ply final : public Exporter {
 public:
+    std::string extension() const override { return "ply"; }
+
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
             const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, "ply");
+            const auto path = job.path(*frame, extension());
             write_text(path, ply(mesh));
             job.report({path, mesh.points.size(), mesh.triangles.size(), 0, ""});
         }

@@ -129,10 +129,12 @@ private:
 
 class Rsml final : public Exporter {
 public:
+    std::string extension() const override { return "rsml"; }
+
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
             const AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, "rsml");
+            const auto path = job.path(*frame, extension());
             write_text(path, RsmlText(job, *frame, tree).text());
             job.report({path, 0, 0, tree.axes.size(), "axes"});
         }

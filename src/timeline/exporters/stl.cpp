@@ -37,10 +37,12 @@ std::string stl(const ExportMesh& mesh) {
 
 class Stl final : public Exporter {
 public:
+    std::string extension() const override { return "stl"; }
+
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
             const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, "stl");
+            const auto path = job.path(*frame, extension());
             write_text(path, stl(mesh));
             job.report({path, 3 * mesh.triangles.size(), mesh.triangles.size(), 0, ""});
         }

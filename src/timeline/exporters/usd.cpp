@@ -229,6 +229,8 @@ std::string quoted(const std::string& text) {
 
 class Usd final : public Exporter {
 public:
+    std::string extension() const override { return "usda"; }
+
     void write(const ExportJob& job) const override {
         std::vector<PlantSamples> plants(job.run.plants().size());
         UsdMaterials materials(job);
@@ -254,7 +256,7 @@ public:
         }
         materials.append_to(text);
         text += "}\n";
-        const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], "usda") : job.path("usda");
+        const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], extension()) : job.path(extension());
         write_text(path, text);
         job.report({path, vertices, triangles, job.frames.size(), "time samples"});
     }

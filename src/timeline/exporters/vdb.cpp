@@ -15,6 +15,8 @@ namespace {
 
 class Vdb final : public Exporter {
 public:
+    std::string extension() const override { return "vdb"; }
+
     void write(const ExportJob& job) const override {
         std::size_t written = 0;
         for (const RecordedFrame* frame : job.frames) {
