@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 
 #include "run_record.h"
+#include "sealed_file.h"
 #include "written_files.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@
 namespace espalier {
 namespace {
 
-constexpr std::uint64_t signature = 0x31'6e75'52'7370'61;  // "apsRun1"
+constexpr std::uint64_t signature = 0x32'6e75'52'7370'61;  // "apsRun2"
 constexpr std::uint64_t most_checkpoint_bytes = std::uint64_t{1} << 40;
 
 class Run {
@@ -76,6 +77,7 @@ private:
         std::ifstream in(path, std::ios::binary);
         if (!in) throw UserError(fmt::format("there is no {} to go on from", path.string()));
         if (get<std::uint64_t>(in) != signature) throw RunError(fmt::format("{} is no checkpoint", path.string()));
+        if (!is_sealed(path)) throw RunError(fmt::format("{} is damaged: it is not what was written", path.string()));
         timeline_.emplace(options_.output, scene_.timeline, scene_.steps, get_text(in, most_checkpoint_bytes));
         record_.resume(*timeline_, in);
         world_.restore(in);
@@ -86,13 +88,17 @@ private:
     void write_checkpoint() {
         const std::string timeline = timeline_->save();
         write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
-            std::ofstream out(temporary, std::ios::binary);
-            put(out, signature);
-            put_text(out, timeline);
-            record_.save(out);
-            world_.save(out);
-            return out.flush().good();
+            return save(temporary, timeline) && seal(temporary);
         });
+    }
+
+    bool save(const std::filesystem::path& path, const std::string& timeline) const {
+        std::ofstream out(path, std::ios::binary);
+        put(out, signature);
+        put_text(out, timeline);
+        record_.save(out);
+        world_.save(out);
+        return out.flush().good();
     }
 
     void remove_checkpoint() const {

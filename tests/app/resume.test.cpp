@@ -85,6 +85,12 @@ TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {
     const std::string bytes = text_of(path() / "again" / "checkpoint");
     write("again/checkpoint", bytes.substr(0, bytes.size() / 2));
     CHECK(run("resume again").code != 0);
+    for (std::size_t at = 8; at < bytes.size(); at += bytes.size() / 5) {
+        std::string other = bytes;
+        other[at] = static_cast<char>(other[at] ^ 0x10);
+        write("again/checkpoint", other);
+        CHECK_THAT(run("resume again").err, Contains("checkpoint is damaged"));
+    }
     fs::remove(path() / "again" / "checkpoint");
     CHECK_THAT(run("resume again").err, Contains("holds no checkpoint"));
 }
