@@ -21,14 +21,40 @@ namespace {
 
 constexpr std::uint64_t checkpoint_signature = 0x31'646c'726f'57;  // "World1"
 
+/// Memory that frames may hold on to: what somebody else still reads is set aside until they let go of it.
+template <class T>
+class Lent {
+public:
+    const std::shared_ptr<T>& shared() const { return now_; }
+    T& operator*() const { return *now_; }
+    T* operator->() const { return now_.get(); }
+    void swap(std::shared_ptr<T>& other) { now_.swap(other); }
+    /// Something that nobody reads, its values left over from an earlier step.
+    T& for_writing() {
+        if (now_.use_count() == 1) return *now_;
+        const auto is_free = [](const std::shared_ptr<T>& one) { return one.use_count() == 1; };
+        const auto free = std::find_if(set_aside_.begin(), set_aside_.end(), is_free);
+        if (free == set_aside_.end())
+            set_aside_.push_back(std::exchange(now_, std::make_shared<T>()));
+        else
+            std::swap(now_, *free);
+        return *now_;
+    }
+
+private:
+    std::shared_ptr<T> now_ = std::make_shared<T>();
+    std::vector<std::shared_ptr<T>> set_aside_;
+};
+
 struct Plant {
     std::uint32_t number = 0;
     const PlantDescription* description = nullptr;
     const Model* model = nullptr;
     const SymbolTable* symbols = nullptr;
     Derivation derivation;
-    ModuleString string, next;
-    Interpretation interpretation;
+    std::shared_ptr<ModuleString> string = std::make_shared<ModuleString>();
+    Lent<ModuleString> next = {};  ///< between steps the string before
+    Lent<Interpretation> interpretation = {};
     // As the last derivation and interpretation left them: looking them up in the derivation of every plant costs more
     // than a small plant's step.
     PlantMemory memory = {};
@@ -45,7 +71,7 @@ struct Totals {
 
     void add(const Plant& plant) {
         memory.add(plant.memory);
-        modules += plant.string.size();
+        modules += plant.string->size();
         longest = std::max(longest, plant.length);
         stopped = stopped || plant.stopped;
     }
@@ -86,6 +112,7 @@ struct World::State {
     Scene scene;
     MemoryShares shares;
     std::vector<Plant> plants;  ///< stay where they are: views and strings point to them
+    // As the last interpretation left them.
     std::vector<PlantView> views;
     std::vector<ModuleString*> strings;
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
@@ -108,6 +135,7 @@ struct World::State {
     void take_derived(const Totals& derived);
     void require_memory(const PlantMemory& needed) const;
     void make_frames();
+    void release_frames();
     DerivationSettings settings_of(const PlantDescription& plant, const std::filesystem::path& files) const;
 };
 
@@ -146,6 +174,7 @@ Totals World::State::for_every_plant(const Action& action) {
 template <class Rewrite>
 void World::State::derive(const Rewrite& rewrite) {
     const Stopwatch stopwatch(times.derive);
+    release_frames();
     std::atomic<std::size_t> held = totals.memory.strings;
     const auto is_too_much = [&] {
         PlantMemory needed = totals.memory;
@@ -155,7 +184,7 @@ void World::State::derive(const Rewrite& rewrite) {
     const Totals derived = for_every_plant([&](Plant& plant) {
         if (is_too_much()) return;
         rewrite(plant);
-        const std::size_t bytes = plant.string.bytes() + plant.next.bytes();
+        const std::size_t bytes = plant.string->bytes() + plant.next->bytes();
         if (bytes != plant.memory.strings) held += bytes - plant.memory.strings;
         plant.memory.strings = bytes;
         plant.length = plant.derivation.length();
@@ -168,7 +197,7 @@ void World::State::derive(const Rewrite& rewrite) {
 /// Which plants were rewritten when the others were given up depends on the threads: tells of the strings before.
 void World::State::refuse_strings() const {
     const auto before = [&](const Plant& plant) -> const ModuleString& {
-        return plant.derivation.steps_done() < step ? plant.string : plant.next;
+        return plant.derivation.steps_done() < step ? *plant.string : *plant.next;
     };
     const auto largest = std::max_element(plants.begin(), plants.end(), [&](const Plant& a, const Plant& b) {
         return before(a).size() < before(b).size();
@@ -190,28 +219,42 @@ void World::State::take_derived(const Totals& derived) {
 
 void World::State::require_memory(const PlantMemory& needed) const {
     if (needed.recorded() <= shares.plants) return;
-    const auto largest = std::max_element(
-        plants.begin(), plants.end(), [](const Plant& a, const Plant& b) { return a.string.size() < b.string.size(); });
+    const auto largest = std::max_element(plants.begin(), plants.end(), [](const Plant& a, const Plant& b) {
+        return a.string->size() < b.string->size();
+    });
     throw RunError(
         fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
                     "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
                     step, totals.modules, needed.recorded() >> 20, shares.plants >> 20, largest->description->name,
-                    largest->string.size(), commonest_module(*largest->model, largest->string)));
+                    largest->string->size(), commonest_module(*largest->model, *largest->string)));
 }
 
 void World::State::interpret_and_exchange() {
+    release_frames();
     {
         const Stopwatch stopwatch(times.interpret);
         totals = for_every_plant([&](Plant& plant) {
-            interpret(*plant.model, *plant.symbols, plant.string, plant.description->turtle, &plant.derivation,
-                      {plant.number}, plant.interpretation);
-            plant.memory.set_drawn(plant.interpretation);
+            Interpretation& interpretation = plant.interpretation.for_writing();
+            interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle, &plant.derivation,
+                      {plant.number}, interpretation);
+            plant.memory.set_drawn(interpretation);
+            views[plant.number].string = strings[plant.number] = plant.string.get();
+            views[plant.number].interpretation = &interpretation;
         });
         require_memory(totals.memory);
     }
     const Stopwatch stopwatch(times.exchange);
     environment->exchange({step, time(), scene.dt, views}, strings);
+}
+
+// Lets go of what they hold, so that it can be written into if nobody else does.
+void World::State::release_frames() {
+    if (frames_of < 0) return;
     frames_of = -1;
+    for (PlantFrame& frame : frames) {
+        frame.string.reset();
+        frame.interpretation.reset();
+    }
 }
 
 // Nothing of a frame but what the processes say of a plant changes from step to step.
@@ -219,16 +262,15 @@ void World::State::make_frames() {
     if (frames_of == step) return;
     if (frames.empty()) {
         for (const Plant& plant : plants) {
-            frames.push_back({plant.number,
-                              plant.description->name,
-                              plant.model,
-                              &plant.string,
-                              &plant.interpretation,
-                              {},
-                              plant.description->palette.get()});
+            frames.push_back(
+                {plant.number, plant.description->name, plant.model, {}, {}, {}, plant.description->palette.get()});
         }
     }
-    for (PlantFrame& frame : frames) frame.quantities = environment->statistics(frame.plant);
+    for (PlantFrame& frame : frames) {
+        frame.string = plants[frame.plant].string;
+        frame.interpretation = plants[frame.plant].interpretation.shared();
+        frame.quantities = environment->statistics(frame.plant);
+    }
     frames_of = step;
 }
 
@@ -275,10 +317,10 @@ World::World(const Scene& scene, std::size_t memory, const std::filesystem::path
         if (scene.sets_length) derivation.set_length(scene.steps);
         const auto number = static_cast<std::uint32_t>(state.plants.size());
         state.totals.longest = std::max(state.totals.longest, derivation.length());
-        Plant& plant = state.plants.emplace_back(
-            Plant{number, &description, &model, table.get(), std::move(derivation), {}, {}, {}});
-        state.views.push_back({number, &model, &plant.string, &plant.interpretation});
-        state.strings.push_back(&plant.string);
+        Plant& plant =
+            state.plants.emplace_back(Plant{number, &description, &model, table.get(), std::move(derivation)});
+        state.views.push_back({number, &model, plant.string.get(), &*plant.interpretation});
+        state.strings.push_back(plant.string.get());
     }
 }
 
@@ -290,7 +332,7 @@ void World::save(std::ostream& out) const {
     put(out, static_cast<std::uint64_t>(state_->plants.size()));
     for (const Plant& plant : state_->plants) {
         plant.derivation.save(out);
-        save_string(plant.string, out);
+        save_string(*plant.string, out);
     }
     state_->environment->save(out);
 }
@@ -301,8 +343,8 @@ void World::restore(std::istream& in) {
     if (get<std::uint64_t>(in) != state_->plants.size()) throw RunError("the checkpoint is of another scene");
     for (Plant& plant : state_->plants) {
         plant.derivation.restore(in);
-        restore_string(plant.string, state_->shares.string, in);
-        plant.memory.strings = plant.string.bytes();
+        restore_string(*plant.string, state_->shares.string, in);
+        plant.memory.strings = plant.string->bytes();
         plant.length = plant.derivation.length();
         plant.stopped = plant.derivation.stopped();
     }
@@ -323,7 +365,7 @@ void World::step() {
 }
 
 void World::plant_axioms() {
-    state_->derive([](Plant& plant) { plant.derivation.start(plant.string); });
+    state_->derive([](Plant& plant) { plant.derivation.start(*plant.string); });
 }
 
 void World::exchange() {
@@ -333,8 +375,8 @@ void World::exchange() {
 void World::derive() {
     ++state_->step;
     state_->derive([](Plant& plant) {
-        plant.derivation.step(plant.string, plant.next);
-        std::swap(plant.string, plant.next);
+        plant.derivation.step(*plant.string, plant.next.for_writing());
+        plant.next.swap(plant.string);
     });
 }
 
@@ -364,11 +406,11 @@ Frame World::frame() const {
 }
 
 const ModuleString& World::string(std::size_t plant) const {
-    return state_->plants[plant].string;
+    return *state_->plants[plant].string;
 }
 
 const Interpretation& World::interpretation(std::size_t plant) const {
-    return state_->plants[plant].interpretation;
+    return *state_->plants[plant].interpretation;
 }
 
 const Model& World::model(std::size_t plant) const {

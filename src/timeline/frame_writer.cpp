@@ -19,15 +19,16 @@ std::unique_ptr<FrameWriter::Job> FrameWriter::make_room(std::size_t bytes) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return failure_ || has_room(bytes); });
     if (failure_) std::rethrow_exception(failure_);
-    if (unused_.empty()) return std::make_unique<Job>();
-    std::unique_ptr<Job> job = std::move(unused_.back());
-    unused_.pop_back();
+    for (const std::unique_ptr<Job>& job : done_) job->frame.release();
+    if (done_.empty()) return std::make_unique<Job>();
+    std::unique_ptr<Job> job = std::move(done_.back());
+    done_.pop_back();
     return job;
 }
 
-// Only the run's thread adds, so that room once made stays until the copy is in the queue.
+// Only the run's thread adds, so that room once made stays until the frame is in the queue.
 void FrameWriter::add(const Frame& frame, bool due) {
-    const std::size_t bytes = FrameCopy::bytes(frame);
+    const std::size_t bytes = KeptFrame::bytes(frame);
     std::unique_ptr<Job> job = make_room(bytes);
     job->frame.take(frame, due ? std::span(fields_) : std::span<const std::string>());
     job->due = due;
@@ -60,7 +61,7 @@ void FrameWriter::work() {
         lock.lock();
         if (failure) failure_ = failure;
         bytes_ -= job.bytes;
-        unused_.push_back(std::move(waiting_.front()));
+        done_.push_back(std::move(waiting_.front()));
         waiting_.pop_front();
         changed_.notify_all();
     }

@@ -1,7 +1,7 @@
-// Writes frames beside the run: a thread of its own works through a short queue of copies.
+// Writes frames beside the run: a thread of its own works through a short queue.
 #pragma once
 
-#include "timeline/frame_copy.h"
+#include "timeline/kept_frame.h"
 
 #include <condition_variable>
 #include <cstddef>
@@ -20,14 +20,14 @@ public:
     /// Called by the writing thread, frame after frame; `due`: as it was added.
     using Write = std::function<void(const Frame&, bool due)>;
 
-    /// `fields`: those that frames which are due are copied with.
+    /// `fields`: those that frames which are due are kept with.
     FrameWriter(std::vector<std::string> fields, Write write) : fields_(std::move(fields)), write_(std::move(write)) {}
     /// Waits until everything is written.
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
-    /// Copies the frame and returns; waits before that while the queue is full. After a failure nothing more is
+    /// Keeps the frame and returns; waits before that while the queue is full. After a failure nothing more is
     /// written: throws it, here and in wait().
     void add(const Frame& frame, bool due);
     /// Returns when every frame is written.
@@ -39,7 +39,7 @@ public:
 
 private:
     struct Job {
-        FrameCopy frame;
+        KeptFrame frame;
         bool due = false;
         std::size_t bytes = 0;
     };
@@ -54,8 +54,10 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::unique_ptr<Job>> waiting_;  ///< in order; the first is being written
-    std::vector<std::unique_ptr<Job>> unused_;  ///< their memory serves again
-    std::size_t bytes_ = 0;                     ///< of those that wait
+    /// They hold their frames until the run's thread releases these: it alone lets go of what is shared, and knows
+    /// thereby what it may write into.
+    std::vector<std::unique_ptr<Job>> done_;
+    std::size_t bytes_ = 0;  ///< of those that wait
     std::exception_ptr failure_;
     bool ends_ = false;
     std::thread thread_;

@@ -46,13 +46,12 @@ TEST_CASE("frames are written in the order in which they came, each as it was", 
             steps.push_back(frame.step);
             modules.push_back(frame.plants[0].string->size());
             polygons.push_back(frame.plants[0].interpretation->geometry.polygons.size());
-            answers.push_back(frame.plants[0].interpretation->queries[0].parameters[0]);
+            answers.push_back(frame.plants[0].string->parameters[0]);
         });
         HandmadePlant plant;
         plant.add_query(1, {0, 0, 0}, 0);
         for (int step = 0; step < 200; ++step) {
             plant.string.parameters[0] = step;
-            plant.interpretation.queries[0].parameters = std::span(plant.string.parameters).subspan(0, 1);
             add(writer, step, plant, step % 3 == 0);
             plant.add_triangle(Identity(step));
         }

@@ -100,7 +100,15 @@ struct HandmadePlant {
         geometry.polygons.push_back({module, first, 3, 1, 5});
     }
 
-    PlantFrame frame() const { return {number, "plant", &model, &string, &interpretation, quantities}; }
+    /// Of the plant as it is now.
+    PlantFrame frame() const {
+        return {number,
+                "plant",
+                &model,
+                std::make_shared<const ModuleString>(string),
+                std::make_shared<const Interpretation>(interpretation),
+                quantities};
+    }
 };
 
 /// A stem of two internodes with a side branch from the end of the first: the modules in the string's order.

@@ -7,6 +7,7 @@
 #include "espalier/turtle/interpretation.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ struct PlantFrame {
     std::uint32_t plant = 0;
     std::string name;
     const Model* model = nullptr;
-    const ModuleString* string = nullptr;
-    const Interpretation* interpretation = nullptr;
+    // Whoever keeps one of these keeps its values: the world goes on in other memory.
+    std::shared_ptr<const ModuleString> string;
+    std::shared_ptr<const Interpretation> interpretation;
     std::vector<Quantity> quantities;  ///< "light.mean", ... of this plant, the same names in every frame
     const Palette* palette = nullptr;  ///< what colour indices look like; null: unknown
 };

@@ -14,7 +14,7 @@ namespace espalier {
 
 class FrameWriter;
 
-/// Frames are copied and written by a thread of their own, in order, while the run goes on; a few may wait.
+/// Frames are written by a thread of their own, in order, while the run goes on; a few may wait.
 class Timeline {
 public:
     /// Locks the folder (two runs into one are refused) and makes the recorders `table` asks for.
