@@ -205,3 +205,37 @@ TEST_CASE_METHOD(Worlds, "plants that are many outgrow the memory together befor
     for (std::size_t plant = 0; plant < world.size(); ++plant) held += world.string(plant).bytes();
     CHECK(held < memory);  // all would be 18 MB
 }
+
+TEST_CASE_METHOD(Worlds, "frames that somebody keeps stay as they were, and the world writes into what is let go",
+                 "[simulation]") {
+    const Scene stand = scene(stochastic, "", "name = 'bush'\ngrid = { columns = 3, spacing = 1 }\n");
+    World world(stand);
+    std::vector<std::vector<PlantFrame>> kept;
+    std::set<const ModuleString*> strings;
+    std::set<const Interpretation*> interpretations;
+    const auto keep = [&] {
+        const Frame frame = world.frame();
+        kept.emplace_back(frame.plants.begin(), frame.plants.end());
+        if (kept.size() > 3) kept[kept.size() - 4].clear();
+        strings.insert(frame.plants[1].string.get());
+        interpretations.insert(frame.plants[1].interpretation.get());
+    };
+    world.start();
+    keep();
+    for (int step = 1; step <= 12; ++step) {
+        world.step();
+        keep();
+        for (int back = 0; back < std::min(3, step + 1); ++back) {
+            World alone(stand);
+            walk(alone, step - back);
+            const std::vector<PlantFrame>& then = kept[std::size_t(step - back)];
+            for (std::size_t plant = 0; plant < world.size(); ++plant) {
+                CHECK(to_text(*then[plant].string, world.model(plant).alphabet) == text(alone, plant));
+                CHECK(total_length(then[plant].interpretation->geometry) ==
+                      total_length(alone.interpretation(plant).geometry));
+            }
+        }
+    }
+    CHECK(interpretations.size() == 4);
+    CHECK(strings.size() <= 5);
+}
