@@ -28,15 +28,14 @@ using namespace espalier;
 namespace {
 
 /// Into a file that has begun: points without cells, with these arrays on them.
-void fill_points(VtkFile& file, const std::filesystem::path& path, std::size_t count,
+void fill_points(VtkFile& file, const std::filesystem::path& path, const std::vector<float>& points,
                  const std::vector<DataArray>& arrays, const std::vector<std::string>& texts = {}) {
-    const std::vector<float> points(3 * count, 0.5f);
     file.open("PolyData");
     file.open("FieldData");
     file.add_time(2.5, 7);
     file.add_texts("a <b> & \"c\"", texts);
     file.close();
-    file.open("Piece", "NumberOfPoints=\"" + std::to_string(count) + "\"");
+    file.open("Piece", "NumberOfPoints=\"" + std::to_string(points.size() / 3) + "\"");
     file.open("PointData");
     for (const DataArray& array : arrays) file.add(array);
     file.close();
@@ -49,7 +48,7 @@ void write_points(const std::filesystem::path& path, std::size_t count, const st
                   const std::vector<std::string>& texts = {}) {
     VtkFile file;
     file.begin("PolyData");
-    fill_points(file, path, count, arrays, texts);
+    fill_points(file, path, std::vector<float>(3 * count, 0.5f), arrays, texts);
 }
 
 vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& path) {
@@ -157,6 +156,7 @@ TEST_CASE("a file written after another has the bytes of one written alone", "[t
     // Two lists that take turns, so that the file before is always there to be compared with.
     std::array<std::vector<std::vector<std::uint32_t>>, 2> values;
     values[0].assign(6, std::vector<std::uint32_t>(count, 7));
+    const std::vector<float> points(3 * count, 0.5f);
     const TemporaryFolder folder;
     VtkFile file;
     for (int step = 0; step < 30; ++step) {
@@ -171,7 +171,7 @@ TEST_CASE("a file written after another has the bytes of one written alone", "[t
                 data_array<std::uint32_t>("a" + std::to_string(i), std::span<const std::uint32_t>(now[i])));
         }
         step == 0 ? file.begin("PolyData") : file.begin_after("PolyData");
-        fill_points(file, folder.path() / "after.vtp", count, arrays);
+        fill_points(file, folder.path() / "after.vtp", points, arrays);
         write_points(folder.path() / "alone.vtp", count, arrays);
         CHECK((read_text(folder.path() / "after.vtp") == read_text(folder.path() / "alone.vtp")));
     }
