@@ -57,7 +57,6 @@ private:
     bool possible(const CompiledProduction& production, std::uint32_t left, std::uint32_t right) const;
     bool in_place(const CompiledProduction& production) const;
     bool certain(const CompiledProduction& production) const;
-    static bool spelled(const CompiledProduction& production);
     bool wants_positions() const;
     bool sees_both_at_once() const;
 
@@ -145,7 +144,7 @@ void ChoosingCompiler::fill_table() {
         for (std::uint32_t k = rules_.first[l]; k < rules_.first[l + 1]; ++k) {
             choosing_.ranks[rules_.candidates[k]] = static_cast<LetterId>(k - rules_.first[l] + 1);
         }
-        const bool depends = system_.plans.of_letter[l].kind == Plan::Kind::choose;
+        const bool depends = system_.plans.of_letter[l].depends();
         choosing_.nothing.push_back(static_cast<LetterId>(depends ? rules_.first[l + 1] - rules_.first[l] + 1 : 1));
         for (std::uint32_t place = 0; place < choosing_.places(); ++place) {
             const std::uint32_t left = place / choosing_.right_classes, right = place % choosing_.right_classes;
@@ -198,11 +197,6 @@ bool ChoosingCompiler::certain(const CompiledProduction& production) const {
     return in_place(production) && production.before.empty() && !production.has_condition;
 }
 
-/// True if a production applies wherever the letters of its strict predecessor stand.
-bool ChoosingCompiler::spelled(const CompiledProduction& production) {
-    return production.context_free() && production.before.empty() && !production.has_condition;
-}
-
 Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint32_t right) {
     Candidates candidates;
     bool all_certain = true, all_spelled = true, all_tested = true;
@@ -211,7 +205,7 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         if (!possible(production, left, right)) continue;
         candidates.push_back(rules_.candidates[k]);
         all_certain &= certain(production);
-        all_spelled &= spelled(production);
+        all_spelled &= production.spelled();
         all_tested &= certain(production) || (in_place(production) && production.before.empty() && production.tests);
         if (!rules_.stochastic && certain(production)) break;
     }
@@ -296,7 +290,7 @@ bool ChoosingCompiler::sees_both_at_once() const {
     for (std::size_t l = 0; l < system_.ignored.size(); ++l) {
         const bool bracket = l <= Alphabet::close_bracket;
         if (bracket && system_.ignored[l]) return false;
-        const bool asks = system_.plans.of_letter[l].kind == Plan::Kind::choose;
+        const bool asks = system_.plans.of_letter[l].depends();
         if ((bracket || system_.ignored[l]) && asks) return false;
     }
     return true;

@@ -62,6 +62,8 @@ struct CompiledProduction {
     bool tests_draw = false;              ///< before-block, condition or weight take random numbers
 
     bool context_free() const { return left.empty() && right.empty(); }
+    /// It applies wherever the letters of its strict predecessor stand.
+    bool spelled() const { return context_free() && before.empty() && !has_condition; }
 };
 
 /// Productions by the letter of their first strict module.

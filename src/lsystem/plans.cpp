@@ -33,6 +33,7 @@ Plan plan_of(const CompiledProduction& production) {
     plan.parameters = static_cast<std::uint32_t>(production.parameters);
     plan.arity = production.strict[0].arity;
     plan.width = static_cast<std::uint16_t>(production.strict.size());
+    if (plan.width > 1) plan.second = production.strict[1].letter;
     for (const CompiledPattern& pattern : production.strict) plan.reads += pattern.arity;
     plan.lanes = &production.lanes;
     plan.production = &production;
@@ -69,28 +70,45 @@ void measure(Plans& plans) {
         include(plan);
         plans.lengths.push_back(plan.length);
         plans.parameters.push_back(plan.parameters);
-        plans.rewritten.push_back(plan.kind != Plan::Kind::choose && plan.production);
+        plans.rewritten.push_back(plan.depends() || plan.production);
     }
     for (const Plan& plan : plans.choices) include(plan);
 }
 
-/// What the next step will make of what each plan writes.
+/// What the next step will make of letters that stand alone.
+std::uint64_t measure_of(const Plans& plans, const LetterId* letters, const LetterId* end) {
+    std::uint64_t measure = 0;
+    while (letters != end) {
+        const Plan& plan = spelled_plan(plans.of_letter[*letters], letters, end);
+        measure += std::uint64_t{plan.parameters} << 32 | plan.length;
+        letters += plan.width;
+    }
+    return measure;
+}
+
+/// What the next step will make of what each plan writes. Where symbols are spelled across what two plans write, the
+/// next step will find out that this is wrong.
 void look_ahead(Plans& plans) {
     const std::uint64_t most = std::max(plans.longest, plans.most_parameters);
     plans.looks_ahead = plans.all_known && most < (std::uint64_t{1} << 32) / (longest_stretch + plans.longest);
     if (!plans.looks_ahead) return;
-    const auto measure_of = [&](LetterId letter) {
-        return std::uint64_t{plans.parameters[letter]} << 32 | plans.lengths[letter];
-    };
-    for (Plan& plan : plans.of_letter) {
-        if (!plan.production)
-            plan.next = measure_of(plan.block[0]);
-        else
-            for (std::size_t k = 0; k < plan.length; ++k) plan.next += measure_of(plan.letters[k]);
+    for (std::vector<Plan>* const each : {&plans.of_letter, &plans.choices}) {
+        for (Plan& plan : *each) {
+            const LetterId* const letters = plan.production ? plan.letters : plan.block.data();
+            plan.next = measure_of(plans, letters, letters + plan.length);
+        }
     }
 }
 
 }  // namespace
+
+bool spells_rest(const Plan& plan, const LetterId* letters) {
+    const std::vector<CompiledPattern>& strict = plan.production->strict;
+    for (std::size_t k = 2; k < strict.size(); ++k) {
+        if (letters[k] != strict[k].letter) return false;
+    }
+    return true;
+}
 
 Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
@@ -105,11 +123,16 @@ Plans make_plans(const CompiledSystem& model) {
         plans.choices.push_back(plan);
         plan.choices = &plans.choices.back();
         if (rules.has(letter) && !known) {
-            plans.all_known = false;
-            plan.kind = Plan::Kind::choose;
+            bool spelled = !rules.stochastic;
             for (std::uint32_t k = rules.first[l]; k < rules.first[l + 1]; ++k) {
-                plans.choices.push_back(plan_of(rules.productions[rules.candidates[k]]));
+                const CompiledProduction& production = rules.productions[rules.candidates[k]];
+                spelled &= production.spelled();
+                plans.choices.push_back(plan_of(production));
             }
+            plan.kind = spelled ? Plan::Kind::spelled : Plan::Kind::choose;
+            plan.productions = static_cast<LetterId>(rules.first[l + 1] - rules.first[l]);
+            plans.all_known &= spelled;
+            plans.spelled |= spelled;
         }
         if (rules.follows(letter)) plans.choices.push_back(nothing_of(arities[l]));
         plans.of_letter.push_back(plan);

@@ -57,14 +57,17 @@ struct alignas(64) Plan {
         mixed,      ///< `lanes` say some, the production's program `rest` the others
         program,    ///< the production's programs are run
         choose,     ///< depends on more than the letter
+        spelled,    ///< depends on the letter and those behind it: spelled_plan() tells it
     };
     std::array<LetterId, letter_block> block{};  ///< the first letters of the successor
     std::uint32_t length = 0;
     std::uint32_t parameters = 0;
     std::uint16_t arity = 0;
     Kind kind = Kind::bare;
-    std::uint16_t width = 1;  ///< modules that are replaced
-    std::uint32_t reads = 0;  ///< parameters of all modules that are replaced
+    std::uint16_t width = 1;      ///< modules that are replaced
+    std::uint32_t reads = 0;      ///< parameters of all modules that are replaced
+    LetterId second = no_letter;  ///< of the modules that are replaced, if they are several
+    LetterId productions = 0;     ///< among `choices`, from the second on
     /// Modules and (from bit 32 on) parameters that will replace what this plan writes, where no letter needs choosing.
     std::uint64_t next = 0;
     const Lanes* lanes = nullptr;
@@ -74,14 +77,17 @@ struct alignas(64) Plan {
     /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order; if one
     /// before it may replace it as well, a plan that writes nothing.
     const Plan* choices = nullptr;
+
+    bool depends() const { return kind == Kind::choose || kind == Kind::spelled; }
 };
 
 struct Plans {
-    std::vector<Plan> of_letter;                     ///< kind `choose` where it depends on more than the letter
+    std::vector<Plan> of_letter;
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
-    std::vector<std::uint8_t> rewritten;             ///< by letter: its plan is known, and not the copy
+    std::vector<std::uint8_t> rewritten;             ///< by letter: the letters tell its plan, maybe not the copy
     std::vector<Plan> choices;                       ///< of all letters, one after the other
-    bool all_known = true;                           ///< no letter needs choosing
+    bool all_known = true;                           ///< no letter needs choosing: letters tell all
+    bool spelled = false;                            ///< some of them only with those behind them
     bool looks_ahead = false;                        ///< Plan::next is known
     // The most that any plan reads and writes.
     std::size_t longest = 1, most_parameters = 0, most_read = 0;
@@ -91,5 +97,20 @@ struct Plans {
 
 /// The plans of `model.rules`, which must stay where they are.
 Plans make_plans(const CompiledSystem& model);
+
+/// True if letters from the third on of what the plan replaces stand at `letters`.
+bool spells_rest(const Plan& plan, const LetterId* letters);
+
+/// The plan of the first of some letters, whose own is `plan`, where letters tell it.
+inline const Plan& spelled_plan(const Plan& plan, const LetterId* letters, const LetterId* end) {
+    if (plan.kind != Plan::Kind::spelled) return plan;
+    for (LetterId k = 1; k <= plan.productions; ++k) {
+        const Plan& choice = plan.choices[k];
+        const bool stands = choice.width == 1 || (end - letters >= choice.width && letters[1] == choice.second &&
+                                                  (choice.width == 2 || spells_rest(choice, letters)));
+        if (stands) return choice;
+    }
+    return plan.choices[0];
+}
 
 }  // namespace espalier

@@ -110,8 +110,8 @@ void Powers::write(ModuleString& to) {
 
 bool has_powers(const CompiledModel& model) {
     const CompiledSystem& main = model.main();
-    return !model.nested && main.plans.all_known && main.decomposition.empty() && !main.ordered() && !main.may_cut &&
-           main.start_each.empty() && main.end_each.empty() && main.end.empty();
+    return !model.nested && main.plans.all_known && !main.plans.spelled && main.decomposition.empty() &&
+           !main.ordered() && !main.may_cut && main.start_each.empty() && main.end_each.empty() && main.end.empty();
 }
 
 bool raise_to_power(const CompiledSystem& model, const ModuleString& from, int steps, std::size_t memory,

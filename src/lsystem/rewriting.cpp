@@ -24,6 +24,19 @@ bool joins(std::size_t modules, const Chunk& before) {
     return std::min(modules, size) < grain / 2 && modules + size <= 2 * grain;
 }
 
+/// No production reaches across the borders of the chunk.
+void count_spelled(const StepInput& input, Chunk& chunk) {
+    const Plan* const plans = input.model.plans.of_letter.data();
+    const LetterId* const end = input.from.letters.data() + chunk.end;
+    for (const LetterId* at = input.from.letters.data() + chunk.begin; at < end;) {
+        const Plan& plan = spelled_plan(plans[*at], at, end);
+        chunk.parameters_at += plan.reads;
+        chunk.out_end += plan.length;
+        chunk.out_parameters_end += plan.parameters;
+        at += plan.width;
+    }
+}
+
 void count(const StepInput& input, Chunk& chunk) {
     const std::uint16_t* const arities = input.model.source->alphabet.arities().data();
     const std::uint32_t* const lengths = input.model.plans.lengths.data();
@@ -35,6 +48,7 @@ void count(const StepInput& input, Chunk& chunk) {
         for (std::size_t i = chunk.begin; i < chunk.end; ++i) chunk.parameters_at += arities[letters[i]];
         return;
     }
+    if (input.model.plans.spelled) return count_spelled(input, chunk);
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
         chunk.parameters_at += arities[letters[i]];
         chunk.out_end += lengths[letters[i]];
@@ -101,8 +115,8 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
 
 bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& scratch) {
     const bool whole = input.kept.size() == 1 && input.kept[0] == std::pair(std::size_t{0}, forecast.modules);
-    if (!input.model.plans.looks_ahead || !whole || input.from.letters.data() != forecast.letters ||
-        input.from.parameters.size() != forecast.parameters) {
+    if (!input.model.plans.looks_ahead || forecast.misses >= Forecast::most_misses || !whole ||
+        input.from.letters.data() != forecast.letters || input.from.parameters.size() != forecast.parameters) {
         return false;
     }
     scratch.chunks.clear();

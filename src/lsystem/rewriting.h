@@ -57,6 +57,9 @@ struct Chunk {
 
 /// What the writing of a string has found out about it: the chunks of the next step.
 struct Forecast {
+    static constexpr int most_misses = 3;
+    int misses = 0;  ///< what was foreseen was wrong so many times: looking ahead does not pay for this model
+
     // Which string it was.
     const LetterId* letters = nullptr;
     std::size_t modules = 0, parameters = 0;
@@ -84,7 +87,10 @@ inline bool keeps_places(const StepInput& input) {
 /// The plan that replaces a module whose choice is made.
 inline const Plan& plan_of(const StepInput& input, const Scratch& scratch, std::size_t module) {
     const Plan& plan = input.model.plans.of_letter[input.from.letters[module]];
-    if (input.model.plans.all_known) return plan;
+    if (input.model.plans.all_known) {
+        const LetterId* const letters = input.from.letters.data();
+        return spelled_plan(plan, letters + module, letters + input.from.size());
+    }
     const LetterId choice = scratch.choices[module];
     return keeps_places(input) ? *input.model.choosing.plans[choice] : plan.choices[choice];
 }

@@ -12,9 +12,10 @@ std::vector<std::uint64_t> count_uses(const StepInput& input, const Scratch& scr
     const std::vector<CompiledProduction>& productions = input.model.rules.productions;
     std::vector<std::uint64_t> uses(productions.size());
     for (const Chunk& chunk : scratch.chunks) {
-        for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        for (std::size_t i = chunk.begin; i < chunk.end;) {
             const Plan& used = plan_of(input, scratch, i);
             if (used.production) ++uses[static_cast<std::size_t>(used.production - productions.data())];
+            i += used.width;
         }
     }
     return uses;
@@ -31,8 +32,9 @@ bool has_spare(const StepInput& input, const ModuleString& string) {
 
 enum class Measure { foreseen, taken };
 
-/// Turns the chunks' lengths into places and makes room for the new string.
-void place(const StepInput& input, Scratch& scratch, Measure measure, ModuleString& to) {
+/// Turns the chunks' lengths into places and makes room for the new string; false if a measure that is only foreseen
+/// asks for too much.
+bool place(const StepInput& input, Scratch& scratch, Measure measure, ModuleString& to) {
     std::size_t modules = 0, parameters = 0;
     for (Chunk& chunk : scratch.chunks) {
         chunk.out = modules;
@@ -44,12 +46,14 @@ void place(const StepInput& input, Scratch& scratch, Measure measure, ModuleStri
     }
     const std::size_t bytes = input.from.bytes() + bytes_needed(modules, parameters, input.ancestry);
     if (bytes > input.memory || modules >= BranchLinks::none) {
+        if (measure == Measure::foreseen) return false;
         refuse_memory(input, modules, bytes, count_uses(input, scratch));
     }
     resize(to, modules, parameters, input.ancestry);
     if (measure == Measure::taken && !scratch.chunks.empty()) {
         scratch.chunks.back().in_blocks = has_spare(input, input.from) && has_spare(input, to);
     }
+    return true;
 }
 
 /// False if the chunks' measures do not fit the string.
@@ -65,6 +69,14 @@ bool write_all(const StepInput& input, Scratch& scratch, Machines& machines, Mod
     return fits;
 }
 
+bool write_foreseen(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
+    try {
+        return place(input, scratch, Measure::foreseen, to) && write_all(input, scratch, machines, to);
+    } catch (const RunError&) {
+        return false;  // who measures first meets it too, if it is one
+    }
+}
+
 }  // namespace
 
 void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& forecast, Machines& machines,
@@ -72,8 +84,8 @@ void rewrite_in_two_passes(const StepInput& input, Scratch& scratch, Forecast& f
     // A small string is measured in no time, and what is certain is written faster than what is foreseen.
     constexpr std::size_t small = 256;
     if (input.from.size() > small && recall_chunks(input, forecast, scratch)) {
-        place(input, scratch, Measure::foreseen, to);
-        if (write_all(input, scratch, machines, to)) return remember_chunks(input, to, scratch, forecast);
+        if (write_foreseen(input, scratch, machines, to)) return remember_chunks(input, to, scratch, forecast);
+        ++forecast.misses;
     }
     make_chunks(input, scratch);
     if (!input.model.plans.all_known) {

@@ -33,7 +33,8 @@ struct Lines {
     Pair<Identity> identities, parents;
     Pair<std::uint32_t> births;
     const LetterId* letters;
-    const LetterId* choices;  ///< null where letters tell all
+    const LetterId* letters_end;  ///< of the whole string
+    const LetterId* choices;      ///< null where letters tell all
     const Plans& plans;
     std::uint32_t step;
     std::size_t size;   ///< of the chunk
@@ -42,7 +43,7 @@ struct Lines {
 
     const Plan& plan(std::size_t module) const {
         const Plan& plan = plans.of_letter[letters[module]];
-        return choices ? plan.choices[choices[module]] : plan;
+        return choices ? plan.choices[choices[module]] : spelled_plan(plan, letters + module, letters_end);
     }
     /// Calls copy(column) for what is kept: identities or, if `whole`, parents and births, too.
     template <bool whole, class Copy>
@@ -168,6 +169,7 @@ void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& 
                 whole ? pair(from.parents, to.parents) : Pair<Identity>{},
                 whole ? pair(from.births, to.births) : Pair<std::uint32_t>{},
                 from.letters.data() + chunk.begin,
+                from.letters.data() + from.size(),
                 plans.all_known ? nullptr : scratch.choices.data() + chunk.begin,
                 plans,
                 input.step,

@@ -25,12 +25,14 @@ struct Cursor {
     double* out_values;
     std::uint64_t next = 0;  ///< Plan::next of what was written since the stretch began
 
-    template <bool Valued = true>
+    /// `Spelled`: all that the plan replaces is passed, else the first module, since the others have plans of their
+    /// own.
+    template <bool Valued = true, bool Spelled = false>
     void pass(const Plan& plan) {
-        ++in;
+        in += Spelled ? plan.width : 1;
         out += plan.length;
         if constexpr (Valued) {
-            values += plan.arity;
+            values += Spelled ? plan.reads : plan.arity;
             out_values += plan.parameters;
         }
         next += plan.next;
@@ -53,7 +55,7 @@ public:
 private:
     std::size_t safe_count() const;
     void write_round(std::size_t count);
-    template <bool Valued>
+    template <bool Valued, bool Spelled>
     void write_each(std::size_t count);
     template <std::size_t block>
     void write_letters(std::size_t count);
@@ -170,22 +172,24 @@ template <bool Valued>
     return true;
 }
 
-template <bool Valued>
+template <bool Valued, bool Spelled>
 void Writer::write_each(std::size_t count) {
     const Plan* const plans =
         plans_.of_letter.data();  // at hand: blocks may be written over members, for all C++ knows
+    const LetterId* const string_end = letters_ + input_.from.size();
+    const LetterId* const end = at_.in + count;
     Cursor at = at_;
-    for (const LetterId* const end = at.in + count; at.in != end;) {
-        const Plan& plan = plans[*at.in];
+    while (at.in < end) {
+        const Plan& plan = Spelled ? spelled_plan(plans[*at.in], at.in, string_end) : plans[*at.in];
         if (plan.kind == Plan::Kind::copy) {
             *at.out = *at.in;
             if constexpr (Valued) copy_values(at.values, at.out_values);
         } else if (!write_successor<Valued>(plan, at)) {
             break;
         }
-        at.pass<Valued>(plan);
+        at.pass<Valued, Spelled>(plan);
     }
-    const bool whole = at.in == at_.in + count;
+    const bool whole = at.in >= end;
     at_ = at;
     // A value is not finite: what is wrong is found out module by module.
     if (!whole) write_module();
@@ -261,8 +265,10 @@ void Writer::write_run(std::size_t count) {
 void Writer::write_round(std::size_t count) {
     if (in_runs_)
         write_runs(count);
+    else if (plans_.spelled && plans_.all_known)
+        valued_ ? write_each<true, true>(count) : write_each<false, true>(count);
     else if (plans_.all_known)
-        valued_ ? write_each<true>(count) : write_each<false>(count);
+        valued_ ? write_each<true, false>(count) : write_each<false, false>(count);
     else
         plans_.longest <= letter_block / 2 ? write_letters<letter_block / 2>(count)
                                            : write_letters<letter_block>(count);
@@ -281,7 +287,7 @@ bool Writer::write_module() {
     } else if (plan.kind != Plan::Kind::lanes) {
         std::copy_n(at_.values, plan.parameters, at_.out_values);
     }
-    at_.pass(plan);
+    plans_.all_known ? at_.pass<true, true>(plan) : at_.pass(plan);
     return true;
 }
 
@@ -380,16 +386,16 @@ bool Writer::write() {
     }
     at_ = stretch_ = begin;
     stretches_.clear();
-    while (at_.in != in_end_) {
+    while (at_.in < in_end_) {
         if (!write_module()) return false;
     }
     end_stretch();
-    return true;
+    return at_.in == in_end_;
 }
 
 bool Writer::write_rounds() {
     stretches_.clear();
-    while (at_.in != in_end_) {
+    while (at_.in < in_end_) {
         if (const std::size_t count = safe_count(); count > 0)
             write_round(count);
         else if (!write_module())
@@ -397,7 +403,7 @@ bool Writer::write_rounds() {
         if (at_.out - stretch_.out >= static_cast<std::ptrdiff_t>(grain)) end_stretch();
     }
     end_stretch();
-    return at_.out == out_end_ && at_.out_values == out_values_end_ &&
+    return at_.in == in_end_ && at_.out == out_end_ && at_.out_values == out_values_end_ &&
            at_.values == input_.from.parameters.data() + chunk_.parameters_end;
 }
 
