@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <utility>
 
 namespace espalier {
 namespace {
@@ -29,13 +29,33 @@ void for_each_owner(const Owners& owners, const Visit& visit) {
 
 }  // namespace
 
-bool OwnerArrays::same_values(const OwnerArrays& other) const {
-    if (count_ != other.count_) return false;
-    return std::equal(arrays_.begin(), arrays_.begin() + static_cast<std::ptrdiff_t>(count_), other.arrays_.begin(),
-                      [](const Array& a, const Array& b) {
-                          return a.data.name == b.data.name && std::strcmp(a.data.type, b.data.type) == 0 &&
-                                 same_bytes(a.values, b.values);
-                      });
+void OwnerArrays::begin() {
+    count_before_ = std::exchange(count_, 0);
+}
+
+OwnerArrays::Array& OwnerArrays::append(const DataArray& data, const Owners& owners) {
+    if (count_ == arrays_.size()) arrays_.emplace_back();
+    Array& array = arrays_[count_++];
+    const std::size_t bytes = owners.values.size() * data.tuple_bytes;
+    array.changed = owners.ends.changed() || array.data.name != data.name || array.values.size() != bytes;
+    array.values.resize(bytes);
+    array.data = data;
+    array.data.tuples = owners.size();
+    array.data.values = array.values.data();
+    array.data.ends = owners.ends.values();
+    return array;
+}
+
+DataArray OwnerArrays::operator[](std::size_t i) const {
+    DataArray data = arrays_[i].data;
+    data.changed = arrays_[i].changed;
+    return data;
+}
+
+bool OwnerArrays::changed() const {
+    const auto end = arrays_.begin() + static_cast<std::ptrdiff_t>(count_);
+    return count_ != count_before_ ||
+           std::any_of(arrays_.begin(), end, [](const Array& array) -> bool { return array.changed; });
 }
 
 AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std::span<const ChosenParameter> chosen)
@@ -50,25 +70,25 @@ AttributeArrays::AttributeArrays(const Frame& frame, SymbolNumbers& symbols, std
 }
 
 void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) const {
-    auto* const identity = arrays.append<std::uint64_t>("identity", owners, 1);
-    auto* const parent = arrays.append<std::uint64_t>("parent", owners, 1);
-    auto* const number = arrays.append<std::uint32_t>("plant", owners, 1);
-    auto* const symbol = arrays.append<std::uint16_t>("symbol", owners, 1);
-    auto* const birth = arrays.append<std::int32_t>("birth", owners, 1);
-    auto* const order = arrays.append<std::uint16_t>("order", owners, 1);
-    auto* const colour = arrays.append<std::uint16_t>("colour", owners, 1);
-    auto* const kind = arrays.append<std::uint8_t>("kind", owners, 1);
+    const auto identity = arrays.append<std::uint64_t>("identity", owners);
+    const auto parent = arrays.append<std::uint64_t>("parent", owners);
+    const auto number = arrays.append<std::uint32_t>("plant", owners);
+    const auto symbol = arrays.append<std::uint16_t>("symbol", owners);
+    const auto birth = arrays.append<std::int32_t>("birth", owners);
+    const auto order = arrays.append<std::uint16_t>("order", owners);
+    const auto colour = arrays.append<std::uint16_t>("colour", owners);
+    const auto kind = arrays.append<std::uint8_t>("kind", owners);
     for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
         const Plant& plant = plants_[owner.plant];
         const ModuleString& string = *plant.frame->string;
-        identity[i] = plant.lineage ? string.identities[owner.module] : 0;
-        parent[i] = plant.lineage ? string.parents[owner.module] : 0;
-        number[i] = plant.frame->plant;
-        symbol[i] = (*plant.symbols)[string.letters[owner.module]];
-        birth[i] = plant.lineage ? static_cast<std::int32_t>(string.births[owner.module]) : 0;
-        order[i] = owner.order;
-        colour[i] = owner.colour;
-        kind[i] = static_cast<std::uint8_t>(owner.kind);
+        identity.put(i, plant.lineage ? string.identities[owner.module] : 0);
+        parent.put(i, plant.lineage ? string.parents[owner.module] : 0);
+        number.put(i, plant.frame->plant);
+        symbol.put(i, (*plant.symbols)[string.letters[owner.module]]);
+        birth.put(i, plant.lineage ? static_cast<std::int32_t>(string.births[owner.module]) : 0);
+        order.put(i, owner.order);
+        colour.put(i, owner.colour);
+        kind.put(i, static_cast<std::uint8_t>(owner.kind));
     });
 }
 
@@ -87,11 +107,13 @@ void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
             if (known == texture_files.end()) texture_files.push_back(texture.file.string());
         }
     }
-    arrays.add<std::uint16_t>("texture", owners, [&](const Owner& owner) {
+    const auto texture = arrays.append<std::uint16_t>("texture", owners);
+    const auto back_colour = arrays.append<std::uint16_t>("back_colour", owners);
+    for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
         const std::vector<std::uint16_t>& known = numbers[owner.plant];
-        return owner.look.texture < known.size() ? known[owner.look.texture] : std::uint16_t{0};
+        texture.put(i, owner.look.texture < known.size() ? known[owner.look.texture] : std::uint16_t{0});
+        back_colour.put(i, owner.look.back_colour);
     });
-    arrays.add<std::uint16_t>("back_colour", owners, [](const Owner& owner) { return owner.look.back_colour; });
 }
 
 void AttributeArrays::add_colours(OwnerArrays& arrays, const Owners& owners) const {
@@ -111,21 +133,22 @@ void AttributeArrays::add_colours(OwnerArrays& arrays, const Owners& owners) con
             }
         }
     }
-    std::uint8_t* values = arrays.append<std::uint8_t>("rgb", owners, 3);
-    for (const Owner& owner : owners.values) {
-        values = std::copy_n(tables[owner.plant][owner.colour].begin(), 3, values);
-    }
+    const auto values = arrays.append<std::uint8_t>("rgb", owners, 3);
+    for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
+        const Colour& colour = tables[owner.plant][owner.colour];
+        for (std::size_t k = 0; k < 3; ++k) values.put(3 * i + k, colour[k]);
+    });
 }
 
 void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) const {
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
-        double* const values = arrays.append<double>(chosen_[k].name, owners, 1);
+        const auto values = arrays.append<double>(chosen_[k].name, owners);
         for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
             const Plant& plant = plants_[owner.plant];
             const ModuleString& string = *plant.frame->string;
             const int slot = plant.slots[k].find(string, owner.module);
-            values[i] = slot < 0 ? std::numeric_limits<double>::quiet_NaN()
-                                 : string.parameters[plant.offsets[owner.module] + static_cast<std::size_t>(slot)];
+            values.put(i, slot < 0 ? std::numeric_limits<double>::quiet_NaN()
+                                   : string.parameters[plant.offsets[owner.module] + static_cast<std::size_t>(slot)]);
         });
     }
 }

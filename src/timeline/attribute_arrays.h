@@ -8,45 +8,60 @@
 #include "timeline/plant_mesh.h"
 #include "timeline/symbol_numbers.h"
 
+#include <atomic>
+#include <deque>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace espalier {
 
-/// Arrays with a value for each run of owners. Reused from frame to frame: clear() keeps the memory.
+/// Arrays with a value for each run of owners, written anew for every frame over those of the frame before.
 class OwnerArrays {
 public:
-    void clear() { count_ = 0; }
-    template <class T, class Value>
-    void add(const std::string& name, const Owners& owners, const Value& value) {
-        T* values = append<T>(name, owners, 1);
-        for (const Owner& owner : owners.values) *values++ = value(owner);
-    }
-    /// For arrays of several components; returns room for the values of the first run, then the second, ...
+    /// Where the values of an array go, by several threads if need be.
     template <class T>
-    T* append(const std::string& name, const Owners& owners, int components) {
-        if (count_ == arrays_.size()) arrays_.emplace_back();
-        Array& array = arrays_[count_++];
+    class Writing {
+    public:
+        Writing(T* values, std::atomic<bool>& changed) : values_(values), changed_(changed), compares_(!changed) {}
+        void put(std::size_t i, T value) const {
+            if (compares_) {
+                if (same_bits(values_[i], value)) return;
+                if (!changed_.load(std::memory_order_relaxed)) changed_.store(true, std::memory_order_relaxed);
+            }
+            values_[i] = value;
+        }
+
+    private:
+        T* values_;
+        std::atomic<bool>& changed_;
+        bool compares_;
+    };
+
+    void begin();
+    /// Room for the values of the first run, `components` of them, then the second, ... The owners are whole.
+    template <class T>
+    Writing<T> append(const std::string& name, const Owners& owners, int components = 1) {
         const std::size_t bytes = sizeof(T) * static_cast<std::size_t>(components);
-        array.values.resize(owners.values.size() * bytes);
-        array.data = {name, vtk_type<T>(), components, bytes, owners.size(), array.values.data(), owners.ends};
-        return reinterpret_cast<T*>(array.values.data());
+        Array& array = append(DataArray{name, vtk_type<T>(), components, bytes}, owners);
+        return {reinterpret_cast<T*>(array.values.data()), array.changed};
     }
 
     std::size_t size() const { return count_; }
-    const DataArray& operator[](std::size_t i) const { return arrays_[i].data; }
-    /// True if names and values are the same; runs are not compared.
-    bool same_values(const OwnerArrays& other) const;
+    DataArray operator[](std::size_t i) const;
+    bool changed() const;
 
 private:
     struct Array {
         DataArray data;
         Column<std::byte> values;
+        std::atomic<bool> changed = true;
     };
 
-    std::vector<Array> arrays_;  ///< the first `count_` are of this frame
-    std::size_t count_ = 0;
+    Array& append(const DataArray& array, const Owners& owners);
+
+    std::deque<Array> arrays_;  ///< the first `count_` are of this frame
+    std::size_t count_ = 0, count_before_ = 0;
 };
 
 /// A frame's modules as arrays. The frame outlives it.

@@ -124,16 +124,6 @@ private:
 
 }  // namespace
 
-bool same_values(const DataArray& a, const DataArray& b) {
-    if (a.tuple_bytes != b.tuple_bytes || a.tuples != b.tuples || a.ends.size() != b.ends.size()) return false;
-    const auto same = [](const void* x, const void* y, std::size_t bytes) {
-        return bytes == 0 || std::memcmp(x, y, bytes) == 0;
-    };
-    const std::size_t values = a.ends.empty() ? a.tuples : a.ends.size();
-    return same(a.values, b.values, values * a.tuple_bytes) &&
-           same(a.ends.data(), b.ends.data(), a.ends.size() * sizeof(std::uint32_t));
-}
-
 void encode(const DataArray& array, Column<char>& text) {
     Blocks blocks(array);
     const std::size_t count = blocks.count();

@@ -18,10 +18,11 @@ struct DataArray {
     int components = 1;
     std::size_t tuple_bytes = 0;
     std::size_t tuples = 0;
-    const void* values = nullptr;         ///< of the tuples, or of the runs if there are any
-    std::span<const std::uint32_t> ends;  ///< where runs of equal tuples end; empty: every tuple has its own value
+    const void* values = nullptr;              ///< of the tuples, or of the runs if there are any
+    std::span<const std::uint32_t> ends = {};  ///< where runs of equal tuples end; empty: every tuple has its own value
     /// Without runs: where parts end at whose beginning values are likely to repeat; empty: anywhere.
     std::span<const std::uint32_t> parts = {};
+    bool changed = true;  ///< since the file before: values, runs or parts
 
     std::size_t bytes() const { return tuples * tuple_bytes; }
 };
@@ -53,10 +54,6 @@ DataArray data_array(std::string name, std::span<const T> values, int components
     array.parts = parts;
     return array;
 }
-
-/// True if both are encoded to the same text, also of numbers that are none. Values given otherwise, as runs or one by
-/// one, are not compared.
-bool same_values(const DataArray& a, const DataArray& b);
 
 /// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks.
 void encode(const DataArray& array, Column<char>& text);

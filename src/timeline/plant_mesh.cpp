@@ -58,84 +58,73 @@ glm::dvec3 normal_of(const glm::dvec3* vertices, std::uint32_t count) {
     return length > 0 ? sum / length : glm::dvec3(0, 0, 1);
 }
 
-constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max() / 8;
-
 }  // namespace
 
-void Owners::clear() {
+void Owners::begin() {
     values.clear();
-    ends.clear();
+    ends.begin();
+    size_ = 0;
 }
 
 void Owners::add(const Owners& owners) {
     std::uint32_t begin = 0;
-    for (std::size_t run = 0; run < owners.ends.size(); ++run) {
-        add(owners.values[run], owners.ends[run] - begin);
-        begin = owners.ends[run];
+    const std::span<const std::uint32_t> run_ends = owners.ends.values();
+    for (std::size_t run = 0; run < run_ends.size(); ++run) {
+        add(owners.values[run], run_ends[run] - begin);
+        begin = run_ends[run];
     }
 }
 
-void Cells::clear() {
-    offsets.assign(1, 0);
-    connectivity.clear();
-    owners.clear();
+void Cells::begin() {
+    offsets.begin();
+    connectivity.begin();
+    owners.begin();
 }
 
 void Cells::close(const Owner& owner) {
-    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+    offsets.add(static_cast<std::int32_t>(connectivity.size()));
     owners.add(owner);
 }
 
 void Cells::add(const IndexRuns& runs, std::int32_t origin, const Owner& owner) {
     if (runs.counts.empty()) return;
-    const std::size_t first = connectivity.size();
-    connectivity.resize(first + runs.indices.size());
-    std::int32_t* corner = connectivity.data() + first;
-    for (const std::uint32_t index : runs.indices) *corner++ = origin + static_cast<std::int32_t>(index);
-    for (const std::uint32_t count : runs.counts) offsets.push_back(offsets.back() + static_cast<std::int32_t>(count));
+    auto end = static_cast<std::int32_t>(connectivity.size());
+    connectivity.add_tuples<1>(runs.indices.size(), [&](std::size_t i, std::int32_t* corner) {
+        *corner = origin + static_cast<std::int32_t>(runs.indices[i]);
+    });
+    for (const std::uint32_t count : runs.counts) offsets.add(end += static_cast<std::int32_t>(count));
     owners.add(owner, runs.counts.size());
 }
 
-void PlantMesh::clear() {
-    size_ = 0;
+void PlantMesh::begin() {
+    for (RewrittenColumn<float>* column : {&points, &normals, &uvs, &radii}) column->begin();
+    owners.begin();
+    parts.begin();
+    for (Cells* cells : {&vertices, &lines, &polygons}) cells->begin();
+    labels_before_.swap(labels);
     labels.clear();
-    owners.clear();
-    parts.clear();
-    vertices.clear();
-    lines.clear();
-    polygons.clear();
 }
 
-void PlantMesh::make_room(std::size_t count) {
-    // A sphere's connectivity is several times its points; keep that within 31 bits too.
-    if (count > most_points - size_) throw RunError("a frame of the timeline would have more than 268 million points");
-    resize(std::max(size_ + count, std::min(2 * size_, most_points)));
-}
-
-void PlantMesh::resize(std::size_t count) {
-    points.resize(3 * count);
-    normals.resize(3 * count);
-    uvs.resize(2 * count);
-    radii.resize(count);
+void PlantMesh::end() {
+    owners.end();
+    for (Cells* cells : {&vertices, &lines, &polygons}) cells->end();
 }
 
 void PlantMesh::reserve(std::size_t count) {
-    if (count > radii.size()) resize(std::min(count, most_points));
+    count = std::min(count, most_points);
+    points.reserve(3 * count);
+    normals.reserve(3 * count);
+    uvs.reserve(2 * count);
+    radii.reserve(count);
 }
 
-void PlantMesh::trim() {
-    resize(size_);
+void PlantMesh::refuse() {
+    throw RunError("a frame of the timeline would have more than 268 million points");
 }
 
-bool PlantMesh::same_shape(const PlantMesh& other) const {
-    const auto same_cells = [](const Cells& a, const Cells& b) {
-        return same_bytes(a.offsets, b.offsets) && same_bytes(a.connectivity, b.connectivity) &&
-               same_bytes(a.owners.ends, b.owners.ends);
-    };
-    return same_bytes(points, other.points) && same_bytes(normals, other.normals) && same_bytes(uvs, other.uvs) &&
-           same_bytes(radii, other.radii) && same_bytes(owners.ends, other.owners.ends) &&
-           same_cells(vertices, other.vertices) && same_cells(lines, other.lines) &&
-           same_cells(polygons, other.polygons) && labels == other.labels;
+bool PlantMesh::changed() const {
+    return points.changed() || normals.changed() || uvs.changed() || radii.changed() || owners.ends.changed() ||
+           vertices.changed() || lines.changed() || polygons.changed() || labels != labels_before_;
 }
 
 SurfaceMeshes* OrganSource::surfaces(const std::shared_ptr<const Shapes>& shapes) {
@@ -158,10 +147,9 @@ void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plan
         if (begins) {
             if (last) mesh.lines.close(first);
             first = owner;
-            mesh.lines.connectivity.push_back(
-                mesh.add_point({internode.base, normal, {}}, internode.base_radius, owner));
+            mesh.lines.connectivity.add(mesh.add_point({internode.base, normal, {}}, internode.base_radius, owner));
         }
-        mesh.lines.connectivity.push_back(mesh.add_point({internode.tip, normal, {}}, internode.tip_radius, owner));
+        mesh.lines.connectivity.add(mesh.add_point({internode.tip, normal, {}}, internode.tip_radius, owner));
         last = &internode;
     }
     if (last) mesh.lines.close(first);
@@ -172,15 +160,13 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
         const Owner owner{plant, polygon.module, polygon.order, polygon.colour, Kind::polygon, polygon.look};
         const glm::dvec3* vertices = &geometry.vertices[polygon.first];
         const glm::dvec3 normal = normal_of(vertices, polygon.count);
-        const std::int32_t origin = mesh.add_points(polygon.count, owner);
-        for (std::uint32_t i = 0; i < polygon.count; ++i) {
-            mesh.set_point(static_cast<std::size_t>(origin) + i, {vertices[i], normal, {}}, 0);
-        }
+        const auto vertex = [&](std::size_t i) { return SurfaceVertex{vertices[i], normal, {}}; };
+        const std::int32_t origin = mesh.add_points(polygon.count, vertex, 0, owner);
         const std::vector<std::uint32_t> triangles = triangles_of({vertices, polygon.count}, normal);
         const std::size_t corners = triangles.empty() ? polygon.count : triangles.size();
         for (std::uint32_t i = 0; i < corners; ++i) {
             const std::uint32_t corner = triangles.empty() ? i : triangles[i];
-            mesh.polygons.connectivity.push_back(origin + static_cast<std::int32_t>(corner));
+            mesh.polygons.connectivity.add(origin + static_cast<std::int32_t>(corner));
             if (i + 1 == corners || (!triangles.empty() && i % 3 == 2)) mesh.polygons.close(owner);
         }
     }
@@ -189,9 +175,8 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
 namespace {
 
 void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner) {
-    const std::int32_t origin = mesh.add_points(shape.vertices.size(), owner);
-    auto point = static_cast<std::size_t>(origin);
-    for (const SurfaceVertex& vertex : shape.vertices) mesh.set_point(point++, vertex, 0);
+    const auto vertex = [&shape](std::size_t i) -> const SurfaceVertex& { return shape.vertices[i]; };
+    const std::int32_t origin = mesh.add_points(shape.vertices.size(), vertex, 0, owner);
     mesh.lines.add(shape.outlines, origin, owner);
     mesh.polygons.add(shape.faces, origin, owner);
 }
@@ -216,7 +201,7 @@ void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ
     std::size_t at = 0;
     for (std::size_t face = 0; face < shape.faces.size(); ++face) {
         for (std::size_t k = 0; k < shape.faces[face]; ++k) {
-            mesh.polygons.connectivity.push_back(origin + static_cast<std::int32_t>(shape.indices[at++]));
+            mesh.polygons.connectivity.add(origin + static_cast<std::int32_t>(shape.indices[at++]));
         }
         const BicubicPatch* patch =
             face < shape.patches.size() ? &entry.surface->patches[shape.patches[face]] : nullptr;
@@ -249,7 +234,7 @@ void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
         for (std::uint32_t i = 0; i < piece.count; ++i) {
             const std::uint32_t vertex = drawn.triangles[piece.first + i];
             if (point_of[vertex] < 0) point_of[vertex] = mesh.add_point(drawn.vertices[vertex], 0, owner);
-            mesh.polygons.connectivity.push_back(point_of[vertex]);
+            mesh.polygons.connectivity.add(point_of[vertex]);
             if (i % 3 == 2) mesh.polygons.close(owner);
         }
     }
@@ -258,7 +243,7 @@ void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
 void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant) {
     for (const Label& label : geometry.labels) {
         const Owner owner{plant, label.module, label.order, label.colour, Kind::label};
-        mesh.vertices.connectivity.push_back(mesh.add_point({label.position, {0, 0, 1}, {}}, 0, owner));
+        mesh.vertices.connectivity.add(mesh.add_point({label.position, {0, 0, 1}, {}}, 0, owner));
         mesh.vertices.close(owner);
         mesh.labels.push_back(label.text);
     }
@@ -270,7 +255,7 @@ void add_queries(PlantMesh& mesh, std::span<const Query> queries, const std::fun
         if (!wanted(query)) continue;
         const Owner owner{plant, query.module, 0, 0, Kind::query};
         const SurfaceVertex vertex{query.pose.position, {0, 0, 1}, {}};
-        mesh.vertices.connectivity.push_back(mesh.add_point(vertex, query.width / 2, owner));
+        mesh.vertices.connectivity.add(mesh.add_point(vertex, query.width / 2, owner));
         mesh.vertices.close(owner);
     }
 }

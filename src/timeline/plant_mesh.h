@@ -6,22 +6,17 @@
 #include "espalier/timeline/kind.h"
 
 #include "timeline/organ_mesh.h"
+#include "timeline/rewritten_column.h"
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace espalier {
-
-/// Also of numbers that are none.
-template <class T>
-bool same_bytes(const Column<T>& a, const Column<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 /// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
 struct Owner {
@@ -39,86 +34,97 @@ struct Owner {
 };
 
 /// The owners of points or cells in their order; neighbours mostly have the same one, so they are kept as runs.
-struct Owners {
-    Column<Owner> values;
-    Column<std::uint32_t> ends;  ///< of the runs
+class Owners {
+public:
+    Column<Owner> values;                 ///< of the runs
+    RewrittenColumn<std::uint32_t> ends;  ///< of the runs; whole after end()
 
-    std::size_t size() const { return ends.empty() ? 0 : ends.back(); }
-    void clear();
+    std::size_t size() const { return size_; }
+    void begin();
     void add(const Owner& owner, std::size_t count = 1) {
         if (count == 0) return;
-        const auto end = static_cast<std::uint32_t>(size() + count);
-        if (!values.empty() && values.back() == owner) {
-            ends.back() = end;
-        } else {
+        if (size_ == 0 || !(values.back() == owner)) {
+            end();
             values.push_back(owner);
-            ends.push_back(end);
         }
+        size_ += static_cast<std::uint32_t>(count);
     }
     void add(const Owners& owners);
+    void end() {
+        if (size_ > 0) ends.add(size_);
+    }
+
+private:
+    std::uint32_t size_ = 0;
 };
 
-/// Cells of one kind of VTK's: cell i has the points connectivity[offsets[i]] .. connectivity[offsets[i + 1] - 1].
+/// Cells of one kind of VTK's: cell i has the points from connectivity[offsets[i - 1]], the first from the beginning,
+/// to before connectivity[offsets[i]].
 struct Cells {
-    Column<std::int32_t> offsets{0};
-    Column<std::int32_t> connectivity;
+    RewrittenColumn<std::int32_t> offsets;
+    RewrittenColumn<std::int32_t> connectivity;
     Owners owners;
 
-    void clear();
-    /// Ends the cell whose points were appended to `connectivity`.
+    void begin();
+    void end() { owners.end(); }
+    /// Ends the cell whose points were added to `connectivity`.
     void close(const Owner& owner);
     /// Cells of points counted from `origin`.
     void add(const IndexRuns& runs, std::int32_t origin, const Owner& owner);
+    /// False if they would be shown as in the frame before, but for what their owners are.
+    bool changed() const { return offsets.changed() || connectivity.changed() || owners.ends.changed(); }
 };
 
-/// Reused from frame to frame: clear() keeps the memory. Columns of points are longer than needed until trim().
-struct PlantMesh {
-    Column<float> points;   ///< x, y, z of one point after the other
-    Column<float> normals;  ///< across the axis on axes
-    Column<float> uvs;      ///< two a point
-    Column<float> radii;
-    Owners owners;                ///< of the points
-    Column<std::uint32_t> parts;  ///< where points that were added together end
+/// Written anew for every frame, between begin() and end().
+class PlantMesh {
+public:
+    RewrittenColumn<float> points;   ///< x, y, z of one point after the other
+    RewrittenColumn<float> normals;  ///< across the axis on axes
+    RewrittenColumn<float> uvs;      ///< two a point
+    RewrittenColumn<float> radii;
+    Owners owners;                         ///< of the points
+    RewrittenColumn<std::uint32_t> parts;  ///< where points that were added together end
     Cells vertices, lines, polygons;
     std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
 
-    void clear();
-    std::size_t size() const { return size_; }
-    /// Makes room for points of one owner, returns the first one's number. Throws RunError beyond 2^28 points.
-    std::int32_t add_points(std::size_t count, const Owner& owner) {
-        const std::size_t first = size_;
-        if (count > radii.size() - first) make_room(count);
-        size_ = first + count;
+    void begin();
+    void end();
+    std::size_t size() const { return radii.size(); }
+    /// Makes room for so many points in all; there may be more.
+    void reserve(std::size_t count);
+    /// Adds points of one owner, `vertex(i)` being the i-th, and returns the first one's number. Throws RunError beyond
+    /// 2^28 points.
+    template <class Vertex>
+    std::int32_t add_points(std::size_t count, const Vertex& vertex, double radius, const Owner& owner) {
+        const std::size_t first = size();
+        if (count > most_points - first) refuse();
+        points.add_tuples<3>(count, [&](std::size_t i, float* at) { put<3>(vertex(i).position, at); });
+        normals.add_tuples<3>(count, [&](std::size_t i, float* at) { put<3>(vertex(i).normal, at); });
+        uvs.add_tuples<2>(count, [&](std::size_t i, float* at) { put<2>(vertex(i).uv, at); });
+        radii.add_tuples<1>(count, [&](std::size_t, float* at) { *at = static_cast<float>(radius); });
         owners.add(owner, count);
-        if (count > 0) parts.push_back(static_cast<std::uint32_t>(size_));
+        if (count > 0) parts.add(static_cast<std::uint32_t>(first + count));
         return static_cast<std::int32_t>(first);
-    }
-    void set_point(std::size_t point, const SurfaceVertex& vertex, double radius) {
-        float* const at = points.data() + 3 * point;
-        float* const normal = normals.data() + 3 * point;
-        float* const uv = uvs.data() + 2 * point;
-        for (int k = 0; k < 3; ++k) at[k] = static_cast<float>(vertex.position[k]);
-        for (int k = 0; k < 3; ++k) normal[k] = static_cast<float>(vertex.normal[k]);
-        for (int k = 0; k < 2; ++k) uv[k] = static_cast<float>(vertex.uv[k]);
-        radii[point] = static_cast<float>(radius);
     }
     /// Returns the point's number.
     std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner) {
-        const std::int32_t point = add_points(1, owner);
-        set_point(static_cast<std::size_t>(point), vertex, radius);
-        return point;
+        return add_points(
+            1, [&](std::size_t) -> const SurfaceVertex& { return vertex; }, radius, owner);
     }
-    /// Makes room for so many points in all; there may be more.
-    void reserve(std::size_t count);
-    void trim();
-    /// True if both would be shown the same but for what their owners are.
-    bool same_shape(const PlantMesh& other) const;
+    /// False if it would be shown as in the frame before, but for what its owners are.
+    bool changed() const;
 
 private:
-    void make_room(std::size_t count);
-    void resize(std::size_t count);
+    // A sphere's connectivity is several times its points; keep that within 31 bits too.
+    static constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max() / 8;
 
-    std::size_t size_ = 0;
+    template <int N, class Numbers>
+    static void put(const Numbers& numbers, float* at) {
+        for (int k = 0; k < N; ++k) at[k] = static_cast<float>(numbers[k]);
+    }
+    [[noreturn]] static void refuse();
+
+    std::vector<std::string> labels_before_;
 };
 
 /// Meshes of organs as they are needed, kept from frame to frame.

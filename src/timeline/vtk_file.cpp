@@ -78,7 +78,7 @@ VtkFile::Part& VtkFile::add(std::string_view element, const DataArray& array, st
         fmt::format(R"(<{} type="{}" Name="{}" NumberOfComponents="{}" NumberOfTuples="{}" format="binary">)", element,
                     array.type, xml_text(array.name), array.components, tuples);
     part.markup += '\n';
-    part.encoded = after_ && part.encoded && same_values(part.array, array);
+    part.encoded = after_ && part.encoded && !array.changed && part.array.name == array.name;
     part.array = array;
     return part;
 }

@@ -19,7 +19,7 @@ class VtkFile {
 public:
     /// Forgets the file before. `type` is VTK's name of the kind of data set, "PolyData".
     void begin(std::string_view type);
-    /// The same where the memory of that file's arrays is still as it was: those that come again keep their text.
+    /// The same where arrays say whether they have changed since that file: those that have not keep their text.
     void begin_after(std::string_view type);
     void open(std::string_view element, std::string_view attributes = {});
     void close();
@@ -47,7 +47,6 @@ private:
         void own(std::string bytes) {
             values = std::move(bytes);
             array.values = values.data();
-            encoded = false;
         }
     };
 

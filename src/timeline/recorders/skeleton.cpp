@@ -26,7 +26,7 @@
 namespace espalier {
 namespace {
 
-/// All that a file of plants holds but its time.
+/// All that a file of plants holds but its time, written anew for every frame.
 struct PlantData {
     PlantMesh mesh;
     Owners cell_owners;  ///< VTK counts a data set's cells so: vertices, lines, polygons
@@ -34,17 +34,16 @@ struct PlantData {
     std::vector<std::string> texture_files;  ///< of the run so far, the first ""
     std::vector<std::string> symbol_names;
 
-    void clear() {
-        mesh.clear();
-        cell_owners.clear();
-        of_points.clear();
-        of_cells.clear();
+    bool texts_changed = false;  ///< of these two
+
+    void begin() {
+        mesh.begin();
+        cell_owners.begin();
+        of_points.begin();
+        of_cells.begin();
     }
-    bool operator==(const PlantData& other) const {
-        return mesh.same_shape(other.mesh) && of_points.same_values(other.of_points) &&
-               of_cells.same_values(other.of_cells) && texture_files == other.texture_files &&
-               symbol_names == other.symbol_names;
-    }
+    /// Since the frame before.
+    bool changed() const { return mesh.changed() || of_points.changed() || of_cells.changed() || texts_changed; }
 };
 
 // Most organs are rhombi.
@@ -57,10 +56,23 @@ std::size_t points_foreseen(const Frame& frame) {
     return points;
 }
 
+template <class T>
+DataArray array_of(const char* name, const RewrittenColumn<T>& column) {
+    DataArray array = data_array<T>(name, column.values());
+    array.changed = column.changed();
+    return array;
+}
+
+DataArray point_array(const char* name, const RewrittenColumn<float>& column, int components, const PlantMesh& mesh) {
+    DataArray array = data_array<float>(name, column.values(), components, mesh.parts.values());
+    array.changed = column.changed() || mesh.parts.changed();
+    return array;
+}
+
 void add_cells(VtkFile& file, const char* element, const Cells& cells) {
     file.open(element);
-    file.add(data_array<std::int32_t>("connectivity", cells.connectivity));
-    file.add(data_array<std::int32_t>("offsets", std::span(cells.offsets).subspan(1)));
+    file.add(array_of("connectivity", cells.connectivity));
+    file.add(array_of("offsets", cells.offsets));
     file.close();
 }
 
@@ -77,13 +89,10 @@ public:
 
     void record(const Frame& frame) override {
         if (written_.empty()) require_known(chosen_, frame.plants);
-        now_.clear();
+        data_.begin();
         fill_mesh(frame);
         fill_arrays(frame);
-        if (!is_written()) {
-            write(frame);
-            std::swap(now_, before_);
-        }
+        if (!is_written()) write(frame);
         collection_.add(frame.time, 0, "plants", written_);
         collection_.write();
     }
@@ -95,7 +104,7 @@ public:
         put_text(out, written_);
         put(out, static_cast<std::uint64_t>(texture_files_.size()));
         for (const std::string& file : texture_files_) put_text(out, file);
-        put(out, restored_ ? *restored_ : digest_of(before_));
+        put(out, restored_ ? *restored_ : digest_of(data_));
     }
 
     void restore(std::istream& in) override {
@@ -114,10 +123,7 @@ private:
     bool is_written() {
         if (written_.empty()) return false;
         const auto digest = std::exchange(restored_, std::nullopt);
-        if (!digest) return now_ == before_;
-        if (digest_of(now_) != *digest) return false;
-        std::swap(now_, before_);
-        return true;
+        return digest ? digest_of(data_) == *digest : !data_.changed();
     }
 
     static std::uint64_t digest_of(const PlantData& data) {
@@ -128,7 +134,7 @@ private:
     }
 
     void fill_mesh(const Frame& frame) {
-        PlantMesh& mesh = now_.mesh;
+        PlantMesh& mesh = data_.mesh;
         mesh.reserve(points_foreseen(frame));
         for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
             const PlantFrame& plant = frame.plants[i];
@@ -139,8 +145,9 @@ private:
             add_pieces(mesh, plant.interpretation->geometry, i);
             add_labels(mesh, plant.interpretation->geometry, i);
         }
-        mesh.trim();
-        for (const Cells* cells : {&mesh.vertices, &mesh.lines, &mesh.polygons}) now_.cell_owners.add(cells->owners);
+        mesh.end();
+        for (const Cells* cells : {&mesh.vertices, &mesh.lines, &mesh.polygons}) data_.cell_owners.add(cells->owners);
+        data_.cell_owners.end();
     }
 
     void add_asked_queries(const PlantFrame& plant, std::uint32_t index) {
@@ -152,26 +159,27 @@ private:
             return std::any_of(slots.begin(), slots.end(),
                                [&](const ParameterSlots& slot) { return slot.find(*plant.string, query.module) >= 0; });
         };
-        if (!slots.empty()) add_queries(now_.mesh, plant.interpretation->queries, wanted, index);
+        if (!slots.empty()) add_queries(data_.mesh, plant.interpretation->queries, wanted, index);
     }
 
     void fill_arrays(const Frame& frame) {
         const AttributeArrays arrays(frame, symbols_, chosen_);
-        const Owners& of_points = now_.mesh.owners;
-        arrays.add_attributes(now_.of_points, of_points);
-        arrays.add_colours(now_.of_points, of_points);
-        arrays.add_parameters(now_.of_points, of_points);
-        arrays.add_attributes(now_.of_cells, now_.cell_owners);
-        arrays.add_looks(now_.of_cells, now_.cell_owners, texture_files_);
-        arrays.add_colours(now_.of_cells, now_.cell_owners);
-        now_.texture_files = texture_files_;
-        now_.symbol_names = symbols_.names();
+        const Owners& of_points = data_.mesh.owners;
+        arrays.add_attributes(data_.of_points, of_points);
+        arrays.add_colours(data_.of_points, of_points);
+        arrays.add_parameters(data_.of_points, of_points);
+        arrays.add_attributes(data_.of_cells, data_.cell_owners);
+        arrays.add_looks(data_.of_cells, data_.cell_owners, texture_files_);
+        arrays.add_colours(data_.of_cells, data_.cell_owners);
+        data_.texts_changed = data_.texture_files != texture_files_ || data_.symbol_names != symbols_.names();
+        data_.texture_files = texture_files_;
+        data_.symbol_names = symbols_.names();
     }
 
     void write(const Frame& frame) {
         const std::string before = std::exchange(written_, {});  // in case something throws
         before.empty() ? file_.begin("PolyData") : file_.begin_after("PolyData");
-        fill(file_, now_, frame.time, frame.step);
+        fill(file_, data_, frame.time, frame.step);
         const std::string name = fmt::format("plants/{:04}.vtp", frame.step);
         make_folder(folder_ / "plants");
         file_.write(folder_ / name);
@@ -187,21 +195,21 @@ private:
         file.add_time(time, step);
         file.add_texts("symbol_names", data.symbol_names);
         file.close();
-        const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size() - 1; };
+        const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size(); };
         file.open("Piece",
                   fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
                               mesh.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
         file.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
-        file.add(data_array<float>("radius", mesh.radii, 1, mesh.parts));
-        file.add(data_array<float>("Normals", mesh.normals, 3, mesh.parts));
-        file.add(data_array<float>("TCoords", mesh.uvs, 2, mesh.parts));
+        file.add(point_array("radius", mesh.radii, 1, mesh));
+        file.add(point_array("Normals", mesh.normals, 3, mesh));
+        file.add(point_array("TCoords", mesh.uvs, 2, mesh));
         add_arrays(file, data.of_points);
         file.close();
         file.open("CellData");
         add_arrays(file, data.of_cells);
         file.close();
         file.open("Points");
-        file.add(data_array<float>("points", mesh.points, 3, mesh.parts));
+        file.add(point_array("points", mesh.points, 3, mesh));
         file.close();
         add_cells(file, "Verts", mesh.vertices);
         add_cells(file, "Lines", mesh.lines);
@@ -214,7 +222,7 @@ private:
     SymbolNumbers symbols_;
     std::vector<std::string> texture_files_;
     OrganSource organs_;
-    PlantData now_, before_;                 ///< before: what the last file shows
+    PlantData data_;                         ///< what the last file shows
     std::optional<std::uint64_t> restored_;  ///< what a checkpoint knows of the last file
     std::string written_;                    ///< the last file, relative to the folder; empty before the first
     VtkFile file_;
