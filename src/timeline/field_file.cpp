@@ -76,6 +76,7 @@ std::string numbers(const openvdb::Vec3d& vector) {
 
 // Leaf by leaf where there is nothing else: OpenVDB looks at every node, on all threads.
 Column<float> values_in(const FieldGrid& field, const openvdb::CoordBBox& box) {
+    using Leaf = openvdb::FloatTree::LeafNodeType;
     Column<float> values(box.volume());
     if (!field.only_leaves) {
         openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(box, values.data());
@@ -84,15 +85,21 @@ Column<float> values_in(const FieldGrid& field, const openvdb::CoordBBox& box) {
     }
     std::fill(values.begin(), values.end(), field.grid->background());
     const openvdb::Coord size = box.dim();
-    const auto extent = [&size](int axis) { return static_cast<std::size_t>(size[axis]); };
+    const auto rows = static_cast<std::size_t>(size.y()), row = static_cast<std::size_t>(size.x());
     for (auto leaf = field.grid->tree().cbeginLeaf(); leaf; ++leaf) {
         openvdb::CoordBBox part = leaf->getNodeBoundingBox();
         if (!part.hasOverlap(box)) continue;
         part.intersect(box);
-        for (auto voxel = part.begin(); voxel; ++voxel) {
-            const openvdb::Coord at = *voxel - box.min();
-            const auto place = [&at](int axis) { return static_cast<std::size_t>(at[axis]); };
-            values[(place(2) * extent(1) + place(1)) * extent(0) + place(0)] = leaf->getValue(*voxel);
+        const float* const of_leaf = leaf->buffer().data();
+        openvdb::Coord at;
+        for (at.z() = part.min().z(); at.z() <= part.max().z(); ++at.z()) {
+            for (at.y() = part.min().y(); at.y() <= part.max().y(); ++at.y()) {
+                at.x() = part.min().x();
+                const openvdb::Coord from_corner = at - box.min();
+                const auto place = [&](int axis) { return static_cast<std::size_t>(from_corner[axis]); };
+                float* value = &values[(place(2) * rows + place(1)) * row + place(0)];
+                for (; at.x() <= part.max().x(); ++at.x()) *value++ = of_leaf[Leaf::coordToOffset(at)];
+            }
         }
     }
     return values;
