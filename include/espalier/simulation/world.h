@@ -50,6 +50,7 @@ public:
     const StageTimes& times() const;
     /// The frame of the current step; valid until the next.
     Frame frame() const;
+    // Valid until the next step or frame().
     const ModuleString& string(std::size_t plant) const;
     const Interpretation& interpretation(std::size_t plant) const;
     const Model& model(std::size_t plant) const;
