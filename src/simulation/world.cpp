@@ -26,38 +26,37 @@ constexpr std::uint64_t checkpoint_signature = 0x31'646c'726f'57;  // "World1"
 template <class T>
 class Lent {
 public:
-    T& operator*() { return shared_ ? *shared_ : own_; }
-    const T& operator*() const { return shared_ ? *shared_ : own_; }
+    T& operator*() { return lending_ ? *lending_->now : own_; }
+    const T& operator*() const { return lending_ ? *lending_->now : own_; }
     T* operator->() { return &**this; }
     const T* operator->() const { return &**this; }
     std::shared_ptr<const T> share() {
-        if (!shared_) shared_ = std::make_shared<T>(std::move(own_));
-        return shared_;
+        if (!lending_) lending_ = std::make_unique<Lending>(Lending{std::make_shared<T>(std::move(own_)), {}});
+        return lending_->now;
     }
     /// Something that nobody reads, its values left over from an earlier step.
     T& for_writing() {
-        if (shared_ && shared_.use_count() > 1) set_aside();
+        if (lending_ && lending_->now.use_count() > 1) lending_->set_aside();
         return **this;
-    }
-    /// The values; what is set aside stays.
-    void swap(Lent& other) {
-        std::swap(own_, other.own_);
-        shared_.swap(other.shared_);
     }
 
 private:
-    void set_aside() {
-        const auto is_free = [](const std::shared_ptr<T>& one) { return one.use_count() == 1; };
-        const auto free = std::find_if(set_aside_.begin(), set_aside_.end(), is_free);
-        if (free == set_aside_.end())
-            set_aside_.push_back(std::exchange(shared_, std::make_shared<T>()));
-        else
-            shared_.swap(*free);
-    }
+    struct Lending {
+        std::shared_ptr<T> now;
+        std::vector<std::shared_ptr<T>> earlier;
+
+        void set_aside() {
+            const auto is_free = [](const std::shared_ptr<T>& one) { return one.use_count() == 1; };
+            const auto free = std::find_if(earlier.begin(), earlier.end(), is_free);
+            if (free == earlier.end())
+                earlier.push_back(std::exchange(now, std::make_shared<T>()));
+            else
+                now.swap(*free);
+        }
+    };
 
     T own_;  ///< until it is shared
-    std::shared_ptr<T> shared_;
-    std::vector<std::shared_ptr<T>> set_aside_;
+    std::unique_ptr<Lending> lending_;
 };
 
 struct Plant {
@@ -126,7 +125,7 @@ struct World::State {
     Scene scene;
     MemoryShares shares;
     std::vector<Plant> plants;  ///< stay where they are: views and strings point to them
-    // As the last interpretation left them.
+    // They stay where they are until the first frame shares them; then as the last interpretation left them.
     std::vector<PlantView> views;
     std::vector<ModuleString*> strings;
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
@@ -252,6 +251,7 @@ void World::State::interpret_and_exchange() {
             interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle, &plant.derivation,
                       {plant.number}, interpretation);
             plant.memory.set_drawn(interpretation);
+            if (frames.empty()) return;
             views[plant.number].string = strings[plant.number] = &*plant.string;
             views[plant.number].interpretation = &interpretation;
         });
@@ -390,7 +390,7 @@ void World::derive() {
     ++state_->step;
     state_->derive([](Plant& plant) {
         plant.derivation.step(*plant.string, plant.next.for_writing());
-        plant.next.swap(plant.string);
+        std::swap(plant.string, plant.next);
     });
 }
 
