@@ -180,13 +180,15 @@ void Writer::write_each(std::size_t count) {
     const LetterId* const end = at_.in + count;
     Cursor at = at_;
     while (at.in < end) {
-        const Plan& plan = Spelled ? spelled_plan(plans[*at.in], at.in, string_end) : plans[*at.in];
-        if (plan.kind == Plan::Kind::copy) {
+        const Plan& own = plans[*at.in];
+        if (own.kind == Plan::Kind::copy) {
             *at.out = *at.in;
             if constexpr (Valued) copy_values(at.values, at.out_values);
-        } else if (!write_successor<Valued>(plan, at)) {
-            break;
+            at.pass<Valued>(own);
+            continue;
         }
+        const Plan& plan = Spelled ? spelled_plan(own, at.in, string_end) : own;
+        if (!write_successor<Valued>(plan, at)) break;
         at.pass<Valued, Spelled>(plan);
     }
     const bool whole = at.in >= end;
