@@ -465,6 +465,9 @@ std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model)
     }
     compiled->enclosure = enclosure_of(model->alphabet);
     compiled->nested = compiled->enclosure.open != no_letter || compiled->enclosure.open_scaled != no_letter;
+    compiled->uses_context = compiled->any(&CompiledSystem::uses_context);
+    compiled->binds_context = compiled->any(&CompiledSystem::binds_context);
+    compiled->draws = compiled->any(&CompiledSystem::draws);
     compiled->source = std::move(model);
     require_lenders(*compiled);
     return compiled;

@@ -170,6 +170,7 @@ public:
     Enclosure enclosure;
     /// The string may hold sub-L-systems.
     bool nested = false;
+    bool uses_context = false, binds_context = false, draws = false;             ///< one of the L-systems does
     mutable tbb::enumerable_thread_specific<std::shared_ptr<Painter>> painters;  ///< of all plants that grow from it
 
     const CompiledSystem& main() const { return *systems.front(); }

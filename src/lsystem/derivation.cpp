@@ -18,7 +18,7 @@ constexpr int longest_leap = 64;  // what words become is remembered for every s
 
 Ancestry ancestry_of(const CompiledModel& model, const DerivationSettings& settings) {
     if (settings.lineage) return Ancestry::whole;
-    const bool named = model.nested || model.any(&CompiledSystem::draws) || model.any(&CompiledSystem::picture_draws);
+    const bool named = model.nested || model.draws || model.any(&CompiledSystem::picture_draws);
     return named ? Ancestry::identities : Ancestry::none;
 }
 
@@ -32,11 +32,11 @@ std::uint64_t next_serial() {
 Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given)
     : model(std::move(compiled)),
       main(model->main()),
+      machines(main, variables, services),
       settings(std::move(given)),
       ancestry(ancestry_of(*model, settings)),
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
-      machines(main, variables, services),
       serial(next_serial()) {
     if (!settings.print) settings.print = [](const std::string& text) { std::fputs(text.c_str(), stderr); };
     services.print = settings.print;
@@ -216,23 +216,23 @@ StepInput Derivation::State::prepare(const ModuleString& from) {
     if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
     if (!model->nested) find_kept(from);
     StringView view{&from};
-    const bool uses_context = model->any(&CompiledSystem::uses_context);
-    if (uses_context && (model->nested || main.choosing.needs_partners)) {
+    if (model->uses_context && (model->nested || main.choosing.needs_partners)) {
         link_branches(from, scratch->links);
         view.partner = scratch->links.partner.data();
     }
     // Where several L-systems share the string, each has neighbours of its own: they are looked for one by one.
-    if (uses_context && !model->nested) {
+    if (model->uses_context && !model->nested) {
         scratch->neighbours.find(main.choosing.gazes, from);
         view.neighbours = &scratch->neighbours;
     }
-    if (model->any(&CompiledSystem::binds_context) && (model->nested || main.choosing.gazes.positions)) {
+    if (model->binds_context && (model->nested || main.choosing.gazes.positions)) {
         if (scratch->places.find(from, model->source->alphabet.arities().data()) != from.parameters.size()) {
             throw RunError("the string's parameters do not fit its modules");
         }
         view.places = &scratch->places;
     }
-    return {main, from, view, key(Stream::derivation), step, ancestry, settings.memory, scratch->kept};
+    const RandomKey draws = model->draws ? key(Stream::derivation) : RandomKey();
+    return {main, from, view, draws, step, ancestry, settings.memory, scratch->kept};
 }
 
 void Derivation::State::warn_of_depth() {

@@ -40,29 +40,31 @@ struct Derivation::State {
     void warn_of_depth();
     void warn_once(const Place& place, const std::string& message);
 
+    // What every step touches stands together: of ten thousand small plants each line of memory counts.
     std::shared_ptr<const CompiledModel> model;
     const CompiledSystem& main;
-    DerivationSettings settings;
-    Ancestry ancestry;
-    ModelFiles files;
-    Services services;
-    Variables variables;
-    SubSystems sub_systems;
-    Machine block_machine;
-    RandomDraws block_draws{RandomKey(), 0, 0};
+    Machines machines;
     std::uint32_t step = 0;
     int length = 0;
     bool length_is_set = false;  ///< by set_length(), not by the model
-    std::unique_ptr<Scratch> own_scratch;
-    Scratch* scratch = nullptr;  ///< lent for the step at hand
-    Forecast forecast;           ///< of the string that was written last
-    Machines machines;
-    /// Grows with every change of variables, so that painters know what they have seen.
-    std::uint64_t generation = 0;
-    /// Never the same for two states.
-    const std::uint64_t serial;
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
+    /// Grows with every change of variables, so that painters know what they have seen.
+    std::uint64_t generation = 0;
+    Scratch* scratch = nullptr;  ///< lent for the step at hand
+    Variables variables;
+    Services services;
+    DerivationSettings settings;
+    Ancestry ancestry;
+
+    ModelFiles files;
+    Forecast forecast;  ///< of the string that was written last
+    std::unique_ptr<Scratch> own_scratch;
+    SubSystems sub_systems;
+    Machine block_machine;
+    RandomDraws block_draws{RandomKey(), 0, 0};
+    /// Never the same for two states.
+    const std::uint64_t serial;
     std::mutex warning;
     std::set<std::pair<std::string, std::pair<int, int>>> warned;
 };

@@ -35,15 +35,15 @@ struct Variables {
 
 /// What programs may ask of the derivation they run in.
 struct Services {
+    std::uint64_t seed = 0;
+    std::uint32_t plant = 0;
+    bool stopped = false;
+    std::uint64_t salt = 0;  ///< what srand() or `seed:` last said
     std::function<void(const std::string&)> print;
     /// Says once for each place what is wrong there, though the run goes on.
     std::function<void(const Place&, const std::string&)> warn;
     const Resources* resources = nullptr;  ///< null: no side files
     ModelFiles* files = nullptr;
-    std::uint64_t seed = 0;
-    std::uint32_t plant = 0;
-    std::uint64_t salt = 0;  ///< what srand() or `seed:` last said
-    bool stopped = false;
 };
 
 class Machine {
@@ -75,6 +75,10 @@ public:
     Batch& batch(std::size_t number) {
         if (number >= batches_.size()) batches_.resize(number + 1);
         return batches_[number];
+    }
+    /// Nobody waits any more.
+    void clear_batches() {
+        for (Batch& batch : batches_) batch.count = 0;
     }
     double evaluate(const Program& program) {
         run(program);

@@ -132,7 +132,7 @@ void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
     const double* values = input_.from.parameters.data() + chunk.parameters_at;
     const bool letters_are_places = std::is_same_v<ClassOf, NoClasses> && wants_changes_;
     begin_ = chunk.begin;
-    for (std::size_t trial = 0; trial < choosing_.trials.size(); ++trial) machine_.batch(trial).count = 0;
+    machine_.clear_batches();
     for (std::size_t begin = chunk.begin; begin < chunk.end; begin += looked_up_at_once) {
         const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
         if (!letters_are_places) {
@@ -295,6 +295,7 @@ void Measuring::replace(std::size_t begin, std::size_t end) {
 }
 
 void Measuring::hold_lotteries() {
+    if (waiting_count_ == 0) return;
     std::array<Identity, drawn_at_once> drawers;
     std::array<std::uint64_t, drawn_at_once> draws;
     const Identity* const identities = input_.from.identities.data();

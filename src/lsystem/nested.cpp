@@ -37,7 +37,7 @@ struct Part {
 class NestedStep {
 public:
     NestedStep(Derivation::State& state, const StepInput& input, ModuleString& to)
-        : state_(state), model_(*state.model), bytes_(input.from.bytes()), out_(to, input, bytes_) {
+        : state_(state), model_(*state.model), bytes_(bytes_before(input)), out_(to, input, bytes_) {
         for (const auto& system : model_.systems) {
             parts_.push_back(std::make_unique<Part>(*system, input, state.services, out_));
         }
@@ -131,6 +131,7 @@ void NestedStep::run_block(std::uint32_t scope, const Program& block, const char
 
 void Derivation::State::rewrite_nested(const ModuleString& from, ModuleString& to) {
     const StepInput input = prepare(from);
+    if (from.size() <= grain) to = {};  // how much room a string begins with is not for its growth to depend on
     NestedStep(*this, input, to).run(from, to);
 }
 

@@ -223,13 +223,13 @@ void rewrite_in_one_pass(const StepInput& input, Scratch& scratch, Machines& mac
     make_chunks(input, scratch);
     const std::size_t pieces = std::max<std::size_t>(scratch.chunks.size(), 1);
     if (scratch.pieces.size() < pieces) scratch.pieces.resize(pieces);
-    std::atomic<std::size_t> bytes = input.from.bytes();
+    std::atomic<std::size_t> bytes = bytes_before(input);
     if (scratch.chunks.size() == 1 || input.from.size() <= grain) {
         // What grows has room to spare; the plant's string shall have what it needs.
         ModuleString& piece = scratch.pieces[0];
         GrowingString out(piece, input, bytes, GrowingString::Room::lent);
         run_in_order(input, scratch, machines.local(), services, out, limit);
-        make_room(input, to, piece.size(), piece.parameters.size(), input.from.bytes());
+        make_room(input, to, piece.size(), piece.parameters.size(), bytes_before(input));
         return copy_piece(piece, to, 0, 0);
     }
     if (input.model.serial()) {

@@ -9,8 +9,10 @@ namespace {
 
 template <class T>
 void resize_column(Column<T>& column, std::size_t size, std::size_t spare) {
+    const std::size_t room = column.capacity();
+    if (column.size() == size && (size == 0 || room - size >= spare)) return;
     column.clear();
-    if (size > 0 && column.capacity() < size + spare) {
+    if (size > 0 && room < size + spare) {
         Column<T>().swap(column);
         column.reserve(size + size / 8 + spare);
     }
@@ -61,6 +63,12 @@ void count(const StepInput& input, std::vector<Chunk>& chunks) {
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
 }
 
+void require_parameters(const StepInput& input, std::size_t counted) {
+    if (counted == input.from.parameters.size()) return;
+    throw RunError(
+        fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(), counted));
+}
+
 /// The first place from `at` on that no production reaches across.
 std::size_t border(const StepInput& input, std::size_t at, std::size_t end) {
     const LetterId* const letters = input.from.letters.data();
@@ -71,6 +79,15 @@ std::size_t border(const StepInput& input, std::size_t at, std::size_t end) {
 }  // namespace
 
 void make_chunks(const StepInput& input, Scratch& scratch) {
+    const std::size_t size = input.from.size();
+    if (size <= grain && input.kept.size() == 1 && input.kept[0] == std::pair(std::size_t{0}, size)) {
+        scratch.chunks.resize(1);
+        Chunk& chunk = scratch.chunks[0] = {};
+        chunk.end = size;
+        count(input, chunk);
+        chunk.parameters_end = std::exchange(chunk.parameters_at, 0);
+        return require_parameters(input, chunk.parameters_end);
+    }
     // Only the starts of chunks need the place of their parameters, so everything is counted, also what is cut off.
     scratch.chunks.clear();
     const auto split = [&](std::size_t begin, std::size_t end) {
@@ -101,10 +118,7 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
         at += std::exchange(chunk.parameters_at, at);
         chunk.parameters_end = at;
     }
-    if (at != input.from.parameters.size()) {
-        throw RunError(
-            fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(), at));
-    }
+    require_parameters(input, at);
     for (const std::size_t k : cut) {
         Chunk& chunk = scratch.chunks[k];
         chunk.end = chunk.begin;
@@ -137,7 +151,6 @@ bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& sc
 }
 
 void remember_chunks(const StepInput& input, const ModuleString& to, const Scratch& scratch, Forecast& forecast) {
-    forecast.letters = nullptr;
     if (!input.model.plans.looks_ahead) return;
     forecast.letters = to.letters.data();
     forecast.modules = to.size();

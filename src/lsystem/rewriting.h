@@ -143,6 +143,11 @@ void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, Work&& work)
 void resize(ModuleString& string, std::size_t modules, std::size_t parameters, Ancestry ancestry);
 std::size_t bytes_needed(std::size_t modules, std::size_t parameters, Ancestry ancestry);
 
+/// Bytes of the old string, without the room that its memory has besides: that may have been another plant's.
+inline std::size_t bytes_before(const StepInput& input) {
+    return bytes_needed(input.from.size(), input.from.parameters.size(), input.ancestry);
+}
+
 /// Throws RunError: the step would outgrow its memory. `uses` counts the uses of each production.
 [[noreturn]] void refuse_memory(const StepInput& input, std::size_t modules, std::size_t bytes,
                                 const std::vector<std::uint64_t>& uses);

@@ -44,14 +44,16 @@ bool place(const StepInput& input, Scratch& scratch, Measure measure, ModuleStri
         chunk.out_end = modules;
         chunk.out_parameters_end = parameters;
     }
-    const std::size_t bytes = input.from.bytes() + bytes_needed(modules, parameters, input.ancestry);
+    const std::size_t bytes = bytes_before(input) + bytes_needed(modules, parameters, input.ancestry);
     if (bytes > input.memory || modules >= BranchLinks::none) {
         if (measure == Measure::foreseen) return false;
         refuse_memory(input, modules, bytes, count_uses(input, scratch));
     }
     resize(to, modules, parameters, input.ancestry);
     if (measure == Measure::taken && !scratch.chunks.empty()) {
-        scratch.chunks.back().in_blocks = has_spare(input, input.from) && has_spare(input, to);
+        // A column without elements has no room behind them either.
+        const bool roomy = modules > 0 && (parameters > 0 || !input.model.plans.valued());
+        scratch.chunks.back().in_blocks = roomy && has_spare(input, input.from);
     }
     return true;
 }

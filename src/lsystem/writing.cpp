@@ -92,6 +92,7 @@ private:
     const bool in_runs_;
     const Change* change_;  ///< the next one
     bool finite_ = true;    ///< all values that were computed in columns
+    bool waits_ = false;    ///< a module for values
     Cursor at_, stretch_;
     const LetterId* const in_end_;
     const double* const values_end_;  ///< of the whole string: blocks may be read beyond the chunk
@@ -353,6 +354,7 @@ void Writer::wait(const CompiledProduction& production, const double* values, do
     Batch& waiting = batch(production);
     waiting.values[waiting.count] = values;
     waiting.to[waiting.count] = to;
+    waits_ = true;
     if (++waiting.count == ColumnProgram::lanes) settle(production);
 }
 
@@ -378,9 +380,10 @@ bool Writer::write() {
     if (!input_.model.computes_columns) return write_rounds();
     const Cursor begin = at_;
     const std::vector<CompiledProduction>& productions = input_.model.rules.productions;
-    for (const CompiledProduction& production : productions) batch(production).count = 0;
+    machine_.clear_batches();
     try {
         if (!write_rounds()) return false;
+        if (!waits_) return true;
         for (const CompiledProduction& production : productions) settle(production);
         if (finite_) return true;
     } catch (const RunError&) {

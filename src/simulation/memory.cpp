@@ -39,6 +39,12 @@ MemoryShares share_memory(std::size_t budget, std::size_t processes) {
     return {plants / 8 * 7, plants / 4, processes == 0 ? 0 : fields / processes};
 }
 
+std::size_t content(const ModuleString& string) {
+    const auto bytes = [](const auto& column) { return column.size() * sizeof(column[0]); };
+    return bytes(string.letters) + bytes(string.parameters) + bytes(string.identities) + bytes(string.parents) +
+           bytes(string.births);
+}
+
 void PlantMemory::set_drawn(const Interpretation& interpretation) {
     const auto held = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
     const PlantGeometry& geometry = interpretation.geometry;
@@ -47,12 +53,6 @@ void PlantMemory::set_drawn(const Interpretation& interpretation) {
     others = held(interpretation.queries) + held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) +
              held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) +
              held(geometry.textures);
-}
-
-void PlantMemory::add(const PlantMemory& plant) {
-    strings += plant.strings;
-    internodes += plant.internodes;
-    others += plant.others;
 }
 
 PlantMemory PlantMemory::grown(double factor) const {

@@ -16,12 +16,19 @@ struct MemoryShares {
 };
 MemoryShares share_memory(std::size_t budget, std::size_t processes);
 
+/// Bytes of the modules, without the room that the columns have besides.
+std::size_t content(const ModuleString& string);
+
 /// What plants hold, in bytes: their strings, and what was drawn of them.
 struct PlantMemory {
     std::size_t strings = 0, internodes = 0, others = 0;
 
     void set_drawn(const Interpretation& interpretation);
-    void add(const PlantMemory& plant);
+    void add(const PlantMemory& plant) {
+        strings += plant.strings;
+        internodes += plant.internodes;
+        others += plant.others;
+    }
     /// With so many times as much drawn.
     PlantMemory grown(double factor) const;
     /// With the copy and the meshes that the timeline makes.

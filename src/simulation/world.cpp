@@ -14,7 +14,10 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 namespace espalier {
 namespace {
@@ -34,9 +37,10 @@ public:
         if (!lending_) lending_ = std::make_unique<Lending>(Lending{std::make_shared<T>(std::move(own_)), {}});
         return lending_->now;
     }
+    bool is_read() const { return lending_ && lending_->now.use_count() > 1; }
     /// Something that nobody reads, its values left over from an earlier step.
     T& for_writing() {
-        if (lending_ && lending_->now.use_count() > 1) lending_->set_aside();
+        if (is_read()) lending_->set_aside();
         return **this;
     }
 
@@ -59,20 +63,94 @@ private:
     std::unique_ptr<Lending> lending_;
 };
 
+/// Strings of at most so many modules may be written to memory that plants pass on to each other: ten thousand herbs
+/// with two strings each would not fit into a cache.
+constexpr std::size_t most_passed_on = 8192;
+
+// What derivations know is kept here, as the last step left it: looking it up there costs more than a small plant's
+// step.
 struct Plant {
     std::uint32_t number = 0;
+    std::uint32_t modules_before = 0;  ///< of the step that was done last
     const PlantDescription* description = nullptr;
     const Model* model = nullptr;
     const SymbolTable* symbols = nullptr;
     Derivation derivation;
-    Lent<ModuleString> string = {};
-    Lent<ModuleString> next = {};  ///< between steps the string before
-    Lent<Interpretation> interpretation = {};
-    // As the last derivation and interpretation left them: looking them up in the derivation of every plant costs more
-    // than a small plant's step.
-    PlantMemory memory = {};
-    int length = 0;
+    bool has_pictures = derivation.has_homomorphism();
     bool stopped = false;
+    int length = 0;
+    Lent<ModuleString> string = {};
+    Lent<Interpretation> interpretation = {};
+    PlantMemory memory = {};
+    std::unique_ptr<Lent<ModuleString>> next = {};  ///< between steps the string before; null: its memory is passed on
+
+    template <class Rewrite>
+    void rewrite(const Rewrite& rewrite, ModuleString* spare);
+    std::size_t bytes_of_strings() const;
+};
+
+void swap_columns(ModuleString& a, ModuleString& b) {
+    a.letters.swap(b.letters);
+    a.parameters.swap(b.parameters);
+    a.identities.swap(b.identities);
+    a.parents.swap(b.parents);
+    a.births.swap(b.births);
+}
+
+/// Makes the next string in the memory of `spare`, which gets that of the old one. Strings that are large, or that
+/// somebody reads, and all if `spare` is null, have a second memory of their own.
+template <class Rewrite>
+void Plant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
+    modules_before = static_cast<std::uint32_t>(string->size());
+    if (spare && modules_before <= most_passed_on && !string.is_read()) {
+        const std::size_t widest = 64 + 4 * string->size();
+        if (spare->letters.capacity() > widest) *spare = {};
+        next.reset();
+        rewrite(*this, *spare);
+        return swap_columns(*string, *spare);
+    }
+    const bool passed_on = !next;
+    if (!next) next = std::make_unique<Lent<ModuleString>>();
+    rewrite(*this, next->for_writing());
+    std::swap(string, *next);
+    const bool outgrows = modules_before <= most_passed_on && string->size() > most_passed_on;
+    if (!passed_on && !outgrows) return;
+    // How much room it had was chance; how large strings grow may depend on it.
+    Lent<ModuleString> fitting;
+    *fitting = ModuleString(**next);
+    *next = std::move(fitting);
+}
+
+/// Of small strings always as if there were two that fit: when memory gets scarce there will be.
+std::size_t Plant::bytes_of_strings() const {
+    const bool small = modules_before <= most_passed_on || string->size() <= most_passed_on;
+    if (small || !next) return 2 * content(*string);
+    return string->bytes() + (*next)->bytes();
+}
+
+/// Memory for strings that nobody holds now.
+struct SpareStrings {
+    std::mutex mutex;
+    std::vector<ModuleString> strings;
+};
+
+/// One of them, as long as this lives.
+struct SpareString {
+    explicit SpareString(SpareStrings& others) : spares(others) {
+        const std::lock_guard lock(spares.mutex);
+        if (spares.strings.empty()) return;
+        string = std::move(spares.strings.back());
+        spares.strings.pop_back();
+    }
+    ~SpareString() {
+        const std::lock_guard lock(spares.mutex);
+        spares.strings.push_back(std::move(string));
+    }
+    SpareString(const SpareString&) = delete;
+    SpareString& operator=(const SpareString&) = delete;
+
+    SpareStrings& spares;
+    ModuleString string;
 };
 
 /// What is asked of all plants together after each stage.
@@ -124,6 +202,7 @@ std::string folder_of(const std::string& name) {
 struct World::State {
     Scene scene;
     MemoryShares shares;
+    SpareStrings spares;
     std::vector<Plant> plants;  ///< stay where they are: views and strings point to them
     // They stay where they are until the first frame shares them; then as the last interpretation left them.
     std::vector<PlantView> views;
@@ -144,7 +223,7 @@ struct World::State {
     template <class Rewrite>
     void derive(const Rewrite& rewrite);
     void interpret_and_exchange();
-    [[noreturn]] void refuse_strings() const;
+    [[noreturn]] void refuse_strings(bool passed_on) const;
     void take_derived(const Totals& derived);
     void require_memory(const PlantMemory& needed) const;
     void make_frames();
@@ -152,16 +231,18 @@ struct World::State {
     DerivationSettings settings_of(const PlantDescription& plant, const std::filesystem::path& files) const;
 };
 
-// All plants in parallel. Of several failures the first plant's is reported, whoever failed first.
+// All plants in parallel, with a string whose memory they may pass on. Of several failures the first plant's is
+// reported, whoever failed first.
 template <class Action>
 Totals World::State::for_every_plant(const Action& action) {
     std::mutex failing;
     std::exception_ptr failure;
     std::size_t failed = plants.size();
     const auto act = [&](const tbb::blocked_range<std::size_t>& range, Totals sum) {
+        SpareString spare(spares);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             try {
-                action(plants[i]);
+                action(plants[i], spare.string);
             } catch (...) {
                 const std::lock_guard lock(failing);
                 if (i > failed) continue;
@@ -188,38 +269,47 @@ template <class Rewrite>
 void World::State::derive(const Rewrite& rewrite) {
     const Stopwatch stopwatch(times.derive);
     release_frames();
+    // While memory is plentiful nobody will ask for strings of before.
+    constexpr std::size_t plentiful = 16;
+    const bool passes_on = totals.memory.recorded() <= shares.plants / plentiful;
     std::atomic<std::size_t> held = totals.memory.strings;
     const auto is_too_much = [&] {
         PlantMemory needed = totals.memory;
         needed.strings = held;
         return needed.recorded() > shares.plants;
     };
-    const Totals derived = for_every_plant([&](Plant& plant) {
-        if (is_too_much()) return;
-        rewrite(plant);
-        const std::size_t bytes = plant.string->bytes() + plant.next->bytes();
-        if (bytes != plant.memory.strings) held += bytes - plant.memory.strings;
-        plant.memory.strings = bytes;
+    std::atomic<bool> full = is_too_much();
+    const Totals derived = for_every_plant([&](Plant& plant, ModuleString& spare) {
+        if (full) return;
+        plant.rewrite(rewrite, passes_on ? &spare : nullptr);
+        const std::size_t bytes = plant.bytes_of_strings();
+        if (bytes != plant.memory.strings) {
+            held += bytes - plant.memory.strings;
+            plant.memory.strings = bytes;
+            if (is_too_much()) full = true;
+        }
         plant.length = plant.derivation.length();
         plant.stopped = plant.derivation.stopped();
     });
-    if (plants.size() > 1 && is_too_much()) refuse_strings();
+    if (plants.size() > 1 && is_too_much()) refuse_strings(passes_on);
     take_derived(derived);
 }
 
 /// Which plants were rewritten when the others were given up depends on the threads: tells of the strings before.
-void World::State::refuse_strings() const {
-    const auto before = [&](const Plant& plant) -> const ModuleString& {
-        return plant.derivation.steps_done() < step ? *plant.string : *plant.next;
+void World::State::refuse_strings(bool passed_on) const {
+    const auto is_done = [&](const Plant& plant) { return plant.derivation.steps_done() == step; };
+    const auto before = [&](const Plant& plant) {
+        return is_done(plant) ? std::size_t{plant.modules_before} : plant.string->size();
     };
-    const auto largest = std::max_element(plants.begin(), plants.end(), [&](const Plant& a, const Plant& b) {
-        return before(a).size() < before(b).size();
-    });
-    throw RunError(
-        fmt::format("step {}: {} modules grow beyond the {} MiB that --memory leaves for plants; the largest was '{}' "
-                    "with {} modules{}",
-                    step, totals.modules, shares.plants >> 20, largest->description->name, before(*largest).size(),
-                    commonest_module(*largest->model, before(*largest))));
+    const auto largest = std::max_element(plants.begin(), plants.end(),
+                                          [&](const Plant& a, const Plant& b) { return before(a) < before(b); });
+    const bool is_kept = step > 0 && (!passed_on || before(*largest) > most_passed_on);
+    const std::string commonest =
+        is_kept ? commonest_module(*largest->model, is_done(*largest) ? **largest->next : *largest->string) : "";
+    throw RunError(fmt::format(
+        "step {}: {} modules grow beyond the {} MiB that --memory leaves for plants; the largest was '{}' "
+        "with {} modules{}",
+        step, totals.modules, shares.plants >> 20, largest->description->name, before(*largest), commonest));
 }
 
 void World::State::take_derived(const Totals& derived) {
@@ -246,10 +336,10 @@ void World::State::interpret_and_exchange() {
     release_frames();
     {
         const Stopwatch stopwatch(times.interpret);
-        totals = for_every_plant([&](Plant& plant) {
+        totals = for_every_plant([&](Plant& plant, const ModuleString&) {
             Interpretation& interpretation = plant.interpretation.for_writing();
-            interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle, &plant.derivation,
-                      {plant.number}, interpretation);
+            interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle,
+                      plant.has_pictures ? &plant.derivation : nullptr, {plant.number}, interpretation);
             plant.memory.set_drawn(interpretation);
             if (frames.empty()) return;
             views[plant.number].string = strings[plant.number] = &*plant.string;
@@ -332,7 +422,7 @@ World::World(const Scene& scene, std::size_t memory, const std::filesystem::path
         const auto number = static_cast<std::uint32_t>(state.plants.size());
         state.totals.longest = std::max(state.totals.longest, derivation.length());
         Plant& plant =
-            state.plants.emplace_back(Plant{number, &description, &model, table.get(), std::move(derivation)});
+            state.plants.emplace_back(Plant{number, 0, &description, &model, table.get(), std::move(derivation)});
         state.views.push_back({number, &model, &*plant.string, &*plant.interpretation});
         state.strings.push_back(&*plant.string);
     }
@@ -358,14 +448,14 @@ void World::restore(std::istream& in) {
     for (Plant& plant : state_->plants) {
         plant.derivation.restore(in);
         restore_string(*plant.string, state_->shares.string, in);
-        plant.memory.strings = plant.string->bytes();
+        plant.memory.strings = plant.bytes_of_strings();
         plant.length = plant.derivation.length();
         plant.stopped = plant.derivation.stopped();
     }
     state_->environment->restore(in);
     state_->step = step;
     state_->frames_of = -1;
-    state_->take_derived(state_->for_every_plant([](const Plant&) {}));
+    state_->take_derived(state_->for_every_plant([](const Plant&, const ModuleString&) {}));
 }
 
 void World::start() {
@@ -379,7 +469,7 @@ void World::step() {
 }
 
 void World::plant_axioms() {
-    state_->derive([](Plant& plant) { plant.derivation.start(*plant.string); });
+    state_->derive([](Plant& plant, ModuleString& to) { plant.derivation.start(to); });
 }
 
 void World::exchange() {
@@ -388,10 +478,7 @@ void World::exchange() {
 
 void World::derive() {
     ++state_->step;
-    state_->derive([](Plant& plant) {
-        plant.derivation.step(*plant.string, plant.next.for_writing());
-        std::swap(plant.string, plant.next);
-    });
+    state_->derive([](Plant& plant, ModuleString& to) { plant.derivation.step(*plant.string, to); });
 }
 
 int World::last_step() const {

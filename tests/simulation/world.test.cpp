@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <memory>
 #include <set>
+#include <vector>
 
 using namespace espalier;
 using Catch::Matchers::Contains;
@@ -152,6 +154,64 @@ TEST_CASE_METHOD(Worlds, "plants that share a step's memory, machines and painte
         different.insert(text(alone));
     }
     CHECK(different.size() > 1);
+}
+
+TEST_CASE_METHOD(Worlds, "plants that pass on memory while they grow large and small again are those they are alone",
+                 "[simulation]") {
+    // 2^SIZE modules at most, then one.
+    const std::string model =
+        "#define SIZE 1\nlsystem: 1\nderivation length: 18\naxiom: A(SIZE)B(0)\nA(n) : n > 0 --> A(n - 1)A(n - 1)\n"
+        "A(n) : n == 0 --> C\nC --> \nB(n) : n > 2 --> B(0)\nB(n) --> B(n + 1)\nendlsystem\n";
+    const std::vector<int> sizes = {1, 14, 3, 3, 15, 2, 13, 1};
+    std::string plants;
+    for (std::size_t k = 1; k < sizes.size(); ++k) {
+        plants += fmt::format("[[plant]]\nmodel = 'plant.l'\ndefine = {{ SIZE = {} }}\n", sizes[k]);
+    }
+    const std::size_t memory = GENERATE(std::size_t{1} << 40, std::size_t{100} << 20);  // plentiful, and not always
+    const int threads = GENERATE(1, 4);
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    World stand(scene(model, plants), memory);
+    std::vector<std::unique_ptr<World>> alone;
+    for (const int size : sizes) {
+        alone.push_back(std::make_unique<World>(
+            scene(model, "", fmt::format("stream = {}\ndefine = {{ SIZE = {} }}\n", alone.size(), size))));
+    }
+    for (int step = 0; step <= 18; ++step) {
+        step == 0 ? stand.start() : stand.step();
+        for (std::size_t k = 0; k < sizes.size(); ++k) {
+            step == 0 ? alone[k]->start() : alone[k]->step();
+            REQUIRE(stand.string(k).letters == alone[k]->string(0).letters);
+            REQUIRE(stand.string(k).parameters == alone[k]->string(0).parameters);
+            REQUIRE(stand.string(k).identities == alone[k]->string(0).identities);
+            REQUIRE(stand.string(k).births == alone[k]->string(0).births);
+        }
+    }
+    CHECK(stand.string(1).size() == 1);
+}
+
+TEST_CASE_METHOD(Worlds,
+                 "a herd whose strings explode in one step is told of by its largest plant, whatever the threads",
+                 "[simulation]") {
+    const std::string many(4000, 'A');
+    const std::string model =
+        "#define SIZE 1\nlsystem: 1\nderivation length: 9\naxiom: B(SIZE)\nB(n) : n > 0 --> B(n - 1)CCC\n"
+        "B(n) --> A\nA --> " +
+        many + "\nendlsystem\n";
+    const auto message = [&](int threads) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+        World world(scene(model, "[[plant]]\nmodel = 'plant.l'\nname = 'giant'\ndefine = { SIZE = 2 }\n",
+                          "name = 'herb'\ngrid = { columns = 300, spacing = 1 }\n"),
+                    std::size_t{32} << 20);
+        try {
+            walk(world, 9);
+        } catch (const RunError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    CHECK_THAT(message(1), Contains("step 3: ") && Contains("the largest was 'giant' with 7 modules"));
+    CHECK(message(1) == message(4));
 }
 
 TEST_CASE_METHOD(Worlds, "what is drawn of a string counts against the memory, too", "[simulation]") {
