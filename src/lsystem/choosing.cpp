@@ -145,7 +145,6 @@ void ChoosingCompiler::fill_table() {
             choosing_.ranks[rules_.candidates[k]] = static_cast<LetterId>(k - rules_.first[l] + 1);
         }
         const bool depends = system_.plans.of_letter[l].depends();
-        choosing_.nothing.push_back(static_cast<LetterId>(depends ? rules_.first[l + 1] - rules_.first[l] + 1 : 1));
         for (std::uint32_t place = 0; place < choosing_.places(); ++place) {
             const std::uint32_t left = place / choosing_.right_classes, right = place % choosing_.right_classes;
             tell(letter, depends ? outcome(letter, left, right) : Outcome{});
@@ -155,12 +154,13 @@ void ChoosingCompiler::fill_table() {
 
 void ChoosingCompiler::tell(LetterId letter, const Outcome& outcome) {
     const Plan& plan = system_.plans.of_letter[letter].choices[outcome.way == Outcome::Way::known ? outcome.index : 0];
-    const bool told = outcome.way == Outcome::Way::known && plan.length < most_told && plan.parameters < most_told;
+    const bool told = outcome.way == Outcome::Way::known && plan.length < most_told;
+    // Who comes to draw is a change wherever these may be foreseen: so drawers are counted with them.
+    const bool draws = choosing_.places() == 1 && system_.drawers[letter];
     choosing_.outcomes.push_back(outcome);
-    choosing_.told.push_back({told ? plan.length | std::uint64_t{plan.parameters} << 32 : 0,
-                              told ? static_cast<LetterId>(outcome.index) : Choosing::untold, plan.arity,
-                              !told || plan.production});
+    choosing_.told.push_back({system_.plans.holdings[letter], !told || plan.production || draws});
     choosing_.plans.push_back(&plan);
+    choosing_.lengths.push_back(told ? plan.length : 0);
     choosing_.tells_all &= told;
 }
 
@@ -249,9 +249,9 @@ std::optional<Outcome> ChoosingCompiler::drawn(const Candidates& candidates) {
     if (made) {
         Lottery lottery;
         const LetterId letter = rules_.productions[candidates[0]].strict[0].letter;
+        const Plan* const choices = system_.plans.of_letter[letter].choices;
         const auto prize = [&](LetterId choice) {
-            const Plan& plan = system_.plans.of_letter[letter].choices[choice];
-            return Lottery::Prize{choice, plan.length | std::uint64_t{plan.parameters} << 32};
+            return static_cast<std::uint32_t>(choices + choice - system_.plans.choices.data());
         };
         lottery.prizes.push_back(prize(pool[0].choice));
         for (std::size_t k = 1; k < pool.size(); ++k) {

@@ -33,20 +33,14 @@ struct Trial {
 /// Productions of constant weights that all apply. The choice is that after as many limits as are not above the draw,
 /// in units of 2^-53.
 struct Lottery {
-    struct Prize {
-        LetterId choice;
-        std::uint64_t measure;  ///< modules and (from bit 32 on) parameters
-    };
     std::vector<std::uint64_t> limits;
-    std::vector<Prize> prizes;  ///< one more than limits
+    std::vector<std::uint32_t> prizes;  ///< one more than limits: plans, among Plans::choices
 };
 
 /// What the table tells of a letter between two classes of neighbours.
 struct Told {
-    std::uint64_t measure = 0;  ///< of the choice: modules and (from bit 32 on) parameters
-    LetterId choice = 0;        ///< among the letter's Plan::choices, or `untold`
-    std::uint16_t arity = 0;
-    bool changes = false;  ///< the module does not simply live on, for all that is told
+    std::uint64_t holding = 0;  ///< Plans::holdings of the letter
+    bool changes = false;       ///< the module does not simply live on, for all that is told
 };
 
 struct Choosing {
@@ -55,10 +49,10 @@ struct Choosing {
     bool needs_partners = false;
 
     // Tables by letter * places + left class * right_classes + right class.
-    static constexpr LetterId untold = no_letter;
     std::vector<Told> told;
-    std::vector<const Plan*> plans;  ///< of the choices that are told
-    std::vector<Outcome> outcomes;   ///< of those that are not told
+    std::vector<Outcome> outcomes;
+    std::vector<const Plan*> plans;      ///< of outcomes that are known
+    std::vector<std::uint32_t> lengths;  ///< of the same
     std::uint32_t left_classes = 1, right_classes = 1;
     bool tells_all = true;
 
@@ -67,7 +61,6 @@ struct Choosing {
     std::vector<Trial> trials;
     std::vector<std::uint32_t> tried;  ///< indices of productions
     std::vector<LetterId> ranks;       ///< choice of each production, among its letter's
-    std::vector<LetterId> nothing;     ///< by letter: the choice of modules that are replaced with one before them
     std::vector<Lottery> lotteries;
 };
 

@@ -57,7 +57,7 @@ struct Batch {
     std::size_t count = 0;
     std::array<const double*, ColumnProgram::lanes> values;  ///< where their parameters begin
     std::array<double*, ColumnProgram::lanes> to;            ///< where their successors' parameters begin
-    std::array<std::uint32_t, ColumnProgram::lanes> modules;
+    std::array<std::uint32_t, ColumnProgram::lanes> changes;
 };
 
 }  // namespace espalier

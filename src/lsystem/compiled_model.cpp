@@ -1,11 +1,13 @@
 #include "compiled_model.h"
 
+#include "foreseeing.h"
 #include "limits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace espalier {
 namespace {
@@ -54,6 +56,7 @@ private:
     std::optional<Lane> lane(const Expression& expression, const std::vector<CompiledPattern>& strict) const;
     std::optional<Lane> sum_lane(const Expression& expression, const std::vector<CompiledPattern>& strict) const;
     void index(CompiledRules& rules) const;
+    void find_drawers();
     std::int32_t always(const CompiledRules& rules, LetterId letter) const;
     void place_registers();
     void make_columns();
@@ -80,6 +83,7 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compile_depth(system_.decomposition, compiled_->decomposition);
     compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism));
     compile_depth(system_.homomorphism, compiled_->homomorphism);
+    find_drawers();
     compiled_->plans = make_plans(*compiled_);
     compiled_->ring = system_.ring;
     compiled_->may_cut = writes_cut(*model_) && !compiled_->rules.has(Alphabet::cut);
@@ -88,6 +92,7 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     place_registers();
     make_columns();
     compiled_->choosing = make_choosing(*compiled_);
+    plan_ahead(*compiled_, compiled_->plans);
     return std::move(compiled_);
 }
 
@@ -227,8 +232,9 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
 
 // Each strict module in turn hands its identity to the first successor module of its symbol that nobody has claimed.
 void SystemCompiler::descend(CompiledProduction& production) const {
+    Kin& kin = production.kin;
     production.descents.resize(production.length);
-    production.heirs.resize(production.strict.size(), Descent::none);
+    kin.heirs.resize(production.strict.size(), Descent::none);
     for (std::uint32_t s = 0; s < production.strict.size(); ++s) {
         const SymbolId symbol = model_->alphabet.symbol_of(production.strict[s].letter);
         for (std::size_t k = 0; k < production.length; ++k) {
@@ -236,16 +242,17 @@ void SystemCompiler::descend(CompiledProduction& production) const {
             if (descent.heir_of != Descent::born || model_->alphabet.symbol_of(production.letters[k]) != symbol)
                 continue;
             descent.heir_of = s;
-            production.heirs[s] = static_cast<std::uint32_t>(k);
+            kin.heirs[s] = static_cast<std::uint32_t>(k);
             break;
         }
     }
     std::uint32_t place = 0;
     for (Descent& descent : production.descents) {
         if (descent.heir_of == Descent::born) descent.place = place++;
-        production.places.push_back(descent.place);
+        kin.places.push_back(descent.place);
     }
-    production.places.resize(whole_blocks(production.length, lineage_block));
+    kin.length = production.length;
+    kin.places.resize(whole_blocks(kin.length, lineage_block));
 }
 
 /// True if the expression or block reads a formal of one of the patterns.
@@ -363,6 +370,53 @@ void SystemCompiler::index(CompiledRules& rules) const {
     }
     rules.always.resize(letters);
     for (std::size_t l = 0; l < letters; ++l) rules.always[l] = always(rules, static_cast<LetterId>(l));
+}
+
+/// The kin of a production among letters that come to draw; who bears or hands on an identity that is kept has one.
+Kin kin_among(const std::vector<std::uint8_t>& drawers, const CompiledProduction& production) {
+    Kin kin;
+    std::vector<std::uint32_t> among(production.length);
+    for (std::size_t k = 0; k < production.length; ++k) {
+        among[k] = static_cast<std::uint32_t>(kin.length);
+        if (!drawers[production.letters[k]]) continue;
+        kin.places.push_back(production.descents[k].place);
+        ++kin.length;
+    }
+    kin.places.resize(whole_blocks(kin.length, lineage_block));
+    for (std::size_t s = 0; s < production.strict.size(); ++s) {
+        if (!drawers[production.strict[s].letter]) continue;
+        const std::uint32_t heir = production.kin.heirs[s];
+        const bool kept = heir != Descent::none && drawers[production.letters[heir]];
+        kin.heirs.push_back(kept ? among[heir] : Descent::none);
+    }
+    return kin;
+}
+
+/// Letters whose modules may draw, who bear such, and who hand their identities on to such.
+void SystemCompiler::find_drawers() {
+    CompiledRules& rules = compiled_->rules;
+    std::vector<std::uint8_t>& drawers = compiled_->drawers;
+    drawers.assign(model_->alphabet.size(), 0);
+    bool found = false;
+    const auto name = [&](LetterId letter) {
+        found |= !drawers[letter];
+        drawers[letter] = 1;
+    };
+    for (const CompiledProduction& production : rules.productions) {
+        const LetterId letter = production.strict[0].letter;
+        const bool chosen_by_lot = rules.stochastic && rules.always[letter] < 0;
+        if (chosen_by_lot || production.tests_draw || production.writes_draw) name(letter);
+    }
+    while (std::exchange(found, false)) {
+        for (const CompiledProduction& production : rules.productions) {
+            for (std::size_t k = 0; k < production.length; ++k) {
+                if (!drawers[production.letters[k]]) continue;
+                const std::uint32_t heir_of = production.descents[k].heir_of;
+                name(production.strict[heir_of == Descent::born ? 0 : heir_of].letter);
+            }
+        }
+    }
+    for (CompiledProduction& production : rules.productions) production.drawers = kin_among(drawers, production);
 }
 
 std::int32_t SystemCompiler::always(const CompiledRules& rules, LetterId letter) const {

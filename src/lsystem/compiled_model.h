@@ -37,6 +37,13 @@ struct Descent {
     std::uint32_t place = 0;
 };
 
+/// What modules of a successor inherit: those of all letters, or of those alone whose identities are kept.
+struct Kin {
+    std::vector<std::uint32_t> places;  ///< of their descents, padded to whole blocks
+    std::vector<std::uint32_t> heirs;   ///< of each strict module the place among these, or Descent::none
+    std::size_t length = 0;
+};
+
 struct CompiledProduction {
     const Production* source = nullptr;
     std::vector<CompiledPattern> left, strict, right;  ///< left: nearest first
@@ -45,8 +52,7 @@ struct CompiledProduction {
     std::vector<LetterId> letters;  ///< of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
     std::vector<Descent> descents;
-    std::vector<std::uint32_t> places;  ///< of the descents, padded to whole blocks
-    std::vector<std::uint32_t> heirs;   ///< of each strict module the place in the successor, or Descent::none
+    Kin kin, drawers;
     std::size_t length = 0;
     std::size_t parameters = 0;
     Lanes lanes;
@@ -111,7 +117,8 @@ public:
     const LSystem* system = nullptr;
     std::size_t index = 0;  ///< among the model's L-systems; 0 is the main one
     CompiledRules rules, decomposition, homomorphism;
-    Plans plans;  ///< of `rules`
+    std::vector<std::uint8_t> drawers;  ///< by letter: its modules, or what `rules` make of them, may take draws
+    Plans plans;                        ///< of `rules`
     Choosing choosing;
     Program start, start_each, end_each, end;
     Program axiom, length, seed;
@@ -139,6 +146,8 @@ public:
     }
     /// Modules are replaced one after the other: as ordered() says, or since a predecessor may reach beyond a cut.
     bool serial() const { return ordered() || (may_cut && rules.follows(Alphabet::cut)); }
+    /// Measured, then written; else in one pass.
+    bool in_two_passes() const { return !serial() && decomposition.empty(); }
     bool draws() const {
         return rules.effects.draws || rules.stochastic || decomposition.effects.draws || decomposition.stochastic;
     }

@@ -18,8 +18,11 @@ constexpr int longest_leap = 64;  // what words become is remembered for every s
 
 Ancestry ancestry_of(const CompiledModel& model, const DerivationSettings& settings) {
     if (settings.lineage) return Ancestry::whole;
-    const bool named = model.nested || model.draws || model.any(&CompiledSystem::picture_draws);
-    return named ? Ancestry::identities : Ancestry::none;
+    if (model.nested || model.any(&CompiledSystem::picture_draws)) return Ancestry::identities;
+    if (!model.draws) return Ancestry::none;
+    // Who is replaced by its letter alone is not measured, so that nobody counts how many have identities.
+    const bool measured = model.main().in_two_passes() && !model.main().plans.all_known;
+    return measured ? Ancestry::drawers : Ancestry::identities;
 }
 
 std::uint64_t next_serial() {
@@ -141,11 +144,15 @@ void Derivation::State::follow_length() {
 void Derivation::State::evaluate_axiom(ModuleString& string) {
     const CompiledSystem& compiled = main;
     const std::size_t parameters = compiled.axiom.results.size();
-    const std::size_t bytes = bytes_needed(compiled.axiom_letters.size(), parameters, ancestry);
+    const auto drawers = [&](LetterId letter) { return compiled.drawers[letter] != 0; };
+    const Extent extent{
+        compiled.axiom_letters.size(), parameters,
+        static_cast<std::size_t>(std::count_if(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), drawers))};
+    const std::size_t bytes = bytes_needed(extent, ancestry);
     if (bytes > settings.memory) {
         throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, settings.memory));
     }
-    resize(string, compiled.axiom_letters.size(), parameters, ancestry);
+    resize(string, extent, ancestry);
     std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
     const std::vector<ModuleTemplate>& modules = compiled.system->axiom;
     in_block(block_machine, "the axiom", [&] {
@@ -165,8 +172,10 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
     });
     if (ancestry == Ancestry::none) return;
     const Brood brood(mix(0x6573'7061'6c69'6572, settings.plant), 0);
+    std::size_t kept = 0;
     for (std::size_t i = 0; i < string.size(); ++i) {
-        string.identities[i] = brood.born(static_cast<std::uint32_t>(i));
+        if (ancestry == Ancestry::drawers && !drawers(string.letters[i])) continue;
+        string.identities[kept++] = brood.born(static_cast<std::uint32_t>(i));
     }
     std::fill(string.parents.begin(), string.parents.end(), Identity{0});
     std::fill(string.births.begin(), string.births.end(), 0u);
@@ -207,7 +216,7 @@ void Derivation::State::find_kept(const ModuleString& from) {
 }
 
 StepInput Derivation::State::prepare(const ModuleString& from) {
-    if (ancestry != Ancestry::none && from.identities.size() != from.size()) {
+    if (ancestry > Ancestry::drawers && from.identities.size() != from.size()) {
         throw RunError("the string has no identities: derive from a string that start() or step() made");
     }
     if (ancestry == Ancestry::whole && (from.parents.size() != from.size() || from.births.size() != from.size())) {
@@ -249,13 +258,10 @@ void Derivation::State::warn_of_depth() {
 
 void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
     const StepInput input = prepare(from);
-    if (main.serial() || !main.decomposition.empty()) {
-        rewrite_in_one_pass(input, *scratch, machines, services, to, depth_limit);
-        follow_length();
-        warn_of_depth();
-    } else {
-        rewrite_in_two_passes(input, *scratch, forecast, machines, to);
-    }
+    if (main.in_two_passes()) return rewrite_in_two_passes(input, *scratch, forecast, machines, to);
+    rewrite_in_one_pass(input, *scratch, machines, services, to, depth_limit);
+    follow_length();
+    warn_of_depth();
 }
 
 int Derivation::State::leap(const ModuleString& from, ModuleString& to, int steps) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 #include <type_traits>
 
@@ -42,196 +43,200 @@ struct ClassesAtPositions {
     }
 };
 
-constexpr std::size_t looked_up_at_once = 256;  // their measures are added up in one number
-
-/// Where the changes of a chunk have room among those of all.
-std::size_t room(const Scratch& scratch, const Chunk& chunk) {
-    return chunk.begin + static_cast<std::size_t>(&chunk - scratch.chunks.data());
-}
+constexpr std::size_t looked_up_at_once = 256;
 
 /// Chooses and measures the modules of one chunk.
 class Measuring {
 public:
-    Measuring(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine)
+    Measuring(const StepInput& input, Chunk& chunk, Machine& machine)
         : input_(input),
           choosing_(input.model.choosing),
+          plans_(input.model.plans),
           letters_(input.from.letters.data()),
-          choices_(scratch.choices.data()),
-          changes_(scratch.changes.data() + room(scratch, chunk)),
-          wants_changes_(!keeps_places(input)),
+          identities_(input.from.identities.data()),
+          values_(input.from.parameters.data() + chunk.parameters_at),
+          chunk_(chunk),
           machine_(machine),
           matcher_(input.model, input.view, machine) {
         matcher_.set_draws(input.key, input.step);
     }
 
-    void run(Chunk& chunk);
+    /// Reads the whole chunk; `changes` have room for one more than its modules.
+    void scan(LetterId* told, Change* changes);
+    /// What changes is known.
+    void follow();
 
 private:
     template <class ClassOf>
-    void run(Chunk& chunk, const ClassOf& class_of);
-    void add_up(std::size_t begin, std::size_t end);
+    void scan(const ClassOf& class_of, LetterId* told);
     void look_up(const LetterId* places, std::size_t begin, std::size_t end);
-    void pass_replaced(std::size_t begin, std::size_t end);
-    void find_out(const Outcome& outcome, std::size_t module, const double* values);
-    void replace(std::size_t begin, std::size_t end);
-    void match(const Trial& trial, std::size_t module, const double* values);
-    void spell(const Trial& trial, std::size_t module, const double* values);
-    void test(std::uint32_t trial, std::size_t module, const double* values);
+    void choose(std::size_t first);
+    void end();
+    Site site_at(const Change& change) const;
+    void find_out(const Outcome& outcome, Change& change);
+    void match(const Trial& trial, Change& change);
+    void spell(const Trial& trial, Change& change);
+    void test(std::uint32_t trial, const Change& change);
     void decide(std::uint32_t trial);
-    void draw(std::uint32_t lottery, std::size_t module) {
-        waiting_[waiting_count_] = {static_cast<std::uint32_t>(module), lottery};
-        if (++waiting_count_ == drawn_at_once) hold_lotteries();
-    }
     void hold_lotteries();
-    void take(std::size_t module, LetterId choice);
-    void take(std::size_t module, const CompiledProduction* production);
+    void take(Change& change, std::uint32_t plan) {
+        change.plan = plan;
+        growth_ += plans_.growths[plan];
+    }
+    void take(Change& change, const CompiledProduction* production);
+    /// Of a choice among those of a module's letter.
+    std::uint32_t plan_of(const Change& change, std::uint32_t choice) const {
+        const Plan* const choices = plans_.of_letter[letters_[change.module]].choices;
+        return static_cast<std::uint32_t>(choices - plans_.choices.data()) + choice;
+    }
 
     const StepInput& input_;
     const Choosing& choosing_;
+    const Plans& plans_;
     const LetterId* const letters_;
-    LetterId* const choices_;
-    Change* const changes_;
-    const bool wants_changes_;
+    const Identity* const identities_;
+    const double* const values_;  ///< of the chunk
+    Chunk& chunk_;
     Machine& machine_;
     Matcher matcher_;
-    std::size_t modules_ = 0, parameters_ = 0;
-    std::size_t looked_up_ = 0;  ///< modules before this one have been looked up
-    std::size_t replaced_ = 0;   ///< modules before this one are replaced by productions chosen for others before them
+    Growth growth_;
+    std::size_t replaced_ = 0;  ///< modules before this one are replaced by productions chosen for others before them
+    std::uint64_t held_ = 0;    ///< before the module that is looked up
 
-    // Of the chunk, as far as it has been looked up.
-    std::size_t begin_ = 0;
-    std::uint32_t change_count_ = 0;
-    std::uint32_t passed_ = 0;  ///< parameters
-
-    // Modules that wait for their draws.
+    // Changes that wait for their draws.
     static constexpr std::size_t drawn_at_once = 256;
     struct Draw {
-        std::uint32_t module, lottery;
+        std::uint32_t change, lottery;
     };
     std::array<Draw, drawn_at_once> waiting_;
+    std::array<Identity, drawn_at_once> drawers_;
     std::size_t waiting_count_ = 0;
 };
 
-void Measuring::run(Chunk& chunk) {
+void Measuring::scan(LetterId* told, Change* changes) {
     const Gazes& gazes = choosing_.gazes;
     const Neighbours* const found = input_.view.neighbours;
-    if (!found || choosing_.places() == 1) return run(chunk, NoClasses{});
-    if (gazes.positions) return run(chunk, ClassesAtPositions{letters_, choosing_, *found});
+    chunk_.changes = changes;
+    if (!found || choosing_.places() == 1) return scan(NoClasses{}, told);
+    if (gazes.positions) return scan(ClassesAtPositions{letters_, choosing_, *found}, told);
     const std::uint8_t* const left = found->left_classes.data();
     const std::uint8_t* const right = found->right_classes.data();
     const auto rights = static_cast<LetterId>(choosing_.right_classes);
-    if (!gazes.left.wanted) return run(chunk, FoundClasses<false, true>{left, right, rights});
-    if (!gazes.right.wanted) return run(chunk, FoundClasses<true, false>{left, right, rights});
-    run(chunk, FoundClasses<true, true>{left, right, rights});
+    if (!gazes.left.wanted) return scan(FoundClasses<false, true>{left, right, rights}, told);
+    if (!gazes.right.wanted) return scan(FoundClasses<true, false>{left, right, rights}, told);
+    scan(FoundClasses<true, true>{left, right, rights}, told);
 }
 
 template <class ClassOf>
-void Measuring::run(Chunk& chunk, const ClassOf& class_of) {
+void Measuring::scan(const ClassOf& class_of, LetterId* told) {
     const auto places = static_cast<LetterId>(choosing_.places());
-    const auto place_of = [&](std::size_t i) { return static_cast<LetterId>(letters_[i] * places + class_of(i)); };
-    const double* values = input_.from.parameters.data() + chunk.parameters_at;
-    const bool letters_are_places = std::is_same_v<ClassOf, NoClasses> && wants_changes_;
-    begin_ = chunk.begin;
+    const auto find_places = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) told[i] = static_cast<LetterId>(letters_[i] * places + class_of(i));
+    };
+    const bool wants_changes = !keeps_places(input_);
+    const bool letters_are_places = std::is_same_v<ClassOf, NoClasses> && wants_changes;
+    held_ = (std::uint64_t{chunk_.parameters_at} << 32) + chunk_.drawers_at;
     machine_.clear_batches();
-    for (std::size_t begin = chunk.begin; begin < chunk.end; begin += looked_up_at_once) {
-        const std::size_t end = std::min(begin + looked_up_at_once, chunk.end);
-        if (!letters_are_places) {
-            for (std::size_t i = begin; i < end; ++i) choices_[i] = place_of(i);
+    for (std::size_t begin = chunk_.begin; begin < chunk_.end; begin += looked_up_at_once) {
+        const std::size_t end = std::min(begin + looked_up_at_once, chunk_.end), first = chunk_.change_count;
+        if (!letters_are_places) find_places(begin, end);
+        if (wants_changes) {
+            look_up(letters_are_places ? letters_ : told, begin, end);
+            choose(first);
+        } else {
+            growth_.modules +=
+                std::accumulate(told + begin, told + end, std::int64_t{0},
+                                [&](std::int64_t sum, LetterId place) { return sum + choosing_.lengths[place] - 1; });
         }
-        if (!wants_changes_) {
-            add_up(begin, end);
+    }
+    chunk_.changes[chunk_.change_count] = {held_, static_cast<std::uint32_t>(chunk_.end), 0};
+    end();
+}
+
+void Measuring::follow() {
+    machine_.clear_batches();
+    choose(0);
+    end();
+}
+
+/// Decides what becomes of changes, from one on.
+void Measuring::choose(std::size_t first) {
+    const bool packed = input_.ancestry == Ancestry::drawers;
+    std::size_t waiting = waiting_count_;  // at hand: what is stored might be the member, for all C++ knows
+    for (std::size_t k = first; k < chunk_.change_count; ++k) {
+        Change& change = chunk_.changes[k];
+        if (change.module < replaced_) continue;
+        const Outcome& outcome = choosing_.outcomes[change.plan];
+        if (outcome.way != Outcome::Way::drawn) {
+            find_out(outcome, change);
             continue;
         }
-        looked_up_ = end;
-        const std::uint32_t first = change_count_, passed = passed_;
-        const std::size_t free = std::clamp(replaced_, begin, end);
-        pass_replaced(begin, free);
-        look_up(letters_are_places ? letters_ : choices_, free, end);
-        for (std::uint32_t k = first; k < change_count_; ++k) {
-            const std::size_t module = chunk.begin + changes_[k].module;
-            if (choices_[module] != Choosing::untold) continue;
-            const Outcome& outcome = choosing_.outcomes[place_of(module)];
-            if (outcome.way == Outcome::Way::drawn)
-                draw(outcome.index, module);
-            else
-                find_out(outcome, module, values + (changes_[k].parameters - passed));
-        }
-        values += passed_ - passed;
+        drawers_[waiting] = identities_[packed ? change.drawers() : change.module];
+        waiting_[waiting] = {static_cast<std::uint32_t>(k), outcome.index};
+        if (++waiting < drawn_at_once) continue;
+        waiting_count_ = waiting;
+        hold_lotteries();
+        waiting = 0;
     }
+    waiting_count_ = waiting;
+}
+
+void Measuring::end() {
     hold_lotteries();
     for (std::uint32_t trial = 0; trial < choosing_.trials.size(); ++trial) decide(trial);
-    changes_[change_count_] = {static_cast<std::uint32_t>(chunk.end - chunk.begin), passed_};
-    chunk.changes = changes_;
-    chunk.change_count = change_count_;
-    chunk.out_end = modules_;
-    chunk.out_parameters_end = parameters_;
+    chunk_.out_end = chunk_.end - chunk_.begin + static_cast<std::size_t>(growth_.modules);
+    chunk_.out_parameters_end =
+        chunk_.parameters_end - chunk_.parameters_at + static_cast<std::size_t>(growth_.parameters);
+    chunk_.out_drawers_end = chunk_.drawers_end - chunk_.drawers_at + static_cast<std::size_t>(growth_.drawers);
+    chunk_.out_changes_end = static_cast<std::size_t>(growth_.ahead);
 }
 
-/// Modules that are replaced together with one that was looked up before them.
-void Measuring::pass_replaced(std::size_t begin, std::size_t end) {
-    const std::uint16_t* const arities = input_.model.source->alphabet.arities().data();
-    for (std::size_t i = begin; i < end; ++i) {
-        choices_[i] = choosing_.nothing[letters_[i]];
-        passed_ += arities[letters_[i]];
-    }
-}
-
-/// Measures modules by their places in the table.
-void Measuring::add_up(std::size_t begin, std::size_t end) {
-    const Told* const told = choosing_.told.data();
-    std::uint64_t measure = 0;
-    for (std::size_t i = begin; i < end; ++i) measure += told[choices_[i]].measure;
-    modules_ += static_cast<std::uint32_t>(measure);
-    parameters_ += measure >> 32;
-}
-
-/// Turns places in the table into choices. What changes is as good as random: collecting it is no branch.
+/// Collects what changes by the places in the table. That is as good as random: it is no branch.
 void Measuring::look_up(const LetterId* places, std::size_t begin, std::size_t end) {
     const Told* const told = choosing_.told.data();
-    LetterId* const choices = choices_;
-    Change* change = changes_ + change_count_;
-    std::uint64_t measure = 0;
-    std::uint32_t passed = passed_;
+    Change* change = chunk_.changes + chunk_.change_count;
+    std::uint64_t held = held_;
     for (std::size_t i = begin; i < end; ++i) {
         const Told& here = told[places[i]];
-        choices[i] = here.choice;
-        measure += here.measure;
-        *change = {static_cast<std::uint32_t>(i - begin_), passed};
+        *change = {held, static_cast<std::uint32_t>(i), places[i]};
         change += here.changes;
-        passed += here.arity;
+        held += here.holding;
     }
-    change_count_ = static_cast<std::uint32_t>(change - changes_);
-    passed_ = passed;
-    modules_ += static_cast<std::uint32_t>(measure);
-    parameters_ += measure >> 32;
+    chunk_.change_count = static_cast<std::size_t>(change - chunk_.changes);
+    held_ = held;
 }
 
-void Measuring::find_out(const Outcome& outcome, std::size_t module, const double* values) {
-    if (outcome.way == Outcome::Way::tested)
-        test(outcome.index, module, values);
+Site Measuring::site_at(const Change& change) const {
+    const double* const values =
+        values_ + static_cast<std::uint32_t>(change.parameters() - static_cast<std::uint32_t>(chunk_.parameters_at));
+    return site_of(input_, change.module, values, change.drawers());
+}
+
+void Measuring::find_out(const Outcome& outcome, Change& change) {
+    if (outcome.way == Outcome::Way::known)
+        take(change, plan_of(change, outcome.index));
+    else if (outcome.way == Outcome::Way::tested)
+        test(outcome.index, change);
     else if (outcome.way == Outcome::Way::matched)
-        match(choosing_.trials[outcome.index], module, values);
-    else if (outcome.way == Outcome::Way::spelled)
-        spell(choosing_.trials[outcome.index], module, values);
+        match(choosing_.trials[outcome.index], change);
     else
-        take(module, static_cast<LetterId>(outcome.index));
+        spell(choosing_.trials[outcome.index], change);
 }
 
-void Measuring::match(const Trial& trial, std::size_t module, const double* values) {
+void Measuring::match(const Trial& trial, Change& change) {
     const std::span<const std::uint32_t> tried(choosing_.tried.data() + trial.begin, trial.end - trial.begin);
+    const Site site = site_at(change);
     try {
-        const CompiledRules& rules = input_.model.rules;
-        const CompiledProduction* const chosen = matcher_.choose(rules, tried, site_of(input_, module, values));
-        take(module, chosen);
+        take(change, matcher_.choose(input_.model.rules, tried, site));
     } catch (const EvaluationError& error) {
-        throw RunError(describe(error, input_.model.source->alphabet, letters_[module], values, input_.step));
+        throw RunError(describe(error, input_.model.source->alphabet, site.letter, site.values, input_.step));
     }
 }
 
-void Measuring::test(std::uint32_t trial, std::size_t module, const double* values) {
+void Measuring::test(std::uint32_t trial, const Change& change) {
     Batch& batch = machine_.batch(trial);
-    batch.values[batch.count] = values;
-    batch.modules[batch.count] = static_cast<std::uint32_t>(module);
+    batch.values[batch.count] = site_at(change).values;
+    batch.changes[batch.count] = static_cast<std::uint32_t>(&change - chunk_.changes);
     if (++batch.count == ColumnProgram::lanes) decide(trial);
 }
 
@@ -253,70 +258,56 @@ void Measuring::decide(std::uint32_t trial) {
         const double* const holds = machine_.result(*production.tests, 0);
         for (std::size_t i = 0; i < batch.count; ++i) taken[i] = holds[i] != 0 ? choice : taken[i];
     }
-    for (std::size_t i = 0; i < batch.count; ++i) take(batch.modules[i], taken[i]);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        Change& change = chunk_.changes[batch.changes[i]];
+        take(change, plan_of(change, taken[i]));
+    }
     batch.count = 0;
 }
 
-void Measuring::spell(const Trial& trial, std::size_t module, const double* values) {
-    const Site site = site_of(input_, module, values);
+void Measuring::spell(const Trial& trial, Change& change) {
+    const Site site = site_at(change);
     const CompiledProduction* spelled = nullptr;
     for (std::uint32_t k = trial.begin; k < trial.end && !spelled; ++k) {
         const CompiledProduction& production = input_.model.rules.productions[choosing_.tried[k]];
         if (matcher_.match_strict(production, site)) spelled = &production;
     }
-    take(module, spelled);
+    take(change, spelled);
 }
 
-void Measuring::take(std::size_t module, LetterId choice) {
-    const Plan& plan = input_.model.plans.of_letter[letters_[module]].choices[choice];
-    choices_[module] = choice;
-    modules_ += plan.length;
-    parameters_ += plan.parameters;
-}
-
-void Measuring::take(std::size_t module, const CompiledProduction* production) {
-    if (!production) return take(module, LetterId{0});
+void Measuring::take(Change& change, const CompiledProduction* production) {
     const CompiledProduction* const productions = input_.model.rules.productions.data();
-    take(module, choosing_.ranks[static_cast<std::size_t>(production - productions)]);
-    replaced_ = module + production->strict.size();
-    replace(module + 1, std::min(replaced_, looked_up_));
-}
-
-/// Takes back what the table told of modules that are replaced together with one before them.
-void Measuring::replace(std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-        if (choices_[i] != Choosing::untold) {
-            const Plan& plan = input_.model.plans.of_letter[letters_[i]].choices[choices_[i]];
-            modules_ -= plan.length;
-            parameters_ -= plan.parameters;
-        }
-        choices_[i] = choosing_.nothing[letters_[i]];
-    }
+    take(change, plan_of(change, production ? choosing_.ranks[static_cast<std::size_t>(production - productions)] : 0));
+    replaced_ = change.module + plans_.choices[change.plan].width;
 }
 
 void Measuring::hold_lotteries() {
     if (waiting_count_ == 0) return;
-    std::array<Identity, drawn_at_once> drawers;
     std::array<std::uint64_t, drawn_at_once> draws;
-    const Identity* const identities = input_.from.identities.data();
-    for (std::size_t k = 0; k < waiting_count_; ++k) drawers[k] = identities[waiting_[k].module];
-    first_draws(input_.key, input_.step, {drawers.data(), waiting_count_}, draws.data());
+    Growth growth;
+    first_draws(input_.key, input_.step, {drawers_.data(), waiting_count_}, draws.data());
     for (std::size_t k = 0; k < waiting_count_; ++k) {
         const Lottery& lottery = choosing_.lotteries[waiting_[k].lottery];
         std::size_t fallen = 0;
         for (const std::uint64_t limit : lottery.limits) fallen += draws[k] >= limit;
-        const auto [choice, measure] = lottery.prizes[fallen];
-        choices_[waiting_[k].module] = choice;
-        modules_ += static_cast<std::uint32_t>(measure);
-        parameters_ += measure >> 32;
+        const std::uint32_t plan = lottery.prizes[fallen];
+        chunk_.changes[waiting_[k].change].plan = plan;
+        growth += plans_.growths[plan];
     }
+    growth_ += growth;
     waiting_count_ = 0;
 }
 
 }  // namespace
 
 void measure(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine) {
-    Measuring(input, scratch, chunk, machine).run(chunk);
+    // Changes have room among those of all chunks.
+    const std::size_t room = chunk.begin + static_cast<std::size_t>(&chunk - scratch.chunks.data());
+    Measuring(input, chunk, machine).scan(scratch.told.data(), scratch.changes.data() + room);
+}
+
+void measure_changes(const StepInput& input, Chunk& chunk, Machine& machine) {
+    Measuring(input, chunk, machine).follow();
 }
 
 }  // namespace espalier

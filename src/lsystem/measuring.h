@@ -5,19 +5,18 @@
 
 namespace espalier {
 
-/// A module of the step's string, whose parameters begin at `values`.
-inline Site site_of(const StepInput& input, std::size_t module, const double* values) {
+/// A module of the step's string, whose parameters begin at `values`; so many of those that come to draw stand before.
+inline Site site_of(const StepInput& input, std::size_t module, const double* values, std::size_t drawers) {
     const auto at = static_cast<std::size_t>(values - input.from.parameters.data());
-    return {module,
-            at,
-            input.from.letters[module],
-            values,
-            input.from.identities.empty() ? 0 : input.from.identities[module],
-            0};
+    const std::size_t named = input.ancestry == Ancestry::drawers ? drawers : module;
+    const Column<Identity>& identities = input.from.identities;
+    return {module, at, input.from.letters[module], values, named < identities.size() ? identities[named] : 0, 0};
 }
 
-/// Sets the choices of a chunk's modules whose letters have plans to choose from, and the chunk's measure
-/// (`out_end`, `out_parameters_end`, counted from its beginning).
+/// Finds a chunk's changes, chooses their plans, and measures what it will become (`out_end` and the like, counted from
+/// its beginning).
 void measure(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine);
+/// The same where its changes were foreseen.
+void measure_changes(const StepInput& input, Chunk& chunk, Machine& machine);
 
 }  // namespace espalier

@@ -20,7 +20,7 @@ void GrowingString::grow(std::size_t arity) {
     const std::size_t parameters = string_.parameters.size() + arity;
     if (string_.letters.size() == modules_) modules_ = std::max<std::size_t>(1024, modules_ * 2);
     if (parameters > parameters_) parameters_ = std::max<std::size_t>(1024, parameters * 2);
-    const std::size_t needed = bytes_needed(modules_, parameters_, input_.ancestry);
+    const std::size_t needed = bytes_needed({modules_, parameters_}, input_.ancestry);
     const std::size_t total = bytes_ += needed > held_ ? needed - held_ : 0;
     held_ = std::max(held_, needed);
     if (total > input_.memory || modules_ >= BranchLinks::none) refuse_memory(input_, modules_, total, uses);
@@ -196,9 +196,9 @@ void copy_piece(const ModuleString& piece, ModuleString& to, std::size_t at, std
 
 void make_room(const StepInput& input, ModuleString& to, std::size_t modules, std::size_t parameters,
                std::size_t held) {
-    const std::size_t bytes = held + bytes_needed(modules, parameters, input.ancestry);
+    const std::size_t bytes = held + bytes_needed({modules, parameters}, input.ancestry);
     if (bytes > input.memory || modules >= BranchLinks::none) refuse_memory(input, modules, bytes, {});
-    resize(to, modules, parameters, input.ancestry);
+    resize(to, {modules, parameters}, input.ancestry);
 }
 
 void join(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to, std::size_t held) {

@@ -35,29 +35,24 @@ Plan plan_of(const CompiledProduction& production) {
     plan.width = static_cast<std::uint16_t>(production.strict.size());
     if (plan.width > 1) plan.second = production.strict[1].letter;
     for (const CompiledPattern& pattern : production.strict) plan.reads += pattern.arity;
+    plan.drawers = static_cast<std::uint32_t>(production.drawers.length);
+    plan.read_drawers = static_cast<std::uint32_t>(production.drawers.heirs.size());
     plan.lanes = &production.lanes;
     plan.production = &production;
     plan.kind = kind_of(production);
     return plan;
 }
 
-Plan copy_of(LetterId letter, std::uint16_t arity) {
+Plan copy_of(LetterId letter, std::uint16_t arity, bool draws) {
     Plan copy;
     copy.block[0] = letter;
     copy.length = 1;
     copy.arity = arity;
     copy.reads = arity;
     copy.parameters = arity;
+    copy.drawers = copy.read_drawers = draws;
     copy.kind = arity <= value_block ? Plan::Kind::copy : Plan::Kind::wide_copy;
     return copy;
-}
-
-/// Of a module that is replaced with one before it.
-Plan nothing_of(std::uint16_t arity) {
-    Plan nothing;
-    nothing.arity = arity;
-    nothing.reads = arity;
-    return nothing;
 }
 
 void measure(Plans& plans) {
@@ -114,12 +109,12 @@ Plans make_plans(const CompiledSystem& model) {
     const CompiledRules& rules = model.rules;
     const std::span<const std::uint16_t> arities = model.source->alphabet.arities();
     Plans plans;
-    plans.choices.reserve(rules.productions.size() + 2 * arities.size());  // never moved, since plans point to it
+    plans.choices.reserve(rules.productions.size() + arities.size());  // never moved, since plans point to it
     for (std::size_t l = 0; l < arities.size(); ++l) {
         const auto letter = static_cast<LetterId>(l);
-        const bool known = rules.always[l] >= 0;
-        Plan plan =
-            known ? plan_of(rules.productions[static_cast<std::size_t>(rules.always[l])]) : copy_of(letter, arities[l]);
+        const bool known = rules.always[l] >= 0, draws = model.drawers[l];
+        Plan plan = known ? plan_of(rules.productions[static_cast<std::size_t>(rules.always[l])])
+                          : copy_of(letter, arities[l], draws);
         plans.choices.push_back(plan);
         plan.choices = &plans.choices.back();
         if (rules.has(letter) && !known) {
@@ -134,8 +129,9 @@ Plans make_plans(const CompiledSystem& model) {
             plans.all_known &= spelled;
             plans.spelled |= spelled;
         }
-        if (rules.follows(letter)) plans.choices.push_back(nothing_of(arities[l]));
         plans.of_letter.push_back(plan);
+        plans.holdings.push_back(std::uint64_t{arities[l]} << 32 | draws);
+        plans.draws |= draws;
     }
     measure(plans);
     look_ahead(plans);

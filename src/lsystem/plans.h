@@ -9,6 +9,21 @@
 
 namespace espalier {
 
+/// What a choice makes of a string, beyond what there was.
+struct Growth {
+    std::int64_t modules = 0, parameters = 0;
+    std::int64_t drawers = 0;  ///< modules of letters that come to draw
+    std::int64_t ahead = 0;    ///< changes that are foreseen
+
+    Growth& operator+=(const Growth& more) {
+        modules += more.modules;
+        parameters += more.parameters;
+        drawers += more.drawers;
+        ahead += more.ahead;
+        return *this;
+    }
+};
+
 struct CompiledProduction;
 class CompiledSystem;
 
@@ -48,6 +63,17 @@ struct Lanes {
     void pad();
 };
 
+/// A module that does not simply live on.
+struct Change {
+    /// By the modules of the string before it (Plans::holdings; of parameters the last 32 bits of their number).
+    std::uint64_t held;
+    std::uint32_t module;
+    std::uint32_t plan;  ///< among Plans::choices; the module's place in the table of choices until that is known
+
+    std::uint32_t parameters() const { return static_cast<std::uint32_t>(held >> 32); }
+    std::uint32_t drawers() const { return static_cast<std::uint32_t>(held); }
+};
+
 struct alignas(64) Plan {
     enum class Kind : std::uint8_t {
         copy,       ///< the module itself, with at most `value_block` parameters
@@ -64,31 +90,42 @@ struct alignas(64) Plan {
     std::uint32_t parameters = 0;
     std::uint16_t arity = 0;
     Kind kind = Kind::bare;
-    std::uint16_t width = 1;      ///< modules that are replaced
-    std::uint32_t reads = 0;      ///< parameters of all modules that are replaced
-    LetterId second = no_letter;  ///< of the modules that are replaced, if they are several
-    LetterId productions = 0;     ///< among `choices`, from the second on
+    std::uint16_t width = 1;                      ///< modules that are replaced
+    std::uint32_t reads = 0;                      ///< parameters of all modules that are replaced
+    LetterId second = no_letter;                  ///< of the modules that are replaced, if they are several
+    LetterId productions = 0;                     ///< among `choices`, from the second on
+    std::uint32_t drawers = 0, read_drawers = 0;  ///< modules of letters that come to draw: written, and replaced
     /// Modules and (from bit 32 on) parameters that will replace what this plan writes, where no letter needs choosing.
     std::uint64_t next = 0;
     const Lanes* lanes = nullptr;
 
     const LetterId* letters = nullptr;               ///< all of them, padded to whole blocks
     const CompiledProduction* production = nullptr;  ///< null: the module is copied
-    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order; if one
-    /// before it may replace it as well, a plan that writes nothing.
+    /// Of a letter: the plan that is known or the copy; if it is to be chosen, the productions in file order.
     const Plan* choices = nullptr;
+    /// Where changes are foreseen: those of what this plan writes, counted from its beginning.
+    const Change* ahead = nullptr;
+    std::uint32_t ahead_count = 0;
 
     bool depends() const { return kind == Kind::choose || kind == Kind::spelled; }
+    std::uint64_t held_before() const { return std::uint64_t{reads} << 32 | read_drawers; }
+    std::uint64_t held_after() const { return std::uint64_t{parameters} << 32 | drawers; }
 };
 
 struct Plans {
     std::vector<Plan> of_letter;
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
     std::vector<std::uint8_t> rewritten;             ///< by letter: the letters tell its plan, maybe not the copy
-    std::vector<Plan> choices;                       ///< of all letters, one after the other
-    bool all_known = true;                           ///< no letter needs choosing: letters tell all
-    bool spelled = false;                            ///< some of them only with those behind them
-    bool looks_ahead = false;                        ///< Plan::next is known
+    /// By letter what its module has: whether it comes to draw, and (from bit 32 on) parameters.
+    std::vector<std::uint64_t> holdings;
+    bool draws = false;           ///< some letter comes to draw
+    std::vector<Plan> choices;    ///< of all letters, one after the other
+    bool all_known = true;        ///< no letter needs choosing: letters tell all
+    bool spelled = false;         ///< some of them only with those behind them
+    bool looks_ahead = false;     ///< Plan::next is known
+    bool foresees = false;        ///< Plan::ahead is
+    std::vector<Growth> growths;  ///< of choices
+    std::vector<Change> ahead;    ///< of all choices
     // The most that any plan reads and writes.
     std::size_t longest = 1, most_parameters = 0, most_read = 0;
 

@@ -124,12 +124,12 @@ bool raise_to_power(const CompiledSystem& model, const ModuleString& from, int s
         const std::size_t size = powers.size_after(k);
         // Strings have an eighth more room than they need.
         const std::size_t bytes =
-            bytes_needed(before + before / 8, 0, Ancestry::none) + bytes_needed(size, 0, Ancestry::none);
+            bytes_needed({before + before / 8}, Ancestry::none) + bytes_needed({size}, Ancestry::none);
         if (size >= BranchLinks::none || bytes > memory) return false;
         before = size;
     }
-    if (from.bytes() + bytes_needed(before, 0, Ancestry::none) > memory) return false;
-    resize(to, before, 0, Ancestry::none);
+    if (from.bytes() + bytes_needed({before}, Ancestry::none) > memory) return false;
+    resize(to, {before}, Ancestry::none);
     powers.write(to);
     return true;
 }

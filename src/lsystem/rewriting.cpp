@@ -44,6 +44,10 @@ void count(const StepInput& input, Chunk& chunk) {
     const std::uint32_t* const lengths = input.model.plans.lengths.data();
     const std::uint32_t* const counts = input.model.plans.parameters.data();
     const LetterId* const letters = input.from.letters.data();
+    if (input.model.plans.draws && !input.model.plans.all_known) {
+        const std::uint8_t* const drawers = input.model.drawers.data();
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) chunk.drawers_at += drawers[letters[i]];
+    }
     if (!input.model.plans.all_known) {
         // Measuring will say how long they become.
         if (input.from.parameters.empty()) return;
@@ -63,10 +67,13 @@ void count(const StepInput& input, std::vector<Chunk>& chunks) {
     tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
 }
 
-void require_parameters(const StepInput& input, std::size_t counted) {
-    if (counted == input.from.parameters.size()) return;
-    throw RunError(
-        fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(), counted));
+void require_columns(const StepInput& input, std::size_t parameters, std::size_t drawers) {
+    if (input.ancestry == Ancestry::drawers && drawers != input.from.identities.size()) {
+        throw RunError("the string's identities do not fit it: derive from a string that start() or step() made");
+    }
+    if (parameters == input.from.parameters.size()) return;
+    throw RunError(fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(),
+                               parameters));
 }
 
 /// The first place from `at` on that no production reaches across.
@@ -86,7 +93,8 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
         chunk.end = size;
         count(input, chunk);
         chunk.parameters_end = std::exchange(chunk.parameters_at, 0);
-        return require_parameters(input, chunk.parameters_end);
+        chunk.drawers_end = std::exchange(chunk.drawers_at, 0);
+        return require_columns(input, chunk.parameters_end, chunk.drawers_end);
     }
     // Only the starts of chunks need the place of their parameters, so everything is counted, also what is cut off.
     scratch.chunks.clear();
@@ -113,24 +121,47 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
     split_cut(cut_from, input.from.size());
 
     count(input, scratch.chunks);
-    std::size_t at = 0;
+    std::size_t at = 0, drawers = 0;
     for (Chunk& chunk : scratch.chunks) {
         at += std::exchange(chunk.parameters_at, at);
         chunk.parameters_end = at;
+        drawers += std::exchange(chunk.drawers_at, drawers);
+        chunk.drawers_end = drawers;
     }
-    require_parameters(input, at);
+    require_columns(input, at, drawers);
     for (const std::size_t k : cut) {
         Chunk& chunk = scratch.chunks[k];
         chunk.end = chunk.begin;
         chunk.parameters_end = chunk.parameters_at;
+        chunk.drawers_end = chunk.drawers_at;
         chunk.out_end = chunk.out_parameters_end = 0;
     }
 }
 
-bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& scratch) {
+namespace {
+
+/// Finds the chunks' parts of what was foreseen to change; false if the string's identities do not fit it.
+bool recall_changes(const StepInput& input, Forecast& forecast, std::vector<Chunk>& chunks) {
+    const auto before = [](const Change& change, std::size_t module) { return change.module < module; };
+    Change* at = forecast.changes.data();
+    Change* const end = at + forecast.changes.size() - 1;
+    for (Chunk& chunk : chunks) {
+        // All who come to draw are changes.
+        chunk.changes = at;
+        chunk.drawers_at = at->drawers();
+        at = std::lower_bound(at, end, chunk.end, before);
+        chunk.change_count = static_cast<std::size_t>(at - chunk.changes);
+        chunk.drawers_end = at->drawers();
+    }
+    return input.ancestry != Ancestry::drawers || input.from.identities.size() == end->drawers();
+}
+
+}  // namespace
+
+bool recall_chunks(const StepInput& input, Forecast& forecast, Scratch& scratch) {
     const bool whole = input.kept.size() == 1 && input.kept[0] == std::pair(std::size_t{0}, forecast.modules);
-    if (!input.model.plans.looks_ahead || forecast.misses >= Forecast::most_misses || !whole ||
-        input.from.letters.data() != forecast.letters || input.from.parameters.size() != forecast.parameters) {
+    if (forecast.misses >= Forecast::most_misses || !whole || input.from.letters.data() != forecast.letters ||
+        input.from.parameters.size() != forecast.parameters) {
         return false;
     }
     scratch.chunks.clear();
@@ -140,18 +171,20 @@ bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& sc
             scratch.chunks.emplace_back();
             scratch.chunks.back().begin = modules;
             scratch.chunks.back().parameters_at = parameters;
+            scratch.chunks.back().stretches = {&stretch, 0};
         }
         Chunk& chunk = scratch.chunks.back();
         chunk.end = modules += stretch.modules;
         chunk.parameters_end = parameters += stretch.parameters;
         chunk.out_end += static_cast<std::uint32_t>(stretch.next);
         chunk.out_parameters_end += stretch.next >> 32;
+        chunk.stretches = {chunk.stretches.data(), chunk.stretches.size() + 1};
     }
-    return true;
+    return input.model.plans.looks_ahead || recall_changes(input, forecast, scratch.chunks);
 }
 
-void remember_chunks(const StepInput& input, const ModuleString& to, const Scratch& scratch, Forecast& forecast) {
-    if (!input.model.plans.looks_ahead) return;
+void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch, Forecast& forecast) {
+    if (!input.model.plans.looks_ahead && !scratch.foresees) return;
     forecast.letters = to.letters.data();
     forecast.modules = to.size();
     forecast.parameters = to.parameters.size();
@@ -160,22 +193,32 @@ void remember_chunks(const StepInput& input, const ModuleString& to, const Scrat
         const std::vector<Stretch>& written = scratch.stretches[k];
         forecast.stretches.insert(forecast.stretches.end(), written.begin(), written.end());
     }
+    if (scratch.foresees) std::swap(forecast.changes, scratch.foreseen);
 }
 
-void resize(ModuleString& string, std::size_t modules, std::size_t parameters, Ancestry ancestry) {
+namespace {
+
+std::size_t identities(const Extent& extent, Ancestry ancestry) {
+    if (ancestry == Ancestry::none) return 0;
+    return ancestry == Ancestry::drawers ? extent.drawers : extent.modules;
+}
+
+}  // namespace
+
+void resize(ModuleString& string, const Extent& extent, Ancestry ancestry) {
     const bool whole = ancestry == Ancestry::whole;
-    resize_column(string.letters, modules, spare_letters);
-    resize_column(string.parameters, parameters, spare_values);
-    resize_column(string.identities, ancestry != Ancestry::none ? modules : 0, spare_lineage);
-    resize_column(string.parents, whole ? modules : 0, spare_lineage);
-    resize_column(string.births, whole ? modules : 0, spare_lineage);
+    resize_column(string.letters, extent.modules, spare_letters);
+    resize_column(string.parameters, extent.parameters, spare_values);
+    resize_column(string.identities, identities(extent, ancestry), spare_lineage);
+    resize_column(string.parents, whole ? extent.modules : 0, spare_lineage);
+    resize_column(string.births, whole ? extent.modules : 0, spare_lineage);
 }
 
-std::size_t bytes_needed(std::size_t modules, std::size_t parameters, Ancestry ancestry) {
+std::size_t bytes_needed(const Extent& extent, Ancestry ancestry) {
     std::size_t columns = sizeof(LetterId);
-    if (ancestry != Ancestry::none) columns += sizeof(Identity);
     if (ancestry == Ancestry::whole) columns += sizeof(Identity) + sizeof(std::uint32_t);
-    return modules * columns + parameters * sizeof(double);
+    return extent.modules * columns + identities(extent, ancestry) * sizeof(Identity) +
+           extent.parameters * sizeof(double);
 }
 
 void refuse_memory(const StepInput& input, std::size_t modules, std::size_t bytes,

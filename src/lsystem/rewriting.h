@@ -9,13 +9,15 @@
 
 #include <atomic>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace espalier {
 
-/// What is kept of who the modules are: nothing, or their identities, or who bore them and when, too.
-enum class Ancestry : std::uint8_t { none, identities, whole };
+/// What is kept of who the modules are: nothing, or identities of those that come to draw (CompiledSystem::drawers),
+/// side by side, or of all, or who bore them and when, too.
+enum class Ancestry : std::uint8_t { none, drawers, identities, whole };
 
 /// Everything a step reads.
 struct StepInput {
@@ -34,22 +36,22 @@ struct StepInput {
 struct Stretch {
     std::size_t modules = 0, parameters = 0;
     std::uint64_t next = 0;
-};
-
-/// A module that does not simply live on: modules and parameters (the last 32 bits of their number) of its chunk that
-/// stand before it.
-struct Change {
-    std::uint32_t module, parameters;
+    std::uint64_t checksum = 0;  ///< of its letters, where changes are foreseen
 };
 
 /// A range of the string that one thread rewrites.
 struct Chunk {
     std::size_t begin = 0, end = 0;
     std::size_t parameters_at = 0, parameters_end = 0;
+    std::size_t drawers_at = 0, drawers_end = 0;
     std::size_t out = 0, out_end = 0;  ///< in the new string
     std::size_t out_parameters = 0, out_parameters_end = 0;
-    const Change* changes = nullptr;  ///< where they were measured; one more stands for the chunk's end
+    std::size_t out_drawers = 0, out_drawers_end = 0;
+    // Where not all is known by the letters: what changes, and one more that stands for the chunk's end or beyond.
+    Change* changes = nullptr;
     std::size_t change_count = 0;
+    std::size_t out_changes = 0, out_changes_end = 0;  ///< that are foreseen in the new string
+    std::span<const Stretch> stretches;                ///< that it is made of, where its changes were foreseen
     /// Its measure is that of its modules, and behind it there is room for whole blocks, in the old string and the new.
     bool in_blocks = false;
     std::string error;
@@ -64,6 +66,7 @@ struct Forecast {
     const LetterId* letters = nullptr;
     std::size_t modules = 0, parameters = 0;
     std::vector<Stretch> stretches;
+    Column<Change> changes;  ///< in order, and one more that stands for the end
 };
 
 /// Memory that steps reuse.
@@ -74,25 +77,16 @@ struct Scratch {
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
     std::vector<std::vector<Stretch>> stretches;  ///< what each chunk wrote
-    Column<LetterId> choices;  ///< which of its letter's Plan::choices each module takes, or its place in the table
-    Column<Change> changes;    ///< of all chunks, each with room for one more than its modules
-    std::vector<ModuleString> pieces;  ///< of chunks whose length is not known before they are written
+    Column<LetterId> told;                        ///< each module's place in the table of choices
+    Column<Change> changes;                       ///< of all chunks, each with room for one more than its modules
+    Column<Change> foreseen;                      ///< changes of the new string
+    bool foresees = false;                        ///< they are
+    std::vector<ModuleString> pieces;             ///< of chunks whose length is not known before they are written
 };
 
-/// The table of choices tells all, and nothing but letters is written: Scratch::choices keeps the places in the table.
+/// The table of choices tells all, and nothing but letters is written: no changes are looked for.
 inline bool keeps_places(const StepInput& input) {
     return input.model.choosing.tells_all && !input.model.plans.valued() && input.ancestry == Ancestry::none;
-}
-
-/// The plan that replaces a module whose choice is made.
-inline const Plan& plan_of(const StepInput& input, const Scratch& scratch, std::size_t module) {
-    const Plan& plan = input.model.plans.of_letter[input.from.letters[module]];
-    if (input.model.plans.all_known) {
-        const LetterId* const letters = input.from.letters.data();
-        return spelled_plan(plan, letters + module, letters + input.from.size());
-    }
-    const LetterId choice = scratch.choices[module];
-    return keeps_places(input) ? *input.model.choosing.plans[choice] : plan.choices[choice];
 }
 
 /// The modules born of one parent in one step.
@@ -115,9 +109,9 @@ void make_chunks(const StepInput& input, Scratch& scratch);
 
 /// The same from the forecast, without reading the string; false if there is none for it. Somebody may have changed
 /// the string's letters since: who relies on these chunks must see whether they fit.
-bool recall_chunks(const StepInput& input, const Forecast& forecast, Scratch& scratch);
-/// Keeps what the chunks' stretches say of the string that they were written to.
-void remember_chunks(const StepInput& input, const ModuleString& to, const Scratch& scratch, Forecast& forecast);
+bool recall_chunks(const StepInput& input, Forecast& forecast, Scratch& scratch);
+/// Keeps what the chunks say of the string that they were written to.
+void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch, Forecast& forecast);
 
 /// Calls work(chunk, machine) for all chunks, in parallel if there are several. If several fail, the first in string
 /// order is reported.
@@ -139,13 +133,19 @@ void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, Work&& work)
     if (failed < chunks.size()) throw RunError(chunks[failed].error);
 }
 
+/// What a string holds; drawers count where they alone have identities.
+struct Extent {
+    std::size_t modules = 0, parameters = 0, drawers = 0;
+};
+
 /// Makes room for a string, giving memory back first if it is too small.
-void resize(ModuleString& string, std::size_t modules, std::size_t parameters, Ancestry ancestry);
-std::size_t bytes_needed(std::size_t modules, std::size_t parameters, Ancestry ancestry);
+void resize(ModuleString& string, const Extent& extent, Ancestry ancestry);
+std::size_t bytes_needed(const Extent& extent, Ancestry ancestry);
 
 /// Bytes of the old string, without the room that its memory has besides: that may have been another plant's.
 inline std::size_t bytes_before(const StepInput& input) {
-    return bytes_needed(input.from.size(), input.from.parameters.size(), input.ancestry);
+    return bytes_needed({input.from.size(), input.from.parameters.size(), input.from.identities.size()},
+                        input.ancestry);
 }
 
 /// Throws RunError: the step would outgrow its memory. `uses` counts the uses of each production.

@@ -23,10 +23,10 @@ struct Cursor {
     const double* values;
     LetterId* out;
     double* out_values;
+    std::size_t drawers;     ///< read before, where programs may ask for them
     std::uint64_t next = 0;  ///< Plan::next of what was written since the stretch began
 
-    /// `Spelled`: all that the plan replaces is passed, else the first module, since the others have plans of their
-    /// own.
+    /// `Spelled`: the plan may replace several modules.
     template <bool Valued = true, bool Spelled = false>
     void pass(const Plan& plan) {
         in += Spelled ? plan.width : 1;
@@ -59,10 +59,13 @@ private:
     void write_each(std::size_t count);
     template <std::size_t block>
     void write_letters(std::size_t count);
+    template <bool Valued>
     void write_runs(std::size_t count);
+    template <bool Valued>
     void write_run(std::size_t count);
     template <bool Valued>
     bool write_successor(const Plan& plan, const Cursor& at);
+    const Plan& plan();
     bool write_module();
     bool write_rounds();
     void wait(const CompiledProduction& production, const double* values, double* to);
@@ -82,7 +85,7 @@ private:
     const Scratch& scratch_;
     const Plans& plans_;
     const LetterId* const letters_;
-    const LetterId* const choices_;
+    const LetterId* const told_;
     const Chunk& chunk_;
     std::vector<Stretch>& stretches_;
     Machine& machine_;
@@ -105,16 +108,16 @@ Writer::Writer(const StepInput& input, Scratch& scratch, const Chunk& chunk, Mac
       scratch_(scratch),
       plans_(input.model.plans),
       letters_(input.from.letters.data()),
-      choices_(scratch.choices.data()),
+      told_(scratch.told.data()),
       chunk_(chunk),
       stretches_(scratch.stretches[static_cast<std::size_t>(&chunk - scratch.chunks.data())]),
       machine_(machine),
       matcher_(input.model, input.view, machine),
       valued_(plans_.valued()),
-      in_runs_(!plans_.all_known && valued_),
+      in_runs_(!plans_.all_known && !keeps_places(input)),
       change_(chunk.changes),
       at_{letters_ + chunk.begin, input.from.parameters.data() + chunk.parameters_at, to.letters.data() + chunk.out,
-          to.parameters.data() + chunk.out_parameters},
+          to.parameters.data() + chunk.out_parameters, chunk.drawers_at},
       stretch_(at_),
       in_end_(letters_ + chunk.end),
       values_end_(input.from.parameters.data() + input.from.parameters.size()),
@@ -201,13 +204,11 @@ void Writer::write_each(std::size_t count) {
 /// Writes letters alone. Choices are as good as random, so that there is no branch for what lives on.
 template <std::size_t block>
 void Writer::write_letters(std::size_t count) {
-    const bool places = keeps_places(input_);
-    const Plan* const* const told = input_.model.choosing.plans.data();
-    const Plan* const plans = plans_.of_letter.data();
-    const LetterId* choice = choices_ + module_at(at_.in);
+    const Plan* const* const plans = input_.model.choosing.plans.data();
+    const LetterId* const told = told_ + module_at(at_.in);
     LetterId* out = at_.out;
-    for (const LetterId* in = at_.in, * const end = in + count; in != end; ++in, ++choice) {
-        const Plan& plan = places ? *told[*choice] : plans[*in].choices[*choice];
+    for (std::size_t i = 0; i < count; ++i) {
+        const Plan& plan = *plans[told[i]];
         std::memcpy(out, plan.block.data(), block * sizeof(LetterId));
         if (block == letter_block && plan.length > letter_block) {
             for (std::size_t k = block; k < plan.length; k += block) copy_letters(plan.letters + k, out + k);
@@ -219,34 +220,34 @@ void Writer::write_letters(std::size_t count) {
 }
 
 /// Writes up to the last change among so many modules.
+template <bool Valued>
 void Writer::write_runs(std::size_t count) {
-    const std::size_t done = module_at(at_.in) - chunk_.begin;
+    const std::size_t done = module_at(at_.in);
     while (change_->module < done) ++change_;
-    if (change_->module >= done + count) return write_run(count);
-    const Plan* const plans = plans_.of_letter.data();
-    const LetterId* const letters = letters_ + chunk_.begin;
-    const LetterId* const choices = choices_ + chunk_.begin;
-    const double* const values = input_.from.parameters.data() + chunk_.parameters_at;
+    if (change_->module >= done + count) return write_run<Valued>(count);
+    const Plan* const plans = plans_.choices.data();
+    const double* const values = input_.from.parameters.data();
     const auto end = static_cast<std::uint32_t>(done + count);
     const Change* change = change_;
     Cursor at = at_;
     bool whole = true;
     for (; change->module < end; ++change) {
-        const LetterId* const in = letters + change->module;
+        const LetterId* const in = letters_ + change->module;
         if (in < at.in) continue;  // replaced with one before it
         const auto modules = static_cast<std::size_t>(in - at.in);
-        const auto parameters =
-            static_cast<std::uint32_t>(change->parameters - static_cast<std::uint32_t>(at.values - values));
+        const auto parameters = change->parameters() - static_cast<std::uint32_t>(at.values - values);
         copy_run<letter_block>(at.in, at.out, modules);
-        copy_run<run_value_block>(at.values, at.out_values, parameters);
+        if constexpr (Valued) copy_run<run_value_block>(at.values, at.out_values, parameters);
         at.pass(modules, parameters);
-        const Plan& plan = plans[*in].choices[choices[change->module]];
-        whole = write_successor<true>(plan, at);
+        at.drawers = change->drawers();
+        const Plan& plan = plans[change->plan];
+        whole = write_successor<Valued>(plan, at);
         if (!whole) break;
         at.in += plan.width;
         at.values += plan.reads;
         at.out += plan.length;
         at.out_values += plan.parameters;
+        at.drawers += plan.read_drawers;
     }
     change_ = change;
     at_ = at;
@@ -255,19 +256,21 @@ void Writer::write_runs(std::size_t count) {
 }
 
 /// Writes so many modules that live on.
+template <bool Valued>
 void Writer::write_run(std::size_t count) {
-    const std::uint16_t* const arities = input_.model.source->alphabet.arities().data();
-    const std::size_t parameters =
-        std::accumulate(at_.in, at_.in + count, std::size_t{0},
-                        [&](std::size_t sum, LetterId letter) { return sum + arities[letter]; });
+    const std::uint64_t held =
+        std::accumulate(at_.in, at_.in + count, std::uint64_t{0},
+                        [&](std::uint64_t sum, LetterId letter) { return sum + plans_.holdings[letter]; });
+    const std::size_t parameters = held >> 32;
     copy_run<letter_block>(at_.in, at_.out, count);
-    copy_run<run_value_block>(at_.values, at_.out_values, parameters);
+    if constexpr (Valued) copy_run<run_value_block>(at_.values, at_.out_values, parameters);
     at_.pass(count, parameters);
+    at_.drawers += static_cast<std::uint32_t>(held);
 }
 
 void Writer::write_round(std::size_t count) {
     if (in_runs_)
-        write_runs(count);
+        valued_ ? write_runs<true>(count) : write_runs<false>(count);
     else if (plans_.spelled && plans_.all_known)
         valued_ ? write_each<true, true>(count) : write_each<false, true>(count);
     else if (plans_.all_known)
@@ -277,8 +280,17 @@ void Writer::write_round(std::size_t count) {
                                            : write_letters<letter_block>(count);
 }
 
+/// Of the module at hand.
+const Plan& Writer::plan() {
+    const Plan& plan = plans_.of_letter[*at_.in];
+    if (plans_.all_known) return spelled_plan(plan, at_.in, letters_ + input_.from.size());
+    if (!in_runs_) return *input_.model.choosing.plans[told_[module_at(at_.in)]];
+    while (change_->module < module_at(at_.in)) ++change_;
+    return change_->module == module_at(at_.in) ? plans_.choices[change_->plan] : plan.choices[0];
+}
+
 bool Writer::write_module() {
-    const Plan& plan = plan_of(input_, scratch_, module_at(at_.in));
+    const Plan& plan = this->plan();
     if (out_end_ - at_.out < std::ptrdiff_t{plan.length} || values_end_ - at_.values < std::ptrdiff_t{plan.reads} ||
         out_values_end_ - at_.out_values < std::ptrdiff_t{plan.parameters}) {
         return false;
@@ -290,7 +302,12 @@ bool Writer::write_module() {
     } else if (plan.kind != Plan::Kind::lanes) {
         std::copy_n(at_.values, plan.parameters, at_.out_values);
     }
-    plans_.all_known ? at_.pass<true, true>(plan) : at_.pass(plan);
+    at_.in += plan.width;
+    at_.values += plan.reads;
+    at_.out += plan.length;
+    at_.out_values += plan.parameters;
+    at_.drawers += plan.read_drawers;
+    at_.next += plan.next;
     return true;
 }
 
@@ -298,7 +315,7 @@ bool Writer::write_module() {
 void Writer::run(const Program& program, const Plan& plan, const Cursor& at) {
     const CompiledProduction& production = *plan.production;
     if (production.reads_context || production.writes_draw) {
-        const Site site = site_of(input_, module_at(at.in), at.values);
+        const Site site = site_of(input_, module_at(at.in), at.values, at.drawers);
         matcher_.bind(production, site);
         matcher_.begin_successor(production, site);
     } else {
@@ -390,6 +407,7 @@ bool Writer::write() {
         // Those that wait may be wrong, and stand before.
     }
     at_ = stretch_ = begin;
+    change_ = chunk_.changes;
     stretches_.clear();
     while (at_.in < in_end_) {
         if (!write_module()) return false;

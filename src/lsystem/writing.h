@@ -19,6 +19,6 @@ inline void copy_run(const T* from, T* to, std::size_t count) {
 bool write(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine& machine, ModuleString& to);
 
 /// Writes identities and, if they are kept, parents and births of what replaces a chunk.
-void write_lineage(const StepInput& input, const Scratch& scratch, const Chunk& chunk, ModuleString& to);
+void write_lineage(const StepInput& input, const Chunk& chunk, ModuleString& to);
 
 }  // namespace espalier

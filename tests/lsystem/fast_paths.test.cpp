@@ -15,7 +15,7 @@ namespace {
 
 /// What a random model may have.
 struct Kind {
-    bool parameters = false, conditions = false, several = false;
+    bool parameters = false, conditions = false, several = false, weights = false;
     std::size_t longest = 20;  ///< successor
     int letters = 6;
 };
@@ -25,6 +25,7 @@ public:
     RandomModel(unsigned seed, const Kind& kind) : random_(seed), kind_(kind) {
         for (int k = 0; k < kind.letters; ++k) arities_.push_back(kind.parameters ? below(7) : 0);
         builder.system().axiom = word(20, 0);
+        if (kind.weights) builder.system().seed = number(1);
         const int rules = 3 + below(3);
         for (int r = 0; r < rules; ++r) add_rule();
     }
@@ -47,6 +48,7 @@ private:
         // Mostly short, so that strings grow slowly; sometimes longer than any block.
         const int length = below(8) == 0 ? below(static_cast<int>(kind_.longest)) : below(4);
         Production& production = builder.rule(strict, word(length, formals));
+        if (kind_.weights && below(3) > 0) production.weight = number(below(4) / 3.0);
         if (kind_.conditions && formals > 0 && below(2) == 0) production.condition = value(formals) < value(formals);
     }
 
@@ -101,8 +103,9 @@ std::size_t compare(ModelBuilder& model, bool lineage, std::size_t threads) {
     Derivation derivation(model.compiled(), settings);
     const Alphabet& alphabet = model.model().alphabet;
     ModuleString string, next;
-    derivation.start(string);
+    Derivation(model.compiled(), with_lineage()).start(string);
     PlainString plain = plain_copy(string, alphabet);
+    derivation.start(string);
     std::size_t longest = 0;
     for (std::uint32_t step = 1; step <= 40; ++step) {
         plain = plain_step(model.model(), plain, step);
@@ -188,6 +191,13 @@ TEST_CASE("random models with predecessors of several modules grow as the plain 
     compare_many({.parameters = true, .conditions = true, .several = true});
 }
 
+TEST_CASE("random stochastic models grow as the plain derivation does", "[lsystem]") {
+    compare_many({.weights = true});
+    compare_many({.parameters = true, .weights = true});
+    compare_many({.parameters = true, .conditions = true, .weights = true});
+    compare_many({.parameters = true, .conditions = true, .several = true, .weights = true});
+}
+
 TEST_CASE("predecessors of several modules replace what stands across any place of the string", "[lsystem]") {
     compare_many({.parameters = true, .several = true, .letters = 2});
     compare_many({.several = true, .longest = 300, .letters = 3});
@@ -226,11 +236,12 @@ TEST_CASE("what is written in whole blocks stays in the room behind the string",
     const Kind kinds[] = {{.longest = 40},
                           {.parameters = true},
                           {.parameters = true, .conditions = true},
-                          {.parameters = true, .conditions = true, .several = true}};
+                          {.parameters = true, .conditions = true, .several = true},
+                          {.parameters = true, .weights = true}};
     for (unsigned seed = 0; seed < 60; ++seed) {
-        RandomModel model(seed, kinds[seed % 4]);
+        RandomModel model(seed, kinds[seed % 5]);
         DerivationSettings settings;
-        settings.lineage = seed % 8 < 4;
+        settings.lineage = seed % 2 == 0;
         const auto compiled = model.builder.compiled();
         Derivation derivation(compiled, settings), again(compiled, settings);
         ModuleString string, next, marked;
@@ -385,20 +396,61 @@ TEST_CASE("several steps end where the model stops or changes its length", "[lsy
 }
 
 TEST_CASE("letters that somebody changed between steps are derived as they stand", "[lsystem]") {
+    for (const bool stochastic : {false, true}) {
+        ModelBuilder model;
+        const std::vector<ModuleTemplate> bears = {model.module("A", {formal(0), formal(1) * number(0.5)}),
+                                                   model.module("B", {formal(0)}),
+                                                   model.module("A", {formal(1), formal(0)})};
+        model.system().axiom = {model.module("A", {number(1), number(2)})};
+        model.rule({{"A", 2}}, bears);
+        model.rule({{"B", 1}}, {model.module("C", {}), model.module("B", {formal(0)})});
+        if (stochastic) {
+            model.system().seed = number(1);
+            model.rule({{"A", 2}}, {bears[2], bears[1], bears[0]});
+            model.rule({{"B", 1}}, {model.module("B", {formal(0)})});
+        }
+        const Alphabet& alphabet = model.model().alphabet;
+        const auto changes = [&](const auto& change) {
+            Derivation derivation(model.compiled(), with_lineage(0));
+            ModuleString string = grow(derivation, 14), next;
+            REQUIRE(string.size() > 40'000);
+            change(string.letters);
+            const PlainString expected = plain_step(model.model(), plain_copy(string, alphabet), 15);
+            derivation.step(string, next);
+            CHECK(differences(expected, plain_copy(next, alphabet), true) == 0);
+        };
+        // As many of each letter as before, but in other places, so that every chunk's measure is wrong.
+        changes([](Column<LetterId>& letters) { std::reverse(letters.begin(), letters.end()); });
+        // Two alone, as far apart as blocks of any size might be.
+        for (const std::size_t apart : {1, 64, 1024, 32 * 1024}) {
+            changes([&](Column<LetterId>& letters) {
+                std::size_t at = 100;
+                while (letters[at] == letters[at + apart]) ++at;
+                std::swap(letters[at], letters[at + apart]);
+            });
+        }
+    }
+}
+
+TEST_CASE("a step that failed fails again, where it would have changed the string", "[lsystem]") {
     ModelBuilder model;
-    model.system().axiom = {model.module("A", {number(1), number(2)})};
-    model.rule({{"A", 2}}, {model.module("A", {formal(0), formal(1) * number(0.5)}), model.module("B", {formal(0)}),
-                            model.module("A", {formal(1), formal(0)})});
-    model.rule({{"B", 1}}, {model.module("C", {}), model.module("B", {formal(0)})});
-    const Alphabet& alphabet = model.model().alphabet;
+    model.system().axiom = {model.module("A", {number(1)})};
+    model
+        .rule({{"A", 1}}, {model.module("B", {}), model.module("A", {formal(0) * number(1e30)}),
+                           model.module("A", {formal(0) * number(1e30)})})
+        .condition = number(0) < formal(0);
     Derivation derivation(model.compiled());
-    ModuleString string = grow(derivation, 14), next;
-    REQUIRE(string.size() > 40'000);
-    // As many of each letter as before, but in other places, so that every chunk's measure is wrong.
-    std::reverse(string.letters.begin(), string.letters.end());
-    const PlainString expected = plain_step(model.model(), plain_copy(string, alphabet), 15);
-    derivation.step(string, next);
-    CHECK(differences(expected, plain_copy(next, alphabet), false) == 0);
+    const ModuleString string = grow(derivation, 10);
+    REQUIRE(string.size() > 1000);
+    ModuleString next;
+    for (const char* const step : {"at step 11", "at step 12"}) {
+        try {
+            derivation.step(string, next);
+            FAIL("no error");
+        } catch (const RunError& error) {
+            CHECK(std::string(error.what()).find("in module A(1e+300) " + std::string(step)) != std::string::npos);
+        }
+    }
 }
 
 TEST_CASE("the first value of many that is not finite is named", "[lsystem]") {

@@ -5,6 +5,7 @@
 
 #include "lsystem/model_builder.h"
 
+#include <bit>
 #include <cstddef>
 #include <random>
 #include <vector>
@@ -45,9 +46,11 @@ inline double plain_value(const Expression& expression, const std::vector<double
     }
 }
 
-/// The first production in file order whose strict predecessor begins at a module and whose condition holds.
-inline const Production* plain_choice(const LSystem& system, const PlainString& string, std::size_t at,
-                                      std::vector<double>& formals) {
+/// The productions in file order whose strict predecessors begin at a module and whose conditions hold.
+inline std::vector<const Production*> plain_candidates(const LSystem& system, const PlainString& string,
+                                                       std::size_t at) {
+    std::vector<const Production*> candidates;
+    std::vector<double> formals;
     for (const Production& production : system.productions) {
         const std::size_t width = production.strict.size();
         if (at + width > string.size()) continue;
@@ -57,9 +60,30 @@ inline const Production* plain_choice(const LSystem& system, const PlainString& 
             matches &= production.strict[k].letter == string[at + k].letter;
             formals.insert(formals.end(), string[at + k].values.begin(), string[at + k].values.end());
         }
-        if (matches && (!production.condition || plain_value(*production.condition, formals) != 0)) return &production;
+        if (!matches || (production.condition && plain_value(*production.condition, formals) == 0)) continue;
+        candidates.push_back(&production);
     }
-    return nullptr;
+    return candidates;
+}
+
+/// The first of them or, in a stochastic model (of scene seed 0 and plant 0), the one that is drawn by weight.
+inline const Production* plain_choice(const LSystem& system, const PlainString& string, std::size_t at,
+                                      std::uint32_t step) {
+    const std::vector<const Production*> candidates = plain_candidates(system, string, at);
+    if (candidates.empty() || !system.seed) return candidates.empty() ? nullptr : candidates.front();
+    const auto weight = [](const Production& production) { return production.weight ? production.weight->value : 1; };
+    double sum = 0;
+    for (const Production* candidate : candidates) sum += weight(*candidate);
+    const RandomKey key(0, 0, Stream::derivation, std::bit_cast<std::uint64_t>(system.seed->value));
+    double left = RandomDraws(key, string[at].identity, step).uniform() * sum;
+    const Production* chosen = nullptr;
+    for (const Production* candidate : candidates) {
+        if (weight(*candidate) == 0) continue;
+        chosen = candidate;
+        left -= weight(*candidate);
+        if (left < 0) break;
+    }
+    return chosen;
 }
 
 /// What replaces modules from `at` on: the first of each strict module's symbol carries it on, the others are born.
@@ -96,12 +120,15 @@ inline void plain_successor(const Production& production, const Alphabet& alphab
 
 inline PlainString plain_step(const Model& model, const PlainString& string, std::uint32_t step) {
     PlainString to;
-    std::vector<double> formals;
     for (std::size_t i = 0; i < string.size();) {
-        const Production* const production = plain_choice(model.main(), string, i, formals);
+        const Production* const production = plain_choice(model.main(), string, i, step);
         if (!production) {
             to.push_back(string[i++]);
             continue;
+        }
+        std::vector<double> formals;
+        for (std::size_t k = 0; k < production->strict.size(); ++k) {
+            formals.insert(formals.end(), string[i + k].values.begin(), string[i + k].values.end());
         }
         plain_successor(*production, model.alphabet, string, i, formals, step, to);
         i += production->strict.size();

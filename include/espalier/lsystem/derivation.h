@@ -20,8 +20,8 @@ namespace espalier {
 struct DerivationSettings {
     std::uint64_t seed = 0;
     std::uint32_t plant = 0;
-    /// Keep identity, parent and birth of every module. Identities alone are always kept when the model or its
-    /// homomorphism draws random numbers.
+    /// Keep identity, parent and birth of every module. Models and homomorphisms that draw random numbers keep
+    /// identities without it: where that will do, of those letters alone that may come to draw.
     bool lineage = false;
     /// Bytes this plant's strings may take; a step that would exceed them throws RunError before it allocates.
     std::size_t memory = std::size_t(-1);

@@ -14,8 +14,8 @@ namespace espalier {
 /// A module's name for life: a hash of its parent's identity, the step of its birth and its place among its siblings.
 using Identity = std::uint64_t;
 
-/// Columns: one letter a module; the parameters of all modules one after the other, module i owning as many as its
-/// letter's arity; and, only where something reads them, identity, or identity, parent's identity and step of birth.
+/// Columns: one letter a module; the parameters of all modules, each owning as many as its letter's arity; and, only
+/// where something reads them, identities (of all, or of who may come to draw), or with parents' and steps of birth.
 struct ModuleString {
     Column<LetterId> letters;
     Column<double> parameters;
