@@ -1,5 +1,10 @@
 #include "timeline/frame_writer.h"
 
+#include "espalier/base/error.h"
+
+#include <string>
+#include <system_error>
+
 namespace espalier {
 
 FrameWriter::~FrameWriter() {
@@ -28,6 +33,7 @@ std::unique_ptr<FrameWriter::Job> FrameWriter::make_room(std::size_t bytes) {
 
 // Only the run's thread adds, so that room once made stays until the frame is in the queue.
 void FrameWriter::add(const Frame& frame, bool due) {
+    start();
     const std::size_t bytes = KeptFrame::bytes(frame);
     std::unique_ptr<Job> job = make_room(bytes);
     job->frame.take(frame, due ? std::span(fields_) : std::span<const std::string>());
@@ -39,7 +45,16 @@ void FrameWriter::add(const Frame& frame, bool due) {
         bytes_ += bytes;
     }
     changed_.notify_all();
-    if (!thread_.joinable()) thread_ = std::thread(&FrameWriter::work, this);
+}
+
+// Before anything is in the queue: nobody may wait for a thread that there is not.
+void FrameWriter::start() {
+    if (thread_.joinable()) return;
+    try {
+        thread_ = std::thread(&FrameWriter::work, this);
+    } catch (const std::system_error& error) {
+        throw RunError(std::string("cannot start the thread that writes frames: ") + error.what());
+    }
 }
 
 void FrameWriter::wait() {

@@ -44,6 +44,7 @@ private:
         std::size_t bytes = 0;
     };
 
+    void start();
     std::unique_ptr<Job> make_room(std::size_t bytes);
     bool has_room(std::size_t bytes) const;
     void work();
