@@ -46,9 +46,7 @@ public:
     void exchange(ModuleString& string, const Derivation& derivation) {
         if (!asks_) return;
         interpret(model_, *symbols_, string, turtle_, &derivation, {}, interpretation_);
-        for (const Query& query : interpretation_.queries) {
-            answer_from_turtle(query, Answer(string.parameters.data() + query.parameters_at, query.parameters.size()));
-        }
+        write_turtle_answers(interpretation_, string);
     }
 
 private:

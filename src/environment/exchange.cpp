@@ -33,6 +33,20 @@ std::string described(const PlantView& plant, int step) {
     return fmt::format("step {}: plant {} (model {})", step, plant.plant, plant.model->name);
 }
 
+void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strings) {
+    for (const PlantView& plant : world.plants) {
+        const std::span<const TurtleAnswer> answers = plant.interpretation->answers;
+        const std::span<const TurtleDirection> directions = plant.interpretation->directions;
+        ModuleString& string = *strings[plant.plant];
+        for_blocks(answers.size(), [&](std::size_t begin, std::size_t end) {
+            write_turtle_answers(answers.subspan(begin, end - begin), {}, string);
+        });
+        for_blocks(directions.size(), [&](std::size_t begin, std::size_t end) {
+            write_turtle_answers({}, directions.subspan(begin, end - begin), string);
+        });
+    }
+}
+
 }  // namespace
 
 void Environment::exchange(const WorldView& world, std::span<ModuleString*> strings) {
@@ -41,7 +55,7 @@ void Environment::exchange(const WorldView& world, std::span<ModuleString*> stri
     for (std::size_t process = 0; process < processes_.size(); ++process) consult(process, world);
     // Only now: the queries' parameters point into these strings.
     for (const Batch& batch : batches_) write_answers(batch, strings);
-    answer_turtle_queries(world, strings);
+    write_turtle_answers(world, strings);
 }
 
 // Plant order, then string order.
@@ -72,7 +86,7 @@ bool Environment::borrow(const WorldView& world) {
     if (only == nullptr) return true;
     const std::span<const Query> queries = only->interpretation->queries;
     const Query& first = queries.front();
-    if (first.kind != QueryKind::communication || routed_) return false;
+    if (routed_) return false;
     name_processes(*only);
     const std::optional<std::size_t> process = process_for(first, *only, world.step);
     if (!process || communications_[*process].changes_queries()) return false;
@@ -80,8 +94,7 @@ bool Environment::borrow(const WorldView& world) {
     for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Query& query = queries[i];
-            const bool same = query.kind == first.kind && query.process == first.process;
-            if (!same || !is_sound(query, *process)) alike = false;
+            if (query.process != first.process || !is_sound(query, *process)) alike = false;
         }
     });
     if (!alike || communications_[*process].rounds_parameters()) return false;
@@ -101,7 +114,6 @@ void Environment::gather(const PlantView& plant, int step) {
     if (plant.interpretation->queries.empty()) return;
     name_processes(plant);
     for (const Query& asked : plant.interpretation->queries) {
-        if (asked.kind != QueryKind::communication) continue;
         const std::optional<std::size_t> process = process_for(asked, plant, step);
         if (!process) continue;
         Query& query = batches_[*process].copies.emplace_back(asked);
@@ -163,7 +175,7 @@ std::optional<std::size_t> Environment::process_for(const Query& query, const Pl
 }
 
 bool Environment::is_routed(const Query& query) const {
-    return routed_ && query.kind == QueryKind::communication && query.process < 0 && !query.parameters.empty();
+    return routed_ && query.process < 0 && !query.parameters.empty();
 }
 
 // Lets the process see the questions as its communication carries them.
@@ -203,21 +215,6 @@ void Environment::throw_unsound(const Query& query, std::size_t process, const P
         if (std::isfinite(value)) continue;
         throw RunError(fmt::format("{} asks process '{}' ({}) with the parameter {}", described(plant, step),
                                    names_[process], kinds_[process], value));
-    }
-}
-
-// Straight into the strings: nobody else sees these answers.
-void Environment::answer_turtle_queries(const WorldView& world, std::span<ModuleString*> strings) {
-    for (const PlantView& plant : world.plants) {
-        const std::span<const Query> queries = plant.interpretation->queries;
-        double* parameters = strings[plant.plant]->parameters.data();
-        for_blocks(queries.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Query& query = queries[i];
-                if (query.kind == QueryKind::communication) continue;
-                answer_from_turtle(query, {parameters + query.parameters_at, query.parameters.size()});
-            }
-        });
     }
 }
 

@@ -50,9 +50,9 @@ void PlantMemory::set_drawn(const Interpretation& interpretation) {
     const PlantGeometry& geometry = interpretation.geometry;
     const DrawnMesh& mesh = geometry.mesh;
     internodes = held(geometry.internodes);
-    others = held(interpretation.queries) + held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) +
-             held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) +
-             held(geometry.textures);
+    others = held(interpretation.queries) + held(interpretation.answers) + held(interpretation.directions) +
+             held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) + held(mesh.vertices) +
+             held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) + held(geometry.textures);
 }
 
 PlantMemory PlantMemory::grown(double factor) const {

@@ -56,7 +56,8 @@ std::size_t KeptFrame::bytes(const Frame& frame) {
     std::size_t bytes = 0;
     for (const PlantFrame& plant : frame.plants) {
         bytes += bytes_of(*plant.string) + bytes_of(plant.interpretation->geometry) +
-                 bytes_of(plant.interpretation->queries);
+                 bytes_of(plant.interpretation->queries) + bytes_of(plant.interpretation->answers) +
+                 bytes_of(plant.interpretation->directions);
     }
     return bytes;
 }

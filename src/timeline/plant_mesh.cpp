@@ -249,15 +249,25 @@ void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
     }
 }
 
-void add_queries(PlantMesh& mesh, std::span<const Query> queries, const std::function<bool(const Query&)>& wanted,
-                 std::uint32_t plant) {
-    for (const Query& query : queries) {
-        if (!wanted(query)) continue;
-        const Owner owner{plant, query.module, 0, 0, Kind::query};
-        const SurfaceVertex vertex{query.pose.position, {0, 0, 1}, {}};
-        mesh.vertices.connectivity.add(mesh.add_point(vertex, query.width / 2, owner));
+void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
+                 const std::function<bool(std::uint32_t module)>& wanted, std::uint32_t plant) {
+    const auto add = [&](std::uint32_t module, const glm::dvec3& position, double width) {
+        if (!wanted(module)) return;
+        const Owner owner{plant, module, 0, 0, Kind::query};
+        mesh.vertices.connectivity.add(mesh.add_point({position, {0, 0, 1}, {}}, width / 2, owner));
         mesh.vertices.close(owner);
+    };
+    auto answer = interpretation.answers.begin();
+    const auto add_answers_before = [&](std::size_t module) {
+        for (; answer != interpretation.answers.end() && answer->module < module; ++answer) {
+            add(answer->module, answer->position, answer->width);
+        }
+    };
+    for (const Query& query : interpretation.queries) {
+        add_answers_before(query.module);
+        add(query.module, query.pose.position, query.width);
     }
+    add_answers_before(std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace espalier

@@ -147,8 +147,8 @@ void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& sou
 /// Generalized cylinders and patches. A ring between two pieces belongs to the first.
 void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
-/// The queries that are `wanted`, as vertices.
-void add_queries(PlantMesh& mesh, std::span<const Query> queries, const std::function<bool(const Query&)>& wanted,
-                 std::uint32_t plant);
+/// The queries whose modules are `wanted`, whoever answered, as vertices in string order.
+void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
+                 const std::function<bool(std::uint32_t module)>& wanted, std::uint32_t plant);
 
 }  // namespace espalier

@@ -8,6 +8,8 @@ namespace espalier {
 void Interpretation::clear() {
     geometry.clear();
     queries.clear();
+    answers.clear();
+    directions.clear();
 }
 
 void interpret(const Model& model, const SymbolTable& symbols, const ModuleString& string,

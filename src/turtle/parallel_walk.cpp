@@ -63,7 +63,8 @@ struct Stretch {
 };
 
 void Stretch::walk(const WalkInput& input, Interpretation& result) {
-    const Walk::Room room{internodes(result), std::span(result.queries).subspan(before.queries, plan.counts().queries)};
+    const Walk::Room room{internodes(result), std::span(result.queries).subspan(before.queries, plan.counts().queries),
+                          std::span(result.answers).subspan(before.answers, plan.counts().answers)};
     try {
         const LentWalk walk(input, rest, &room);
         walk->state() = start;
@@ -172,6 +173,7 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
         total += stretches.back().plan.counts();
         result.geometry.internodes.resize(total.internodes);
         result.queries.resize(total.queries);
+        result.answers.resize(total.answers);
         for_all([&](Stretch& stretch) { stretch.walk(input, result); });
         std::vector<std::uint32_t> known;
         as_foreseen = connect(stretches, known);
@@ -189,7 +191,10 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
     }
     result.geometry.shapes = input.settings.shapes;
     result.geometry.axes = stretches.back().axes_before + stretches.back().rest.geometry.axes;
-    for (Stretch& stretch : stretches) append(result.geometry, stretch.rest.geometry, stretch.before.internodes);
+    for (Stretch& stretch : stretches) {
+        append(result.geometry, stretch.rest.geometry, stretch.before.internodes);
+        append(result.directions, stretch.rest.directions);
+    }
     return true;
 }
 

@@ -32,7 +32,7 @@ public:
     /// Where the walk is; it goes on from what is put there.
     WalkState& state() { return walk_; }
     /// True if as many rows were written as there was room for.
-    bool filled_room() const { return walk_.internodes_.full() && walk_.queries_.full(); }
+    bool filled_room() const { return walk_.internodes_.full() && walk_.queries_.full() && walk_.answers_.full(); }
 
 private:
     template <bool with_pictures>

@@ -75,6 +75,7 @@ void Walk::begin(const Model& model, const ModuleString& string, const TurtleSet
     string_ = &string;
     settings_ = &settings;
     geometry_ = &result.geometry;
+    directions_ = &result.directions;
     plant_ = plant;
     module_ = 0;
     parameters_at_ = 0;
@@ -83,9 +84,11 @@ void Walk::begin(const Model& model, const ModuleString& string, const TurtleSet
     if (room) {
         internodes_.open(room->internodes);
         queries_.open(room->queries);
+        answers_.open(room->answers);
     } else {
         internodes_.open(result.geometry.internodes);
         queries_.open(result.queries);
+        answers_.open(result.answers);
     }
     radius_of_width_ = settings.line_style == LineStyle::pixel ? 0 : 0.5;
     if (settings.angle != default_angle_) {
@@ -110,6 +113,7 @@ void Walk::begin(const Model& model, const ModuleString& string, const TurtleSet
 void Walk::end() {
     internodes_.close();
     queries_.close();
+    answers_.close();
 }
 
 void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
@@ -211,15 +215,14 @@ void Walk::leave_system() {
     turtle().systems = std::uint32_t(systems.size());
 }
 
-void Walk::ask(QueryKind kind) {
+void Walk::ask() {
     const std::size_t arity = model_->alphabet.arity(letter_);
     if (in_picture_ || arity == 0) return;
     const std::size_t next = std::size_t(module_) + 1;
     const bool last = next >= string_->size(), known = string_->has_identities();
     const double* const values = string_->parameters.data() + parameters_at_;
     Query& query = queries_.add();  // unwritten: every member is set
-    query.kind = kind;
-    query.process = kind == QueryKind::communication && processes_ ? (*processes_)[letter_] : std::int16_t(-1);
+    query.process = processes_ ? (*processes_)[letter_] : std::int16_t(-1);
     query.following = last ? no_letter : string_->letters[next];
     query.plant = plant_;
     query.module = module_;
@@ -232,6 +235,12 @@ void Walk::ask(QueryKind kind) {
     query.pose = turtle().pose;
     query.width = turtle().width;
     query.scale = turtle().scale;
+}
+
+void Walk::answer_with(const std::array<double, 4>& values, std::size_t count) {
+    if (in_picture_) return;
+    answer(0);
+    directions_->push_back({parameters_at_, count, values});
 }
 
 const std::string& Walk::symbol() const {

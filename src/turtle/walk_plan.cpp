@@ -6,10 +6,16 @@ namespace espalier {
 namespace {
 
 // Fields of a packed count. 64 modules fill none of them; the depth, which may fall, is the highest.
-constexpr int internodes_at = 24, queries_at = 32, beginnings_at = 40, depth_at = 48;
+constexpr int internodes_at = 24, queries_at = 31, answers_at = 38, unclear_at = 45, depth_at = 52;
 
-std::size_t field(std::uint64_t packed, int at, int bits) {
+std::size_t field(std::uint64_t packed, int at, int bits = 7) {
     return (packed >> at) & ((std::uint64_t{1} << bits) - 1);
+}
+
+std::uint64_t packed_rows(Symbol::Effect effect) {
+    using enum Symbol::Effect;
+    return std::uint64_t{effect == draws} << internodes_at | std::uint64_t{effect == asks} << queries_at |
+           std::uint64_t{effect == answers} << answers_at;
 }
 
 /// Of packed counts: all of them, and the least of all sums from the first on. The depth decides which is less.
@@ -27,97 +33,131 @@ struct Sum {
     }
 };
 
-Sum sum_of(const LetterId* letters, std::size_t count, const std::uint64_t* counts) {
+/// Adds up modules, one behind the other.
+template <bool alone>
+class Lane {
+public:
+    /// `before`: the letter before the first one.
+    Lane(const LetterCounts& counts, LetterId before)
+        : rows_(counts.rows()), table_(counts.table()), row_(alone ? 0 : rows_[before]) {}
+
+    void add(LetterId letter) {
+        sum.add(table_[row_ + letter]);
+        if constexpr (!alone) row_ = rows_[letter];
+    }
+
     Sum sum;
-    for (std::size_t i = 0; i < count; ++i) sum.add(counts[letters[i]]);
-    return sum;
+
+private:
+    const std::uint32_t* rows_;
+    const std::uint64_t* table_;
+    std::size_t row_;
+};
+
+template <bool alone>
+Sum sum_of(const LetterId* letters, std::size_t count, LetterId before, const LetterCounts& counts) {
+    Lane<alone> lane(counts, before);
+    for (std::size_t i = 0; i < count; ++i) lane.add(letters[i]);
+    return lane.sum;
 }
 
 /// The same of a whole block, in lanes that need not wait for each other.
-Sum sum_of_block(const LetterId* letters, const std::uint64_t* counts) {
+template <bool alone>
+Sum sum_of_block(const LetterId* letters, LetterId before, const LetterCounts& counts) {
     constexpr std::size_t length = WalkPlan::block_size / 4;
-    Sum sum, second, third, fourth;
+    Lane<alone> first(counts, before), second(counts, letters[length - 1]), third(counts, letters[2 * length - 1]),
+        fourth(counts, letters[3 * length - 1]);
     for (std::size_t i = 0; i < length; ++i) {
-        sum.add(counts[letters[i]]);
-        second.add(counts[letters[i + length]]);
-        third.add(counts[letters[i + 2 * length]]);
-        fourth.add(counts[letters[i + 3 * length]]);
+        first.add(letters[i]);
+        second.add(letters[i + length]);
+        third.add(letters[i + 2 * length]);
+        fourth.add(letters[i + 3 * length]);
     }
-    sum.add(second);
-    sum.add(third);
-    sum.add(fourth);
-    return sum;
+    first.sum.add(second.sum);
+    first.sum.add(third.sum);
+    first.sum.add(fourth.sum);
+    return first.sum;
 }
 
 }  // namespace
+
+void WalkCounts::add(Symbol::Effect effect) {
+    internodes += effect == Symbol::Effect::draws;
+    queries += effect == Symbol::Effect::asks;
+    answers += effect == Symbol::Effect::answers;
+}
 
 WalkCounts& WalkCounts::operator+=(const WalkCounts& other) {
     parameters += other.parameters;
     internodes += other.internodes;
     queries += other.queries;
+    answers += other.answers;
     return *this;
 }
 
 LetterCounts::LetterCounts(const SymbolTable& symbols) {
-    using enum Symbol::Effect;
-    for (std::size_t letter = 0; letter < symbols.levels[0].size(); ++letter) {
-        const LetterMeaning& meaning = symbols.levels[0][letter];
-        std::uint64_t packed = meaning.arity;
-        if (meaning.level) {
-            packed += std::uint64_t{1} << beginnings_at;
-        } else {
-            packed += std::uint64_t{meaning.effect == draws} << internodes_at;
-            packed += std::uint64_t{meaning.effect == asks} << queries_at;
+    const std::vector<LetterMeaning>& single = symbols.levels[0];
+    const auto add_row = [&](const LetterMeaning* before) {
+        for (std::size_t letter = 0; letter < single.size(); ++letter) {
+            LetterMeaning meaning = single[letter];
+            bool unclear = false;
+            if (before && symbols.levels[before->level][letter].belongs) {
+                meaning = symbols.levels[before->level][letter];
+                unclear = meaning.level || single[letter].level || before->effect != Symbol::Effect::other;
+            }
+            std::uint64_t packed = meaning.arity + packed_rows(meaning.effect);
+            packed += std::uint64_t{unclear} << unclear_at;
             packed += std::uint64_t{letter == Alphabet::open_bracket} << depth_at;
             packed -= std::uint64_t{letter == Alphabet::close_bracket} << depth_at;
+            table_.push_back(packed);
         }
-        of.push_back(packed);
+    };
+    add_row(nullptr);
+    for (const LetterMeaning& meaning : single) {
+        rows_.push_back(meaning.level ? std::uint32_t(table_.size()) : 0);
+        if (meaning.level) add_row(&meaning);
     }
 }
 
-void WalkPlan::read(const WalkInput& input, const LetterCounts& letter_counts) {
-    const LetterId* const letters = input.string.letters.data();
-    const std::uint64_t* const counts = letter_counts.of.data();
-    blocks_.reserve((end_ - begin_) / block_size + 1);
-    std::size_t symbols_end = begin_;  // of those of several modules
-    for (std::size_t first = begin_; first < end_; first += block_size) {
-        const std::size_t last = std::min(end_, first + block_size);
-        const Sum block = last - first == block_size ? sum_of_block(letters + first, counts)
-                                                     : sum_of(letters + first, last - first, counts);
-        blocks_.push_back({counts_.parameters, depth_, depth_ + (block.least >> depth_at)});
-        depth_ += static_cast<std::int64_t>(block.all) >> depth_at;
-        counts_.parameters += field(block.all, 0, internodes_at);
-        counts_.internodes += field(block.all, internodes_at, 8);
-        counts_.queries += field(block.all, queries_at, 8);
-        if (field(block.all, beginnings_at, 8) > 0 || symbols_end > first) {
-            symbols_end = correct_rows(input, counts, {first, last}, symbols_end);
-        }
-    }
+void WalkPlan::read(const WalkInput& input, const LetterCounts& counts) {
+    const bool clear = counts.alone() ? add_up<true>(input, counts) : add_up<false>(input, counts);
+    if (!clear) count_rows(input);
     find_runs(input);
 }
 
-/// The modules of a block were counted one by one: counts symbols of several modules that begin there as what they are.
-/// Returns where the last of them ends.
-std::size_t WalkPlan::correct_rows(const WalkInput& input, const std::uint64_t* counts, Range block,
-                                   std::size_t symbols_end) {
+/// False if there are symbols of which more than two modules must be seen.
+template <bool alone>
+bool WalkPlan::add_up(const WalkInput& input, const LetterCounts& counts) {
     const LetterId* const letters = input.string.letters.data();
-    const auto take_back = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < std::min(end, block.end); ++i) {
-            counts_.internodes -= field(counts[letters[i]], internodes_at, 1);
-            counts_.queries -= field(counts[letters[i]], queries_at, 1);
-        }
-    };
-    take_back(block.begin, symbols_end);
-    for (std::size_t i = std::max(block.begin, symbols_end); i < block.end; ++i) {
-        if (field(counts[letters[i]], beginnings_at, 1) == 0) continue;
+    bool clear = true;
+    blocks_.reserve((end_ - begin_) / block_size + 1);
+    for (std::size_t first = begin_; first < end_; first += block_size) {
+        const std::size_t last = std::min(end_, first + block_size);
+        // No symbol reaches into a stretch. A module that formed one with its like would be unclear.
+        const LetterId before = letters[std::max(first, begin_ + 1) - 1];
+        const Sum block = last - first == block_size ? sum_of_block<alone>(letters + first, before, counts)
+                                                     : sum_of<alone>(letters + first, last - first, before, counts);
+        blocks_.push_back({counts_.parameters, depth_, depth_ + (block.least >> depth_at)});
+        depth_ += static_cast<std::int64_t>(block.all) >> depth_at;
+        counts_.parameters += field(block.all, 0, internodes_at);
+        counts_.internodes += field(block.all, internodes_at);
+        counts_.queries += field(block.all, queries_at);
+        counts_.answers += field(block.all, answers_at);
+        clear &= field(block.all, unclear_at) == 0;
+    }
+    return clear;
+}
+
+/// Symbol by symbol.
+void WalkPlan::count_rows(const WalkInput& input) {
+    const std::size_t parameters = counts_.parameters;
+    counts_ = {};
+    counts_.parameters = parameters;
+    for (std::size_t i = begin_; i < end_; ++i) {
         const SymbolMatch match = input.symbols.match(input.string, i);
-        counts_.internodes += match.meaning.effect == Symbol::Effect::draws;
-        counts_.queries += match.meaning.effect == Symbol::Effect::asks;
-        symbols_end = match.module + 1;
-        take_back(i + 1, symbols_end);
+        counts_.add(match.meaning.effect);
         i = match.module;
     }
-    return symbols_end;
 }
 
 // Backwards from the end, over each branch that ends here to where it began.

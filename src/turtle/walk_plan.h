@@ -11,17 +11,28 @@ namespace espalier {
 
 /// Sums over stretches: parameters, and rows of result that are known from the letters.
 struct WalkCounts {
-    std::size_t parameters = 0, internodes = 0, queries = 0;
+    std::size_t parameters = 0, internodes = 0, queries = 0, answers = 0;
+
+    /// The rows of one symbol.
+    void add(Symbol::Effect effect);
 
     WalkCounts& operator+=(const WalkCounts& other);
 };
 
-/// What every letter adds to the counts and to the depth of branches, packed into one number.
+/// What every letter behind another adds to the counts and to the depth of branches, packed into one number.
 class LetterCounts {
 public:
     explicit LetterCounts(const SymbolTable& symbols);
 
-    std::vector<std::uint64_t> of;  ///< by letter
+    /// Where the row of the table begins that is for letters behind this one.
+    const std::uint32_t* rows() const { return rows_.data(); }
+    const std::uint64_t* table() const { return table_.data(); }
+    /// One row is for all: no symbol that these letters form has several modules.
+    bool alone() const { return table_.size() == rows_.size(); }
+
+private:
+    std::vector<std::uint32_t> rows_;
+    std::vector<std::uint64_t> table_;
 };
 
 /// Modules [begin, end) of the string, bounded by brackets, so that no symbol reaches across.
@@ -32,7 +43,7 @@ public:
     WalkPlan(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
 
     /// Reads the letters. May run beside others.
-    void read(const WalkInput& input, const LetterCounts& letters);
+    void read(const WalkInput& input, const LetterCounts& counts);
 
     /// Moves `state` from the beginning of this stretch to its end; `parameters` stand before it. Walks only what is in
     /// no branch that ends within the stretch; what that draws goes to `scratch`.
@@ -51,15 +62,14 @@ private:
         std::size_t parameters;
         std::int64_t depth, least;
     };
-    struct Range {
-        std::size_t begin, end;
-    };
     /// A run of modules that advance() walks.
     struct Run {
         std::size_t begin, end, parameters;
     };
 
-    std::size_t correct_rows(const WalkInput& input, const std::uint64_t* counts, Range block, std::size_t symbols_end);
+    template <bool alone>
+    bool add_up(const WalkInput& input, const LetterCounts& counts);
+    void count_rows(const WalkInput& input);
     void find_runs(const WalkInput& input);
     std::size_t opening_of(const ModuleString& string, std::size_t closing, std::int64_t depth) const;
     std::size_t parameters_before(const WalkInput& input, std::size_t module) const;

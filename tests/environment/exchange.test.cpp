@@ -116,7 +116,9 @@ TEST_CASE("a turtle's own queries are answered by the turtle, between those of p
     Environment environment = environment_of("[light]\nprocess = \"test-echo\"\nfactor = 5");
     AskingPlants plants;
     plants.add({{{0, 0, 0}, {1}}, {{1, 2, 3}, {0, 0, 0}}, {{0, 0, 0}, {2}}});
-    plants.interpretation(0).queries[1].kind = QueryKind::position;
+    Interpretation& asked = plants.interpretation(0);
+    asked.answers.push_back({1, 3, asked.queries[1].parameters_at, {1, 2, 3}, 0});
+    asked.queries.erase(asked.queries.begin() + 1);
     plants.exchange(environment);
     CHECK(plants.parameters() == std::vector<double>{5, 1, 2, 3, 10});
     CHECK(Echo::seen.size() == 2);

@@ -67,9 +67,7 @@ private:
 
     void look() {
         interpretation = interpret(*model, string, turtle, &derivation);
-        for (const Query& query : interpretation.queries) {
-            answer_from_turtle(query, Answer(string.parameters.data() + query.parameters_at, query.parameters.size()));
-        }
+        write_turtle_answers(interpretation, string);
     }
 };
 

@@ -42,8 +42,7 @@ Step look_at(const LonePlant& plant) {
     auto counts = plant.counts();
     Step step{counts["A"], counts["S"], counts["K"], counts["["], counts["%"]};
     step.signal_order = depth_of(plant.text(), 'S');
-    const QueryColumn& queries = plant.interpretation.queries;
-    step.apex_outside = step.apices == 1 && outside_square(queries.front().pose.position) > 0;
+    step.apex_outside = step.apices == 1 && outside_square(plant.interpretation.answers.front().position) > 0;
     return step;
 }
 

@@ -82,6 +82,14 @@ struct HandmadePlant {
         interpretation.queries.push_back(query);
     }
 
+    /// ?P(x, y, z), answered by the turtle.
+    void add_place(Identity identity, glm::dvec3 position, double width) {
+        add("?", {}, identity + 1000, 0, 0);
+        const std::size_t at = string.parameters.size();
+        const std::uint32_t module = add("P", {position.x, position.y, position.z}, identity, 0, 0);
+        interpretation.answers.push_back({module, 3, at, position, width});
+    }
+
     void add_organ(Organ::Shape shape, Identity identity, double diameter, Pose pose = {}) {
         add("@", {}, identity + 1000, 0, 0);
         const std::uint32_t module = add("o", {diameter}, identity, 0, 0);

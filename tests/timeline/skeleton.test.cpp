@@ -117,6 +117,25 @@ TEST_CASE("a query that is asked for is a vertex with its answer", "[timeline]")
     CHECK(values(data->GetPointData(), "light")[0] == 0.125);
 }
 
+TEST_CASE("queries that are asked for are vertices in string order, whoever answered them", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant = branched_plant();
+    plant.add_place(11, {1, 2, 3}, 0.5);
+    plant.add_query(12, {4, 5, 6}, 0.25);
+    plant.add_place(13, {7, 8, 9}, 1);
+    const auto data = recorded(folder, plant, "parameters = { light = '?E.1', height = '?P.2' }");
+    REQUIRE(data->GetNumberOfVerts() == 4);
+    const std::vector<double> identities = values(data->GetCellData(), "identity");
+    CHECK(std::vector<double>(identities.begin(), identities.begin() + 4) == std::vector<double>{4, 11, 12, 13});
+    CHECK(data->GetPoint(1)[2] == 3);
+    CHECK(data->GetPoint(2)[0] == 4);
+    CHECK(values(data->GetPointData(), "height")[3] == 8);
+    CHECK(values(data->GetPointData(), "radius")[3] == 0.5);
+    CHECK(std::isnan(values(data->GetPointData(), "light")[1]));
+    const RunFolder other;
+    CHECK(recorded(other, plant, "parameters = { height = '?P.2' }")->GetNumberOfVerts() == 2);
+}
+
 TEST_CASE("symbols are numbers into the names that the file carries", "[timeline]") {
     const RunFolder folder;
     HandmadePlant plant = branched_plant();

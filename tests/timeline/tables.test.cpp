@@ -143,6 +143,8 @@ TEST_CASE("statistics.csv has one row per step and plant, whatever every says", 
     HandmadePlant other;
     other.number = 1;
     other.quantities = {{"light.mean", 0.5}, {"a,b.x", 2}};
+    other.add_query(1, {0, 0, 0}, 1);
+    other.add_place(2, {0, 0, 0}, 1);
     for (int step = 0; step < 4; ++step) {
         HandmadePlant stem = stem_at(step);
         stem.quantities = {{"light.mean", 0.1 + step}, {"a,b.x", 1}};
@@ -151,13 +153,13 @@ TEST_CASE("statistics.csv has one row per step and plant, whatever every says", 
     CHECK(bytes_of(folder.path / "statistics.csv") ==
           "step,plant,modules,queries,internodes,organs,length,height,volume,born,died,light.mean,\"a,b.x\"\n"
           "0,0,1,0,1,0,1,1,0.01832595714594046,1,0,0.1,1\n"
-          "0,1,0,0,0,0,0,0,0,0,0,0.5,2\n"
+          "0,1,4,2,0,0,0,0,0,4,0,0.5,2\n"
           "1,0,2,0,2,0,3,3,0.05497787143782139,1,0,1.1,1\n"
-          "1,1,0,0,0,0,0,0,0,0,0,0.5,2\n"
+          "1,1,4,2,0,0,0,0,0,0,0,0.5,2\n"
           "2,0,1,0,1,0,3,3,0.05497787143782139,0,1,2.1,1\n"
-          "2,1,0,0,0,0,0,0,0,0,0,0.5,2\n"
+          "2,1,4,2,0,0,0,0,0,0,0,0.5,2\n"
           "3,0,2,0,2,0,6,6,0.10995574287564278,1,0,3.1,1\n"
-          "3,1,0,0,0,0,0,0,0,0,0,0.5,2\n");
+          "3,1,4,2,0,0,0,0,0,0,0,0.5,2\n");
     CHECK_FALSE(std::filesystem::exists(folder.path / "plants/0001.vtp"));
     CHECK(std::filesystem::exists(folder.path / "plants/0003.vtp"));
 }

@@ -34,7 +34,7 @@ bool same(const Interpretation& a, const Interpretation& b) {
     const PlantGeometry &g = a.geometry, &h = b.geometry;
     return g.internodes.size() == h.internodes.size() && g.axes == h.axes && g.vertices == h.vertices &&
            g.organs.size() == h.organs.size() && g.bounds.lower == h.bounds.lower && g.bounds.upper == h.bounds.upper &&
-           a.queries.size() == b.queries.size() &&
+           a.queries.size() == b.queries.size() && a.answers.size() == b.answers.size() &&
            std::equal(g.internodes.begin(), g.internodes.end(), h.internodes.begin(),
                       [](const Internode& s, const Internode& t) { return s.tip == t.tip && s.axis == t.axis; });
 }

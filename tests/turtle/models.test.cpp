@@ -145,7 +145,7 @@ TEST_CASE("what a cut will take is drawn by the L-system it stands in until then
         "Y --> FF\n"
         "endlsystem\n");
     const Interpretation& drawn = plant.draw();
-    CHECK(drawn.queries.at(0).pose.position.y == 101);
+    CHECK(drawn.answers.at(0).position.y == 101);
     REQUIRE(drawn.geometry.internodes.size() == 4);
     CHECK(drawn.geometry.internodes[1].tip.y == 1);
     CHECK(drawn.geometry.internodes[3].tip.y == 103);
@@ -159,12 +159,12 @@ TEST_CASE("queries in pictures are not sent, those of the string are", "[turtle]
         "homomorphism\n"
         "A --> F?P(0,0)?E(1)\n"
         "endlsystem\n");
-    const QueryColumn& queries = plant.draw().queries;
-    REQUIRE(queries.size() == 2);
-    CHECK(queries[0].pose.position.y == 1);
-    CHECK(queries[0].module == 2);
-    CHECK(queries[1].kind == QueryKind::communication);
-    CHECK(queries[1].identity == plant.string.identities[5]);
+    const Interpretation& drawn = plant.draw();
+    REQUIRE(drawn.answers.size() == 1);
+    CHECK(drawn.answers[0].position.y == 1);
+    CHECK(drawn.answers[0].module == 2);
+    REQUIRE(drawn.queries.size() == 1);
+    CHECK(drawn.queries[0].identity == plant.string.identities[5]);
 }
 
 TEST_CASE("declared processes are asked by name from a model file", "[turtle]") {

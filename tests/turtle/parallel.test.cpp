@@ -45,10 +45,14 @@ public:
         add(geometry.internodes.size(), geometry.organs.size(), geometry.axes, geometry.bounds.lower,
             geometry.bounds.upper);
         for (const Query& row : result.queries) {
-            add(row.kind, row.process, row.following, row.module, row.parameters_at, row.parameters.data(),
-                row.parameters.size(), row.following_parameters.data(), row.pose, row.width, row.scale, row.plant,
-                row.identity, row.following_identity);
+            add(row.process, row.following, row.module, row.parameters_at, row.parameters.data(), row.parameters.size(),
+                row.following_parameters.data(), row.pose, row.width, row.scale, row.plant, row.identity,
+                row.following_identity);
         }
+        for (const TurtleAnswer& row : result.answers) {
+            add(row.module, row.count, row.parameters_at, row.position, row.width);
+        }
+        for (const TurtleDirection& row : result.directions) add(row.parameters_at, row.count, row.values);
     }
 
     std::string bytes;

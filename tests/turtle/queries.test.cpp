@@ -15,10 +15,10 @@ using namespace espalier;
 
 namespace {
 
-std::vector<double> answer_to(const Query& query) {
-    std::vector<double> answer(query.parameters.begin(), query.parameters.end());
-    answer_from_turtle(query, answer);
-    return answer;
+/// The parameters of a string after the turtle has answered.
+std::vector<double> answered(Drawing drawing) {
+    write_turtle_answers(drawing.draw(), drawing.string);
+    return {drawing.string.parameters.begin(), drawing.string.parameters.end()};
 }
 
 /// A turtle of textbook matrices: the frame as columns heading, left, up; rotations multiply from the right.
@@ -84,13 +84,17 @@ TEST_CASE("?P ?H ?L ?U equal an independent replay on 100 random strings", "[tur
             }
         }
         Drawing drawing(text);
-        const QueryColumn& queries = drawing.draw().queries;
-        REQUIRE(queries.size() == 4 * expected.size());
+        const Interpretation& drawn = drawing.draw();
+        CHECK(drawn.queries.empty());
+        REQUIRE(drawn.answers.size() == 4 * expected.size());
         double error = 0;
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            const std::vector<double> answer = answer_to(queries[i]);
-            const glm::dvec3 difference = expected[i / 4][i % 4] - glm::dvec3(answer[0], answer[1], answer[2]);
-            error = std::max(error, glm::length(difference));
+        for (std::size_t i = 0; i < drawn.answers.size(); ++i) {
+            const TurtleAnswer& answer = drawn.answers[i];
+            error = std::max(error, glm::distance(expected[i / 4][0], answer.position));
+            double* const said = drawing.string.parameters.data() + answer.parameters_at;
+            std::fill_n(said, 3, 1e9);
+            write_turtle_answers(drawn, drawing.string);
+            error = std::max(error, glm::distance(expected[i / 4][i % 4], glm::dvec3(said[0], said[1], said[2])));
         }
         CHECK(error < 1e-9);
     }
@@ -101,7 +105,6 @@ TEST_CASE("a query names the module that carries its parameters", "[turtle]") {
     const QueryColumn& queries = drawing.draw().queries;
     REQUIRE(queries.size() == 1);
     const Query& query = queries[0];
-    CHECK(query.kind == QueryKind::communication);
     CHECK(query.process == -1);
     CHECK(query.module == 2);
     CHECK(query.parameters_at == 1);
@@ -115,7 +118,7 @@ TEST_CASE("a query names the module that carries its parameters", "[turtle]") {
 }
 
 TEST_CASE("the following module is the next one, a bracket too, and none at the end", "[turtle]") {
-    Drawing drawing("?E(1)[?P(1,2)]?E(1)");
+    Drawing drawing("?E(1)[?E(1,2)]?E(1)");
     const QueryColumn& queries = drawing.draw().queries;
     REQUIRE(queries.size() == 3);
     CHECK(queries[0].following == Alphabet::open_bracket);
@@ -157,27 +160,42 @@ TEST_CASE("declared processes are asked under their own names", "[turtle]") {
 TEST_CASE("queries with a wrong number of parameters ask nothing", "[turtle]") {
     for (const char* text : {"?E", "?P", "?P(1)", "?P(1,2,3,4)", "?Q(1,2,3)", "?X(1)", "E(1)", "P(1,2)", "?(1)E(2)"}) {
         INFO(text);
-        CHECK(Drawing(text).draw().queries.empty());
+        Drawing drawing(text);
+        CHECK(drawing.draw().queries.empty());
+        CHECK(drawing.result.answers.empty());
     }
 }
 
 TEST_CASE("the turtle fills two or three parameters and leaves a communication alone", "[turtle]") {
-    Drawing drawing("F(2)?P(9,9)?P(9,9,9)s(9,9)?E(5,6)");
-    const QueryColumn& queries = drawing.draw().queries;
-    REQUIRE(queries.size() == 4);
-    CHECK(answer_to(queries[0]) == std::vector<double>{0, 2});
-    CHECK(answer_to(queries[1]) == std::vector<double>{0, 2, 0});
-    CHECK(answer_to(queries[2]) == std::vector<double>{0, 2});
-    CHECK(answer_to(queries[3]) == std::vector<double>{5, 6});
+    const Drawing drawing("F(2)?P(9,9)?P(9,9,9)s(9,9)?E(5,6)");
+    CHECK(answered(drawing) == std::vector<double>{2, 0, 2, 0, 2, 0, 0, 2, 5, 6});
+}
+
+TEST_CASE("an answer names the module that carries its parameters, and tells place and width", "[turtle]") {
+    Drawing drawing("A(1)!(0.5)F(2)?H(8,9)B(9)");
+    const Interpretation& drawn = drawing.draw();
+    REQUIRE(drawn.answers.size() == 1);
+    const TurtleAnswer& answer = drawn.answers[0];
+    CHECK(answer.module == 4);
+    CHECK(answer.count == 0);
+    REQUIRE(drawn.directions.size() == 1);
+    CHECK(drawn.directions[0].count == 2);
+    CHECK(drawn.directions[0].parameters_at == 3);
+    CHECK(answer.parameters_at == 3);
+    CHECK(answer.position == glm::dvec3(0, 2, 0));
+    CHECK(answer.width == 0.5);
+    CHECK(answered(drawing) == std::vector<double>{1, 0.5, 2, 0, 1, 9});
 }
 
 TEST_CASE("?Q is the rotation of the initial frame to the turtle's", "[turtle]") {
     Drawing drawing("?Q(0,0,0,0)+(20)&(35)/(150)F?Q(0,0,0,0)");
-    const QueryColumn& queries = drawing.draw().queries;
-    CHECK(answer_to(queries.at(0)) == std::vector<double>{1, 0, 0, 0});
-    const std::vector<double> q = answer_to(queries.at(1));
+    const std::vector<TurtleDirection>& answers = drawing.draw().directions;
+    REQUIRE(answers.size() == 2);
+    CHECK(answers[0].values == std::array<double, 4>{1, 0, 0, 0});
+    CHECK(answers[1].count == 4);
+    const std::array<double, 4>& q = answers[1].values;
     const glm::dquat rotation(q[0], q[1], q[2], q[3]);
-    const Pose& pose = queries[1].pose;
+    const Pose pose = drawing.pose();
     CHECK(glm::length(rotation * glm::dvec3(0, 1, 0) - pose.heading) < 1e-14);
     CHECK(glm::length(rotation * glm::dvec3(-1, 0, 0) - pose.left) < 1e-14);
     CHECK(glm::length(rotation * glm::dvec3(0, 0, -1) - pose.up) < 1e-14);

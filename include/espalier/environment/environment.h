@@ -75,7 +75,6 @@ private:
     void round_answers(std::size_t process);
     void require_finite(std::size_t process, const WorldView& world) const;
     static void write_answers(const Batch& batch, std::span<ModuleString*> strings);
-    static void answer_turtle_queries(const WorldView& world, std::span<ModuleString*> strings);
 
     std::vector<std::string> names_;
     std::vector<std::string> kinds_;  ///< what each process is: "voxel-shade"

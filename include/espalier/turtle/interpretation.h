@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ namespace espalier {
 /// What one interpretation of one plant yields: the value that processes and recorders all read.
 struct Interpretation {
     PlantGeometry geometry;
-    QueryColumn queries;  ///< in string order
+    QueryColumn queries;           ///< to processes, in string order
+    Column<TurtleAnswer> answers;  ///< of the turtle itself, in string order
+    std::vector<TurtleDirection> directions;
 
     void clear();
 };
@@ -41,7 +44,10 @@ void interpret(const Model& model, const SymbolTable& symbols, const ModuleStrin
 Interpretation interpret(const Model& model, const ModuleString& string, const TurtleSettings& settings = {},
                          const Derivation* derivation = nullptr);
 
-/// Answers ?P ?H ?L ?U ?Q from the turtle's state; leaves a `communication` query alone.
-void answer_from_turtle(const Query& query, Answer answer);
+/// Writes the turtle's own answers into the string that asked.
+void write_turtle_answers(const Interpretation& interpretation, ModuleString& string);
+/// The same of some of them, all of which have parameters of their own.
+void write_turtle_answers(std::span<const TurtleAnswer> answers, std::span<const TurtleDirection> directions,
+                          ModuleString& string);
 
 }  // namespace espalier

@@ -1,20 +1,18 @@
-// A question of the plant to its surroundings, stamped by the turtle that met it.
+// What a plant asks: its surroundings, in questions stamped by the turtle that met them, or the turtle itself.
 #pragma once
 
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/lsystem/module_string.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 namespace espalier {
 
-/// Who answers: the scene's process for ?E and named queries, the turtle itself for ?P ?H ?L ?U ?Q.
-enum class QueryKind : std::uint8_t { communication, position, heading, left, up, orientation };
-
-/// One communication module of one plant. Parameters point into the plant's string.
+/// One communication module of one plant, ?E or a named one, which a process of the scene answers. Parameters point
+/// into the plant's string.
 struct Query {
-    QueryKind kind = QueryKind::communication;
     std::int16_t process = -1;       ///< index into Model::processes; -1: ?E, the scene's default process
     LetterId following = no_letter;  ///< the module that follows in the string, if any
     std::uint32_t plant = 0;
@@ -45,6 +43,22 @@ public:
 };
 
 using QueryColumn = std::vector<Query, UnwrittenAllocator<Query>>;
+
+/// Where the turtle was that answered ?P ?H ?L ?U or ?Q itself. Of ?P that is the answer; the others have more.
+struct TurtleAnswer {
+    std::uint32_t module;       ///< index of the module that carries the parameters
+    std::uint32_t count;        ///< parameters that are answered with the position, the first ones
+    std::size_t parameters_at;  ///< where they begin in ModuleString::parameters
+    glm::dvec3 position;
+    double width;  ///< line width, metres
+};
+
+/// The answer to ?H ?L ?U or ?Q.
+struct TurtleDirection {
+    std::size_t parameters_at = 0;
+    std::size_t count = 0;  ///< of the values
+    std::array<double, 4> values{};
+};
 
 /// An answer is written over a copy of the query's own parameters; what a process leaves alone keeps its value.
 using Answer = std::span<double>;

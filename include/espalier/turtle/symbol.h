@@ -17,9 +17,9 @@ using SymbolAction = void (*)(Walk& walk, std::span<const double> parameters);
 /// own, of which only the last may have parameters. A final `*` stands for any character ("~*"). `arities` are the
 /// numbers of parameters it acts on, any if empty; with other numbers it is skipped.
 struct Symbol {
-    /// Rows of result that are counted before a string is walked: an internode, a query. A symbol that says less than
-    /// it does costs time, nothing else.
-    enum class Effect : std::uint8_t { other, draws, asks };
+    /// Rows of result that are counted before a string is walked: an internode, a query, an answer of the turtle's. A
+    /// symbol that says less than it does costs time, nothing else.
+    enum class Effect : std::uint8_t { other, draws, asks, answers };
 
     Symbol(std::string name, std::vector<int> arities, std::string help, SymbolAction action,
            Effect effect = Effect::other);

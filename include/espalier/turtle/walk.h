@@ -113,6 +113,7 @@ public:
     struct Room {
         std::span<Internode> internodes;
         std::span<Query> queries;
+        std::span<TurtleAnswer> answers;
     };
 
     Walk() = default;
@@ -192,7 +193,11 @@ public:
     void finish();
 
     /// Sends the current module's parameters; does nothing inside a picture, whose answers nobody could read.
-    void ask(QueryKind kind);
+    void ask();
+    /// Answers the first `count` of the current module's parameters with the position; nothing inside a picture.
+    void answer(std::size_t count);
+    /// The same with other values.
+    void answer_with(const std::array<double, 4>& values, std::size_t count);
 
     /// The symbol of the current module, one code point or a declared name.
     const std::string& symbol() const;
@@ -231,8 +236,10 @@ private:
     const ModuleString* string_ = nullptr;
     const TurtleSettings* settings_ = nullptr;
     PlantGeometry* geometry_ = nullptr;
+    std::vector<TurtleDirection>* directions_ = nullptr;
     RowWriter<Column<Internode>> internodes_;
     RowWriter<QueryColumn> queries_;
+    RowWriter<Column<TurtleAnswer>> answers_;
     std::uint32_t plant_ = 0;
     const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
 
@@ -339,6 +346,16 @@ inline void Walk::pop() {
     turtles.pop();
     if (systems.size() > turtle().systems) systems.resize(turtle().systems);
     if (!elasticities.empty()) pop_elasticities();
+}
+
+inline void Walk::answer(std::size_t count) {
+    if (in_picture_) return;
+    TurtleAnswer& row = answers_.add();  // unwritten: every member is set
+    row.module = module_;
+    row.count = std::uint32_t(count);
+    row.parameters_at = parameters_at_;
+    row.position = turtle().pose.position;
+    row.width = turtle().width;
 }
 
 inline void Walk::set_width(double width) {

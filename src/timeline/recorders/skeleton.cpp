@@ -155,11 +155,11 @@ private:
         for (const ChosenParameter& parameter : chosen_) {
             if (parameter.of_query()) slots.emplace_back(parameter, plant.model->alphabet);
         }
-        const auto wanted = [&](const Query& query) {
+        const auto wanted = [&](std::uint32_t module) {
             return std::any_of(slots.begin(), slots.end(),
-                               [&](const ParameterSlots& slot) { return slot.find(*plant.string, query.module) >= 0; });
+                               [&](const ParameterSlots& slot) { return slot.find(*plant.string, module) >= 0; });
         };
-        if (!slots.empty()) add_queries(data_.mesh, plant.interpretation->queries, wanted, index);
+        if (!slots.empty()) add_queries(data_.mesh, *plant.interpretation, wanted, index);
     }
 
     void fill_arrays(const Frame& frame) {

@@ -93,11 +93,11 @@ private:
         }
         const PlantGeometry& geometry = plant.interpretation->geometry;
         const std::size_t modules = plant.string->size();
-        std::string row =
-            fmt::format("{},{},{},{},{},{},{},{},{},{}", step, plant.plant, modules,
-                        plant.interpretation->queries.size(), geometry.internodes.size(),
-                        geometry.organs.size() + geometry.polygons.size(), format_exact(total_length(geometry)),
-                        format_exact(height(geometry)), format_exact(total_volume(geometry)), turnover(plant));
+        const std::size_t queries = plant.interpretation->queries.size() + plant.interpretation->answers.size();
+        std::string row = fmt::format("{},{},{},{},{},{},{},{},{},{}", step, plant.plant, modules, queries,
+                                      geometry.internodes.size(), geometry.organs.size() + geometry.polygons.size(),
+                                      format_exact(total_length(geometry)), format_exact(height(geometry)),
+                                      format_exact(total_volume(geometry)), turnover(plant));
         for (const Quantity& quantity : plant.quantities) row.append(",").append(format_exact(quantity.value));
         return row + "\n";
     }

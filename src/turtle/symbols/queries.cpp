@@ -2,33 +2,46 @@
 // parameters are its question and, in the next frame, its answer.
 #include "espalier/turtle/symbol.h"
 
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
 namespace espalier {
 namespace {
 
-template <QueryKind kind>
-void ask(Walk& walk, std::span<const double>) {
-    walk.ask(kind);
+void answer_position(Walk& walk, std::span<const double> parameters) {
+    walk.answer(parameters.size());
 }
 
-const Symbol position{
-    "?P", {2, 3}, "?P(x, y, z): answered with the turtle's position", ask<QueryKind::position>, Symbol::Effect::asks};
+template <glm::dvec3 Pose::*direction>
+void answer_direction(Walk& walk, std::span<const double> parameters) {
+    const glm::dvec3& vector = walk.turtle().pose.*direction;
+    walk.answer_with({vector.x, vector.y, vector.z}, parameters.size());
+}
+
+/// The rotation that takes cpfg's initial frame to the turtle's, as (w, x, y, z) with w >= 0.
+void answer_orientation(Walk& walk, std::span<const double>) {
+    const Pose& pose = walk.turtle().pose;
+    glm::dquat rotation = glm::quat_cast(glm::dmat3(-pose.left, pose.heading, -pose.up));
+    if (rotation.w < 0) rotation = -rotation;
+    walk.answer_with({rotation.w, rotation.x, rotation.y, rotation.z}, 4);
+}
+
+void ask(Walk& walk, std::span<const double>) {
+    walk.ask();
+}
+
+using enum Symbol::Effect;
+
+const Symbol position{"?P", {2, 3}, "?P(x, y, z): answered with the turtle's position", answer_position, answers};
 const Symbol heading{
-    "?H", {2, 3}, "?H(x, y, z): answered with the turtle's heading", ask<QueryKind::heading>, Symbol::Effect::asks};
-const Symbol left{
-    "?L", {2, 3}, "?L(x, y, z): answered with the turtle's left", ask<QueryKind::left>, Symbol::Effect::asks};
-const Symbol up{"?U", {2, 3}, "?U(x, y, z): answered with the turtle's up", ask<QueryKind::up>, Symbol::Effect::asks};
-const Symbol orientation{"?Q",
-                         {4},
-                         "?Q(w, x, y, z): answered with the turtle's orientation, a quaternion",
-                         ask<QueryKind::orientation>,
-                         Symbol::Effect::asks};
-const Symbol old_position{
-    "s", {2, 3}, "s(x, y, z): the older name of ?P", ask<QueryKind::position>, Symbol::Effect::asks};
-const Symbol communication{"?E",
-                           {},
-                           "?E(...): asks the scene's default process; ?name(...) asks the process so named",
-                           ask<QueryKind::communication>,
-                           Symbol::Effect::asks};
+    "?H", {2, 3}, "?H(x, y, z): answered with the turtle's heading", answer_direction<&Pose::heading>, answers};
+const Symbol left{"?L", {2, 3}, "?L(x, y, z): answered with the turtle's left", answer_direction<&Pose::left>, answers};
+const Symbol up{"?U", {2, 3}, "?U(x, y, z): answered with the turtle's up", answer_direction<&Pose::up>, answers};
+const Symbol orientation{
+    "?Q", {4}, "?Q(w, x, y, z): answered with the turtle's orientation, a quaternion", answer_orientation, answers};
+const Symbol old_position{"s", {2, 3}, "s(x, y, z): the older name of ?P", answer_position, answers};
+const Symbol communication{
+    "?E", {}, "?E(...): asks the scene's default process; ?name(...) asks the process so named", ask, asks};
 
 }  // namespace
 }  // namespace espalier
