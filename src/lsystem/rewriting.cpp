@@ -184,7 +184,10 @@ bool recall_chunks(const StepInput& input, Forecast& forecast, Scratch& scratch)
 }
 
 void remember_chunks(const StepInput& input, const ModuleString& to, Scratch& scratch, Forecast& forecast) {
-    if (!input.model.plans.looks_ahead && !scratch.foresees) return;
+    if (!input.model.plans.looks_ahead && !scratch.foresees) {
+        forecast.letters = nullptr;
+        return Column<Change>().swap(forecast.changes);
+    }
     forecast.letters = to.letters.data();
     forecast.modules = to.size();
     forecast.parameters = to.parameters.size();

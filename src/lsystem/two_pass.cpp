@@ -76,12 +76,16 @@ bool place(const StepInput& input, Scratch& scratch, Measure measure, ModuleStri
         refuse_memory(input, extent.modules, bytes, count_uses(input, scratch));
     }
     resize(to, extent, input.ancestry);
-    scratch.foresees = input.model.plans.foresees && !keeps_places(input) && extent.modules > small;
+    // What is foreseen of a string may be larger than the string: there must be memory for it, too.
+    scratch.foresees = input.model.plans.foresees && !keeps_places(input) && extent.modules > small &&
+                       (changes + 1) * sizeof(Change) <= input.memory - bytes;
     if (scratch.foresees) {
         scratch.foreseen.clear();
         scratch.foreseen.resize(changes + 1);
         scratch.foreseen.back() = {std::uint64_t{extent.parameters} << 32 | extent.drawers,
                                    static_cast<std::uint32_t>(extent.modules), 0};
+    } else {
+        Column<Change>().swap(scratch.foreseen);
     }
     if (measure == Measure::taken && !scratch.chunks.empty()) {
         // A column without elements has no room behind them either.

@@ -453,6 +453,38 @@ TEST_CASE("a step that failed fails again, where it would have changed the strin
     }
 }
 
+TEST_CASE("a string for whose next changes there is no memory grows the same", "[lsystem]") {
+    ModelBuilder model;
+    model.system().seed = number(1);
+    model.system().axiom = model.word("AB");
+    model.rule("A", "AA");
+    model.rule("A", "ABA");
+    model.rule("B", "CB");
+    Derivation free(model.compiled());
+    ModuleString string = grow(free, 12), next, last;
+    free.step(string, next);
+    free.step(next, last);
+    REQUIRE(string.size() > 1000);
+    const auto bytes = [](const ModuleString& of) {
+        return of.letters.size() * sizeof(LetterId) + of.identities.size() * sizeof(Identity);
+    };
+    // Both strings fit into all of these, and what is foreseen of them into the last alone.
+    for (const std::size_t more : {std::size_t{0}, bytes(last), 100 * bytes(last)}) {
+        DerivationSettings settings;
+        settings.memory = bytes(next) + bytes(last) + more;
+        Derivation derivation(model.compiled(), settings);
+        ModuleString from = grow(derivation, 13), to;
+        CHECK(from.letters == next.letters);
+        derivation.step(from, to);
+        CHECK(to.letters == last.letters);
+        CHECK(to.identities == last.identities);
+        settings.memory = bytes(next) + bytes(last) - 1;
+        Derivation small(model.compiled(), settings);
+        from = grow(small, 13);
+        CHECK_THROWS_AS(small.step(from, to), RunError);
+    }
+}
+
 TEST_CASE("the first value of many that is not finite is named", "[lsystem]") {
     ModelBuilder model;
     model.system().axiom = {model.module("A", {number(1), number(1)})};
