@@ -93,6 +93,20 @@ TEST_CASE("any change of what a frame shows gives it a file of its own", "[timel
     }
 }
 
+TEST_CASE("a run that goes on from before its first frame writes what does not change once, too", "[timeline]") {
+    const RunFolder folder;
+    const HandmadePlant plant = branched_plant();
+    std::string checkpoint;
+    {
+        Timeline timeline(folder.path, timeline_table("first = 2"), 9);
+        record(timeline, 0, {&plant});
+        checkpoint = timeline.save();
+    }
+    Timeline timeline(folder.path, timeline_table("first = 2"), 9, checkpoint);
+    for (int step = 1; step <= 4; ++step) record(timeline, step, {&plant});
+    CHECK(files_named(folder.path / "plants.pvd") == std::vector<std::string>(3, "plants/0002.vtp"));
+}
+
 TEST_CASE("what a file does not hold may change without a new one", "[timeline]") {
     const RunFolder folder;
     Timeline timeline(folder.path, timeline_table(), 9);

@@ -121,8 +121,8 @@ private:
 
     // True if the last file shows what is there now.
     bool is_written() {
-        if (written_.empty()) return false;
         const auto digest = std::exchange(restored_, std::nullopt);
+        if (written_.empty()) return false;
         return digest ? digest_of(data_) == *digest : !data_.changed();
     }
 
