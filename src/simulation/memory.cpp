@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <fstream>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -46,11 +47,15 @@ std::size_t content(const ModuleString& string) {
 }
 
 void PlantMemory::set_drawn(const Interpretation& interpretation) {
-    const auto held = [](const auto& column) { return column.capacity() * sizeof(column[0]); };
+    const auto written = [](const auto& column) { return column.size() * sizeof(column[0]); };
+    // Memory that grows by doubling.
+    const auto held = [](const auto& column) {
+        return column.empty() ? 0 : std::bit_ceil(column.size()) * sizeof(column[0]);
+    };
     const PlantGeometry& geometry = interpretation.geometry;
     const DrawnMesh& mesh = geometry.mesh;
-    internodes = held(geometry.internodes);
-    others = held(interpretation.queries) + held(interpretation.answers) + held(interpretation.directions) +
+    internodes = written(geometry.internodes);
+    others = written(interpretation.queries) + written(interpretation.answers) + held(interpretation.directions) +
              held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) + held(mesh.vertices) +
              held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) + held(geometry.textures);
 }

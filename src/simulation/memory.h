@@ -19,7 +19,8 @@ MemoryShares share_memory(std::size_t budget, std::size_t processes);
 /// Bytes of the modules, without the room that the columns have besides.
 std::size_t content(const ModuleString& string);
 
-/// What plants hold, in bytes: their strings, and what was drawn of them.
+/// What plants hold, in bytes: their strings, and what was drawn of them. How much room their memory really has depends
+/// on the threads and on which frames are still read; where a run ends must not: told from what is in it.
 struct PlantMemory {
     std::size_t strings = 0, internodes = 0, others = 0;
 

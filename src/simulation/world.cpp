@@ -125,7 +125,7 @@ void Plant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
 std::size_t Plant::bytes_of_strings() const {
     const bool small = modules_before <= most_passed_on || string->size() <= most_passed_on;
     if (small || !next) return 2 * content(*string);
-    return string->bytes() + (*next)->bytes();
+    return content(*string) + content(**next);
 }
 
 /// Memory for strings that nobody holds now.

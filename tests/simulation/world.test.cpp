@@ -223,6 +223,39 @@ TEST_CASE_METHOD(Worlds, "what is drawn of a string counts against the memory, t
     CHECK(steps_within_64_mib("F\nF --> FF") < steps_within_64_mib("X\nX --> XX"));  // X draws nothing
 }
 
+TEST_CASE_METHOD(Worlds, "what counts against the memory depends on neither the threads nor who still reads frames",
+                 "[simulation]") {
+    // Large and small by turns, so that memory which serves again has room of its own; then too large.
+    const std::string model =
+        "lsystem: 1\nderivation length: 60\nStart: { k = 0; }\nStartEach: { k = k + 1; }\naxiom: A\n"
+        "A : k <= 14 --> AA\nA : k > 31 --> AF(1)A\nA : k == 4 * floor(k / 4) --> AF(1)F(1)F(1)F(1)\n"
+        "F(x) : k == 4 * floor(k / 4) + 2 --> *\nendlsystem\n";
+    const auto message = [&](int threads, std::size_t frames) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+        World world(scene(model), std::size_t{160} << 20);
+        std::vector<std::vector<PlantFrame>> kept;
+        const auto keep = [&] {
+            if (frames == 0) return;
+            const Frame frame = world.frame();
+            kept.emplace_back(frame.plants.begin(), frame.plants.end());
+            if (kept.size() > frames) kept[kept.size() - 1 - frames].clear();
+        };
+        try {
+            for (world.start(); world.steps_done() < 60; world.step()) keep();
+        } catch (const RunError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    const std::string expected = message(1, 0);
+    CHECK_THAT(expected, Contains("step 3") && Contains("--memory"));
+    for (const std::size_t frames : {0, 1, 2, 3}) {
+        CHECK(message(1, frames) == expected);
+        CHECK(message(4, frames) == expected);
+    }
+}
+
 TEST_CASE_METHOD(Worlds, "plants that fit one by one but not together end the run, and the largest is named",
                  "[simulation]") {
     const std::string model =
