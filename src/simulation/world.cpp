@@ -2,6 +2,7 @@
 
 #include "espalier/base/bytes.h"
 
+#include "growing_plant.h"
 #include "memory.h"
 #include "string_checkpoint.h"
 
@@ -23,135 +24,6 @@ namespace espalier {
 namespace {
 
 constexpr std::uint64_t checkpoint_signature = 0x31'646c'726f'57;  // "World1"
-
-/// Memory that frames may hold on to: what somebody else still reads is set aside until they let go of it. Where nobody
-/// ever does, it lies in its plant: the way to memory of its own costs many small plants a fifth of their step.
-template <class T>
-class Lent {
-public:
-    T& operator*() { return lending_ ? *lending_->now : own_; }
-    const T& operator*() const { return lending_ ? *lending_->now : own_; }
-    T* operator->() { return &**this; }
-    const T* operator->() const { return &**this; }
-    std::shared_ptr<const T> share() {
-        if (!lending_) lending_ = std::make_unique<Lending>(Lending{std::make_shared<T>(std::move(own_)), {}});
-        return lending_->now;
-    }
-    bool is_read() const { return lending_ && lending_->now.use_count() > 1; }
-    /// Something that nobody reads, its values left over from an earlier step.
-    T& for_writing() {
-        if (is_read()) lending_->set_aside();
-        return **this;
-    }
-
-private:
-    struct Lending {
-        std::shared_ptr<T> now;
-        std::vector<std::shared_ptr<T>> earlier;
-
-        void set_aside() {
-            const auto is_free = [](const std::shared_ptr<T>& one) { return one.use_count() == 1; };
-            const auto free = std::find_if(earlier.begin(), earlier.end(), is_free);
-            if (free == earlier.end())
-                earlier.push_back(std::exchange(now, std::make_shared<T>()));
-            else
-                now.swap(*free);
-        }
-    };
-
-    T own_;  ///< until it is shared
-    std::unique_ptr<Lending> lending_;
-};
-
-/// Strings of at most so many modules may be written to memory that plants pass on to each other: ten thousand herbs
-/// with two strings each would not fit into a cache.
-constexpr std::size_t most_passed_on = 8192;
-
-// What derivations know is kept here, as the last step left it: looking it up there costs more than a small plant's
-// step.
-struct Plant {
-    std::uint32_t number = 0;
-    std::uint32_t modules_before = 0;  ///< of the step that was done last
-    const PlantDescription* description = nullptr;
-    const Model* model = nullptr;
-    const SymbolTable* symbols = nullptr;
-    Derivation derivation;
-    bool has_pictures = derivation.has_homomorphism();
-    bool stopped = false;
-    int length = 0;
-    Lent<ModuleString> string = {};
-    Lent<Interpretation> interpretation = {};
-    PlantMemory memory = {};
-    std::unique_ptr<Lent<ModuleString>> next = {};  ///< between steps the string before; null: its memory is passed on
-
-    template <class Rewrite>
-    void rewrite(const Rewrite& rewrite, ModuleString* spare);
-    std::size_t bytes_of_strings() const;
-};
-
-void swap_columns(ModuleString& a, ModuleString& b) {
-    a.letters.swap(b.letters);
-    a.parameters.swap(b.parameters);
-    a.identities.swap(b.identities);
-    a.parents.swap(b.parents);
-    a.births.swap(b.births);
-}
-
-/// Makes the next string in the memory of `spare`, which gets that of the old one. Strings that are large, or that
-/// somebody reads, and all if `spare` is null, have a second memory of their own.
-template <class Rewrite>
-void Plant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
-    modules_before = static_cast<std::uint32_t>(string->size());
-    if (spare && modules_before <= most_passed_on && !string.is_read()) {
-        const std::size_t widest = 64 + 4 * string->size();
-        if (spare->letters.capacity() > widest) *spare = {};
-        next.reset();
-        rewrite(*this, *spare);
-        return swap_columns(*string, *spare);
-    }
-    const bool passed_on = !next;
-    if (!next) next = std::make_unique<Lent<ModuleString>>();
-    rewrite(*this, next->for_writing());
-    std::swap(string, *next);
-    const bool outgrows = modules_before <= most_passed_on && string->size() > most_passed_on;
-    if (!passed_on && !outgrows) return;
-    // How much room it had was chance; how large strings grow may depend on it.
-    Lent<ModuleString> fitting;
-    *fitting = ModuleString(**next);
-    *next = std::move(fitting);
-}
-
-/// Of small strings always as if there were two that fit: when memory gets scarce there will be.
-std::size_t Plant::bytes_of_strings() const {
-    const bool small = modules_before <= most_passed_on || string->size() <= most_passed_on;
-    if (small || !next) return 2 * content(*string);
-    return content(*string) + content(**next);
-}
-
-/// Memory for strings that nobody holds now.
-struct SpareStrings {
-    std::mutex mutex;
-    std::vector<ModuleString> strings;
-};
-
-/// One of them, as long as this lives.
-struct SpareString {
-    explicit SpareString(SpareStrings& others) : spares(others) {
-        const std::lock_guard lock(spares.mutex);
-        if (spares.strings.empty()) return;
-        string = std::move(spares.strings.back());
-        spares.strings.pop_back();
-    }
-    ~SpareString() {
-        const std::lock_guard lock(spares.mutex);
-        spares.strings.push_back(std::move(string));
-    }
-    SpareString(const SpareString&) = delete;
-    SpareString& operator=(const SpareString&) = delete;
-
-    SpareStrings& spares;
-    ModuleString string;
-};
 
 /// What is asked of all plants together after each stage.
 struct Totals {
