@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 namespace espalier {
@@ -56,8 +57,10 @@ Json json_of(const LastStep& last) {
 
 std::uintmax_t bytes_in(const fs::path& folder) {
     std::uintmax_t bytes = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) bytes += entry.file_size();
+    std::error_code gone;  // a run that goes on renames its files meanwhile
+    for (fs::recursive_directory_iterator entry(folder, gone), end; entry != end; entry.increment(gone)) {
+        const std::uintmax_t size = entry->is_regular_file(gone) ? entry->file_size(gone) : 0;
+        if (!gone) bytes += size;
     }
     return bytes;
 }
