@@ -1,4 +1,5 @@
-// Programs that neither jump nor fail, run for many modules of one production side by side.
+// Programs that only compute values, run for many modules of one production side by side. A module for which the
+// program has jumped ahead keeps its values until it is there.
 #pragma once
 
 #include "program.h"
@@ -20,6 +21,12 @@ public:
     /// Modules at once.
     static constexpr std::size_t lanes = 128;
 
+    struct Step {
+        Instruction instruction;  ///< with columns for registers
+        bool is_skipped;          ///< some modules may have jumped over it
+        bool may_divide_by_zero;
+    };
+
     /// Where a formal stands among the parameters of a module; nothing if it belongs to another.
     using Place = std::function<std::optional<std::uint32_t>(std::uint32_t formal)>;
 
@@ -27,8 +34,9 @@ public:
     static std::optional<ColumnProgram> make(const Program& program, std::span<const double> constants,
                                              std::uint32_t formals, const Place& place);
 
-    /// Of `count` modules, whose parameters begin at `values`. `columns` is memory to work in.
-    void run(const double* const* values, std::size_t count, const Variables& variables, bool quirks,
+    /// Of `count` modules, whose parameters begin at `values`. `columns` is memory to work in. False if one of them
+    /// divides by zero where that is an error: whoever runs the program for each alone will tell which.
+    bool run(const double* const* values, std::size_t count, const Variables& variables, bool quirks,
              std::vector<double>& columns) const;
     /// The values of a result, one a module, where `run` left them.
     const double* result(std::size_t k, const std::vector<double>& columns) const {
@@ -45,11 +53,12 @@ private:
         std::uint32_t column, place;
     };
 
-    std::vector<Instruction> code_;  ///< with columns for registers
+    std::vector<Step> steps_;
+    bool jumps_ = false;
     std::vector<Constant> constants_;
     std::vector<Input> inputs_;
     std::vector<std::uint32_t> results_;
-    std::size_t width_ = 0;
+    std::size_t width_ = 0;  ///< columns; behind them, if it jumps, where each module goes on
 };
 
 /// Modules that wait until a column program is run for all of them.

@@ -67,8 +67,8 @@ public:
     double value(std::uint32_t index) const { return registers_[index]; }
     /// Throws EvaluationError.
     void run(const Program& program);
-    void run(const ColumnProgram& program, const Batch& batch) {
-        program.run(batch.values.data(), batch.count, *variables_, quirks_, columns_);
+    bool run(const ColumnProgram& program, const Batch& batch) {
+        return program.run(batch.values.data(), batch.count, *variables_, quirks_, columns_);
     }
     const double* result(const ColumnProgram& program, std::size_t k) const { return program.result(k, columns_); }
     /// Modules that wait, by a number that whoever makes them wait chooses.

@@ -45,11 +45,15 @@ struct ClassesAtPositions {
 
 constexpr std::size_t looked_up_at_once = 256;
 
+/// Whether conditions are tested for many modules at once where they can be.
+enum class Tests { together, alone };
+
 /// Chooses and measures the modules of one chunk.
 class Measuring {
 public:
-    Measuring(const StepInput& input, Chunk& chunk, Machine& machine)
+    Measuring(const StepInput& input, Chunk& chunk, Machine& machine, Tests tests = Tests::together)
         : input_(input),
+          tests_(tests),
           choosing_(input.model.choosing),
           plans_(input.model.plans),
           letters_(input.from.letters.data()),
@@ -74,16 +78,22 @@ private:
     void end();
     Site site_at(const Change& change) const;
     void find_out(const Outcome& outcome, Change& change);
-    void match(const Trial& trial, Change& change);
+    const CompiledProduction* choose(const Trial& trial, const Change& change);
     void spell(const Trial& trial, Change& change);
     void test(std::uint32_t trial, const Change& change);
     void decide(std::uint32_t trial);
+    void decide_one_by_one(std::uint32_t trial);
     void hold_lotteries();
     void take(Change& change, std::uint32_t plan) {
         change.plan = plan;
         growth_ += plans_.growths[plan];
     }
     void take(Change& change, const CompiledProduction* production);
+    /// Among the choices of a letter; null: it stays what it is.
+    LetterId rank_of(const CompiledProduction* production) const {
+        if (!production) return 0;
+        return choosing_.ranks[static_cast<std::size_t>(production - input_.model.rules.productions.data())];
+    }
     /// Of a choice among those of a module's letter.
     std::uint32_t plan_of(const Change& change, std::uint32_t choice) const {
         const Plan* const choices = plans_.of_letter[letters_[change.module]].choices;
@@ -91,6 +101,7 @@ private:
     }
 
     const StepInput& input_;
+    Tests tests_;
     const Choosing& choosing_;
     const Plans& plans_;
     const LetterId* const letters_;
@@ -215,19 +226,19 @@ Site Measuring::site_at(const Change& change) const {
 void Measuring::find_out(const Outcome& outcome, Change& change) {
     if (outcome.way == Outcome::Way::known)
         take(change, plan_of(change, outcome.index));
-    else if (outcome.way == Outcome::Way::tested)
+    else if (outcome.way == Outcome::Way::tested && tests_ == Tests::together)
         test(outcome.index, change);
-    else if (outcome.way == Outcome::Way::matched)
-        match(choosing_.trials[outcome.index], change);
+    else if (outcome.way != Outcome::Way::spelled)
+        take(change, choose(choosing_.trials[outcome.index], change));
     else
         spell(choosing_.trials[outcome.index], change);
 }
 
-void Measuring::match(const Trial& trial, Change& change) {
+const CompiledProduction* Measuring::choose(const Trial& trial, const Change& change) {
     const std::span<const std::uint32_t> tried(choosing_.tried.data() + trial.begin, trial.end - trial.begin);
     const Site site = site_at(change);
     try {
-        take(change, matcher_.choose(input_.model.rules, tried, site));
+        return matcher_.choose(input_.model.rules, tried, site);
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, input_.model.source->alphabet, site.letter, site.values, input_.step));
     }
@@ -254,13 +265,23 @@ void Measuring::decide(std::uint32_t trial) {
             taken.fill(choice);
             continue;
         }
-        machine_.run(*production.tests, batch);
+        if (!machine_.run(*production.tests, batch)) return decide_one_by_one(trial);
         const double* const holds = machine_.result(*production.tests, 0);
         for (std::size_t i = 0; i < batch.count; ++i) taken[i] = holds[i] != 0 ? choice : taken[i];
     }
     for (std::size_t i = 0; i < batch.count; ++i) {
         Change& change = chunk_.changes[batch.changes[i]];
         take(change, plan_of(change, taken[i]));
+    }
+    batch.count = 0;
+}
+
+/// Some condition cannot be tested for all of them, perhaps for none who comes to it.
+void Measuring::decide_one_by_one(std::uint32_t trial) {
+    Batch& batch = machine_.batch(trial);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        Change& change = chunk_.changes[batch.changes[i]];
+        take(change, plan_of(change, rank_of(choose(choosing_.trials[trial], change))));
     }
     batch.count = 0;
 }
@@ -276,8 +297,7 @@ void Measuring::spell(const Trial& trial, Change& change) {
 }
 
 void Measuring::take(Change& change, const CompiledProduction* production) {
-    const CompiledProduction* const productions = input_.model.rules.productions.data();
-    take(change, plan_of(change, production ? choosing_.ranks[static_cast<std::size_t>(production - productions)] : 0));
+    take(change, plan_of(change, rank_of(production)));
     replaced_ = change.module + plans_.choices[change.plan].width;
 }
 
@@ -303,7 +323,15 @@ void Measuring::hold_lotteries() {
 void measure(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine) {
     // Changes have room among those of all chunks.
     const std::size_t room = chunk.begin + static_cast<std::size_t>(&chunk - scratch.chunks.data());
-    Measuring(input, chunk, machine).scan(scratch.told.data(), scratch.changes.data() + room);
+    const auto scan = [&](Tests tests) {
+        chunk.change_count = 0;
+        Measuring(input, chunk, machine, tests).scan(scratch.told.data(), scratch.changes.data() + room);
+    };
+    try {
+        scan(Tests::together);
+    } catch (const RunError&) {
+        scan(Tests::alone);  // those that waited may be wrong, and stand before
+    }
 }
 
 void measure_changes(const StepInput& input, Chunk& chunk, Machine& machine) {

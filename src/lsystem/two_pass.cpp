@@ -123,11 +123,11 @@ bool write_all(const StepInput& input, Scratch& scratch, Machines& machines, Mod
 }
 
 bool write_foreseen(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
-    if (!input.model.plans.looks_ahead) {
-        return measure_foreseen(input, scratch, machines) && place(input, scratch, Measure::taken, to) &&
-               write_all(input, scratch, machines, to);
-    }
     try {
+        if (!input.model.plans.looks_ahead) {
+            return measure_foreseen(input, scratch, machines) && place(input, scratch, Measure::taken, to) &&
+                   write_all(input, scratch, machines, to);
+        }
         return place(input, scratch, Measure::foreseen, to) && write_all(input, scratch, machines, to);
     } catch (const RunError&) {
         return false;  // who measures first meets it too, if it is one

@@ -379,7 +379,7 @@ void Writer::wait(const CompiledProduction& production, const double* values, do
 void Writer::settle(const CompiledProduction& production) {
     Batch& waiting = batch(production);
     if (waiting.count == 0) return;
-    machine_.run(*production.values, waiting);
+    finite_ &= machine_.run(*production.values, waiting);
     double difference = 0;  // to themselves
     for (std::size_t r = 0; r < production.values->results(); ++r) {
         const double* const results = machine_.result(*production.values, r);

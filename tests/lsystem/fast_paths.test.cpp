@@ -49,7 +49,7 @@ private:
         const int length = below(8) == 0 ? below(static_cast<int>(kind_.longest)) : below(4);
         Production& production = builder.rule(strict, word(length, formals));
         if (kind_.weights && below(3) > 0) production.weight = number(below(4) / 3.0);
-        if (kind_.conditions && formals > 0 && below(2) == 0) production.condition = value(formals) < value(formals);
+        if (kind_.conditions && formals > 0 && below(2) == 0) production.condition = condition(formals);
     }
 
     std::vector<ModuleTemplate> word(int length, int formals) {
@@ -63,13 +63,25 @@ private:
         return modules;
     }
 
+    Expression condition(int formals) {
+        const Expression first = value(formals) < value(formals);
+        if (below(2) == 0) return first;
+        return apply(below(2) == 0 ? Operator::logical_and : Operator::logical_or,
+                     {first, value(formals) < value(formals)});
+    }
+
     /// Copies, constants, products and sums that lanes can hold, and some that only a program can.
     Expression value(int formals) {
         const double constant = (below(200) - 100) / 64.0;
         if (formals == 0) return number(constant);
         const Expression parameter = formal(static_cast<std::uint32_t>(below(formals)));
         const Expression other = formal(static_cast<std::uint32_t>(below(formals)));
-        switch (below(8)) {
+        switch (below(10)) {
+            case 8:
+                return choose(apply(Operator::logical_and, {other < number(0), parameter < other}), parameter / other,
+                              number(constant));
+            case 9:
+                return apply(Operator::remainder, {parameter, number(1) + other * other});
             case 0:
                 return number(constant);
             case 1:
@@ -542,4 +554,52 @@ TEST_CASE("conditions and values of many modules at once are those of each alone
         return text_after(model, 2);
     };
     CHECK(grown(false) == grown(true));
+}
+
+TEST_CASE("where many modules are computed at once, each takes its own way through && || and ?:", "[lsystem]") {
+    const auto grown = [](bool ordered) {
+        ModelBuilder model;
+        for (int k = 0; k < 20'000; ++k) model.system().axiom.push_back(model.module("A", {number(k % 7), number(k)}));
+        const Expression x = formal(0), y = formal(1);
+        const Expression has_x = apply(Operator::not_equal, {x, number(0)});
+        const Expression half = choose(apply(Operator::remainder, {y, number(2)}), y / number(2), number(-1));
+        // Nobody divides by zero who does not come to it.
+        model
+            .rule({{"A", 2}},
+                  {model.module("A", {x + number(1), choose(has_x, choose(number(3) < x, y / x, half), x - y)})})
+            .condition = apply(Operator::logical_and, {has_x, y / x < number(3000)});
+        model.rule({{"A", 2}}, {model.module("B", {y / (x + number(1)), half})}).condition =
+            apply(Operator::logical_or, {y < number(9000), number(0) < x * y});
+        if (ordered) {
+            const std::uint32_t count = model.add_global("count");
+            model.rule("Z", "Z").after = {assign(global(count), number(1))};
+        }
+        return text_after(model, 3);
+    };
+    CHECK(grown(false) == grown(true));
+}
+
+TEST_CASE("the first module that divides by zero is named, however many are computed at once", "[lsystem]") {
+    ModelBuilder model;
+    const auto axiom = [&](int zero_of_b, int zero_of_a) {
+        model.system().axiom.clear();
+        for (int k = 0; k < 300; ++k) {
+            model.system().axiom.push_back(model.module("A", {number(k == zero_of_a ? 0 : k + 1)}));
+            model.system().axiom.push_back(model.module("B", {number(k == zero_of_b ? 0 : k + 1), number(k)}));
+        }
+    };
+    // One is found by a condition, the other by a value.
+    model.rule({{"A", 1}}, {model.module("A", {number(2)})}).condition = number(1) / formal(0) < number(2);
+    model.rule({{"B", 2}}, {model.module("C", {formal(1) / formal(0)})}).condition =
+        apply(Operator::remainder, {formal(1), formal(0)}) < number(1000);
+    const auto refused = [&] {
+        Derivation derivation(model.compiled());
+        ModuleString string, next;
+        derivation.start(string);
+        derivation.step(string, next);
+    };
+    axiom(200, 100);
+    CHECK_THROWS_WITH(refused(), Catch::Contains("1 / 0") && Catch::Contains("A(0)"));
+    axiom(100, 200);
+    CHECK_THROWS_WITH(refused(), Catch::Contains("100 % 0") && Catch::Contains("B(0,100)"));
 }

@@ -6,6 +6,7 @@
 #include "lsystem/model_builder.h"
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <random>
 #include <vector>
@@ -21,7 +22,7 @@ struct PlainModule {
 
 using PlainString = std::vector<PlainModule>;
 
-/// Numbers, formals, + - * <, and conditionals.
+/// Numbers, formals, + - * / % < && ||, and conditionals.
 inline double plain_value(const Expression& expression, const std::vector<double>& formals) {
     const auto operand = [&](std::size_t k) { return plain_value(expression.operands[k], formals); };
     switch (expression.kind) {
@@ -41,6 +42,14 @@ inline double plain_value(const Expression& expression, const std::vector<double
             return operand(0) - operand(1);
         case Operator::multiply:
             return operand(0) * operand(1);
+        case Operator::divide:
+            return operand(0) / operand(1);
+        case Operator::remainder:
+            return std::fmod(std::trunc(operand(0)), std::trunc(operand(1)));
+        case Operator::logical_and:
+            return operand(0) != 0 && operand(1) != 0;
+        case Operator::logical_or:
+            return operand(0) != 0 || operand(1) != 0;
         default:
             return operand(0) < operand(1);
     }
