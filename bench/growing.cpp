@@ -1,17 +1,41 @@
 #include "growing.h"
 
+#include <cstring>
 #include <string>
+#include <vector>
 
 namespace espalier::bench {
 
 using namespace test;
 
-void derive(benchmark::State& state, ModelBuilder& model, const Growing& growing) {
-    const tbb::global_control control = threads(state);
+namespace {
+
+DerivationSettings settings_of(const Growing& growing) {
     DerivationSettings settings;
     settings.seed = 1;
     settings.lineage = growing.lineage;
-    Derivation derivation(model.compiled(), settings);
+    return settings;
+}
+
+template <class T>
+void copy_column(const Column<T>& from, Column<T>& to) {
+    to.resize(from.size());
+    if (!from.empty()) std::memcpy(to.data(), from.data(), from.size() * sizeof(T));
+}
+
+void copy_columns(const ModuleString& from, ModuleString& to) {
+    copy_column(from.letters, to.letters);
+    copy_column(from.parameters, to.parameters);
+    copy_column(from.identities, to.identities);
+    copy_column(from.parents, to.parents);
+    copy_column(from.births, to.births);
+}
+
+}  // namespace
+
+void derive(benchmark::State& state, ModelBuilder& model, const Growing& growing) {
+    const tbb::global_control control = threads(state);
+    Derivation derivation(model.compiled(), settings_of(growing));
     ModuleString string, next;
     std::int64_t modules = 0;
     for (auto _ : state) {
@@ -23,6 +47,25 @@ void derive(benchmark::State& state, ModelBuilder& model, const Growing& growing
             if (growing.counts == Counts::written) modules += static_cast<std::int64_t>(string.size());
         }
         benchmark::DoNotOptimize(string.letters.data());
+    }
+    state.SetItemsProcessed(modules);
+}
+
+void copy(benchmark::State& state, ModelBuilder& model, const Growing& growing) {
+    Derivation derivation(model.compiled(), settings_of(growing));
+    std::vector<ModuleString> strings(std::size_t(growing.steps) + 1);
+    std::int64_t each = 0;
+    derivation.start(strings[0]);
+    for (std::size_t k = 1; k < strings.size(); ++k) {
+        derivation.step(strings[k - 1], strings[k]);
+        each += static_cast<std::int64_t>(strings[k].size());
+    }
+    ModuleString copied;
+    std::int64_t modules = 0;
+    for (auto _ : state) {
+        for (const ModuleString& string : strings) copy_columns(string, copied);
+        benchmark::DoNotOptimize(copied.letters.data());
+        modules += each;
     }
     state.SetItemsProcessed(modules);
 }

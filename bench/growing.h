@@ -22,6 +22,10 @@ struct Growing {
 /// With as many threads as the benchmark's argument says.
 void derive(benchmark::State& state, test::ModelBuilder& model, const Growing& growing);
 
+/// Copies the string of every step as often into memory that is there: what deriving it would take if nothing but its
+/// bytes counted.
+void copy(benchmark::State& state, test::ModelBuilder& model, const Growing& growing);
+
 /// Honda's monopodial tree (ABOP figure 2.6): A(l, w), B(l, w), C(l, w).
 void make_honda(test::ModelBuilder& model);
 

@@ -7,8 +7,10 @@
 #include "temporary_folder.h"
 
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include <benchmark/benchmark.h>
+#include <cstdint>
 #include <filesystem>
 
 namespace espalier::bench {
@@ -72,9 +74,12 @@ void recording_two_trees(benchmark::State& state) {
 }
 BENCHMARK(recording_two_trees)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 
+constexpr std::int64_t every_core = 0;
+
 /// The wall time of a whole run with its timeline, and of the growth alone, both grown by so many threads.
 void recorded_run_two_trees(benchmark::State& state) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(state.range(0)));
+    const auto threads = state.range(0) == every_core ? tbb::info::default_concurrency() : int(state.range(0));
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
     const Scene scene = two_trees();
     for (auto _ : state) {
         const double alone = grow(scene);
@@ -84,7 +89,7 @@ void recorded_run_two_trees(benchmark::State& state) {
         state.counters["value"] = 1e6 * recorded.megabytes / recorded.shapes;
     }
 }
-BENCHMARK(recorded_run_two_trees)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
+BENCHMARK(recorded_run_two_trees)->Arg(1)->Arg(every_core)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 
 const Row recording{"recording two-trees, against growing it",
                     "recording_two_trees/iterations:1/real_time",
@@ -99,14 +104,15 @@ const Row recorded_beside{"two-trees with its timeline, against without [1 threa
                           Row::Measure::counters,
                           Row::Goal::at_most,
                           1.2};
-const Row recorded_run{"two-trees with its timeline, against without [2 threads]",
-                       "recorded_run_two_trees/2/iterations:1/real_time",
+/// Where every core grows, what the writer does comes on top; it must take less than the growth itself.
+const Row recorded_run{"two-trees with its timeline, against without [every core grows]",
+                       "recorded_run_two_trees/0/iterations:1/real_time",
                        "",
                        Row::Measure::counters,
                        Row::Goal::at_most,
-                       1.2};
+                       2};
 const Row size{"two-trees: MB per 10^6 organs and internodes of a frame",
-               "recorded_run_two_trees/2/iterations:1/real_time",
+               "recorded_run_two_trees/0/iterations:1/real_time",
                "",
                Row::Measure::value,
                Row::Goal::at_most,
