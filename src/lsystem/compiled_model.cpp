@@ -230,6 +230,14 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
     return compiled;
 }
 
+bool lives_on_in_place(const Kin& kin) {
+    if (kin.heirs.size() != kin.length) return false;
+    for (std::size_t s = 0; s < kin.length; ++s) {
+        if (kin.heirs[s] != s) return false;
+    }
+    return true;
+}
+
 // Each strict module in turn hands its identity to the first successor module of its symbol that nobody has claimed.
 void SystemCompiler::descend(CompiledProduction& production) const {
     Kin& kin = production.kin;
@@ -253,6 +261,7 @@ void SystemCompiler::descend(CompiledProduction& production) const {
     }
     kin.length = production.length;
     kin.places.resize(whole_blocks(kin.length, lineage_block));
+    kin.same = lives_on_in_place(kin);
 }
 
 /// True if the expression or block reads a formal of one of the patterns.
@@ -389,6 +398,7 @@ Kin kin_among(const std::vector<std::uint8_t>& drawers, const CompiledProduction
         const bool kept = heir != Descent::none && drawers[production.letters[heir]];
         kin.heirs.push_back(kept ? among[heir] : Descent::none);
     }
+    kin.same = lives_on_in_place(kin);
     return kin;
 }
 

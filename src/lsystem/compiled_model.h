@@ -42,6 +42,7 @@ struct Kin {
     std::vector<std::uint32_t> places;  ///< of their descents, padded to whole blocks
     std::vector<std::uint32_t> heirs;   ///< of each strict module the place among these, or Descent::none
     std::size_t length = 0;
+    bool same = false;  ///< each lives on in its place, so that nobody need be told from those that do not change
 };
 
 struct CompiledProduction {

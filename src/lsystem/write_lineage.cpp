@@ -118,12 +118,14 @@ template <Ancestry kept>
         if (change.module < replaced) continue;  // replaced with one before it
         const Plan& plan = lines.plan(change);
         if (!plan.production) continue;  // it lives on after all
+        replaced = change.module + plan.width;
+        const Kin& kin = drawers ? plan.production->drawers : plan.production->kin;
+        if (kin.same) continue;
         const std::size_t begin = (drawers ? change.drawers() : change.module) - lines.begin;
         if (begin > place.module) write_run<kept>(lines, place, begin);
-        write_brood<kept>(lines, drawers ? plan.production->drawers : plan.production->kin, place);
+        write_brood<kept>(lines, kin, place);
         place.module += drawers ? plan.read_drawers : plan.width;
         place.at += drawers ? plan.drawers : plan.length;
-        replaced = change.module + plan.width;
     }
 }
 
