@@ -58,6 +58,7 @@ private:
     void index(CompiledRules& rules) const;
     void find_drawers();
     std::int32_t always(const CompiledRules& rules, LetterId letter) const;
+    static void find_laid_out(CompiledRules& rules);
     void place_registers();
     void make_columns();
     void place_registers(CompiledRules& rules);
@@ -83,6 +84,7 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compile_depth(system_.decomposition, compiled_->decomposition);
     compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism));
     compile_depth(system_.homomorphism, compiled_->homomorphism);
+    find_laid_out(compiled_->homomorphism);
     find_drawers();
     compiled_->plans = make_plans(*compiled_);
     compiled_->ring = system_.ring;
@@ -427,6 +429,14 @@ void SystemCompiler::find_drawers() {
         }
     }
     for (CompiledProduction& production : rules.productions) production.drawers = kin_among(drawers, production);
+}
+
+void SystemCompiler::find_laid_out(CompiledRules& rules) {
+    for (const std::int32_t always : rules.always) {
+        const CompiledProduction* picture = always < 0 ? nullptr : &rules.productions[static_cast<std::size_t>(always)];
+        const bool simple = picture && rules.maximum_depth > 0 && picture->affine && rules.is_final(*picture);
+        rules.laid_out.push_back(simple ? picture : nullptr);
+    }
 }
 
 std::int32_t SystemCompiler::always(const CompiledRules& rules, LetterId letter) const {

@@ -80,6 +80,9 @@ struct CompiledRules {
     std::vector<std::uint32_t> first;
     /// The production that replaces every module of a letter whatever surrounds it, -1 if none or it depends.
     std::vector<std::int32_t> always;
+    /// Of a homomorphism, by letter: the production that is always its picture, with lanes for values and no picture in
+    /// turn; null: a painter must find out.
+    std::vector<const CompiledProduction*> laid_out;
     bool stochastic = false;
     bool uses_context = false;
     bool binds_context = false;
@@ -95,6 +98,12 @@ struct CompiledRules {
 
     bool empty() const { return productions.empty(); }
     bool has(LetterId letter) const { return first[letter] != first[letter + 1]; }
+    /// Of a homomorphism or decomposition: what the production writes is not replaced in turn.
+    bool is_final(const CompiledProduction& production) const {
+        const auto end = production.letters.begin() + static_cast<std::ptrdiff_t>(production.length);
+        return maximum_depth <= 1 ||
+               std::none_of(production.letters.begin(), end, [&](LetterId letter) { return has(letter); });
+    }
     /// A production may replace both of two modules that stand side by side.
     bool joins(LetterId left, LetterId right) const {
         return std::binary_search(joints.begin(), joints.end(), std::pair(left, right));

@@ -29,12 +29,12 @@ inline bool write_lanes(const Plan& plan, const double* values, double* out) {
 }
 
 /// The same for one module's values alone; false if one of them is not finite.
-inline bool write_lanes_exactly(const Plan& plan, const double* values, double* out) {
+inline bool write_lanes_exactly(const Lanes& lanes, std::size_t count, bool reads, const double* values, double* out) {
     static constexpr double none = 0;
-    const double* const source = plan.reads > 0 ? values : &none;
+    const double* const source = reads ? values : &none;
     bool finite = true;
-    for (std::uint32_t k = 0; k < plan.parameters; ++k) {
-        const double value = source[plan.lanes->sources[k]] * plan.lanes->scales[k] + plan.lanes->offsets[k];
+    for (std::size_t k = 0; k < count; ++k) {
+        const double value = source[lanes.sources[k]] * lanes.scales[k] + lanes.offsets[k];
         out[k] = value;
         finite &= value - value == 0;
     }

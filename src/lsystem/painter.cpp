@@ -22,11 +22,7 @@ Brush::Brush(const CompiledSystem& system)
       machine(system.machine()),
       matcher(system, machine),
       expansion(system.homomorphism, matcher, machine) {
-    for (const CompiledProduction& production : rules.productions) {
-        const auto end = production.letters.begin() + static_cast<std::ptrdiff_t>(production.length);
-        final.push_back(rules.maximum_depth <= 1 || std::none_of(production.letters.begin(), end,
-                                                                 [&](LetterId letter) { return rules.has(letter); }));
-    }
+    for (const CompiledProduction& production : rules.productions) final.push_back(rules.is_final(production));
 }
 
 Painter::Painter(const CompiledModel& model) : model_(model) {

@@ -1,4 +1,5 @@
 // Homomorphism: the picture of a module, for interpretation. Looking never changes growth.
+#include "lanes.h"
 #include "painter.h"
 
 namespace espalier {
@@ -6,6 +7,21 @@ namespace {
 
 bool draws(const CompiledSystem& system, LetterId letter) {
     return system.homomorphism.has(letter) && system.homomorphism.maximum_depth > 0;
+}
+
+/// Appends a picture that is always the same but for its values; false if one of them is not finite.
+bool lay_out(const CompiledProduction& production, const double* values, ModuleString& picture) {
+    const std::size_t first = picture.parameters.size();
+    picture.parameters.resize(first + production.parameters);
+    const bool finite = write_lanes_exactly(production.lanes, production.parameters, production.strict[0].arity > 0,
+                                            values, picture.parameters.data() + first);
+    if (!finite) {
+        picture.parameters.resize(first);
+        return false;
+    }
+    const LetterId* const letters = production.letters.data();
+    picture.letters.insert(picture.letters.end(), letters, letters + production.length);
+    return true;
 }
 
 }  // namespace
@@ -29,10 +45,14 @@ std::size_t Derivation::picture(const ModuleString& string, const std::vector<st
     const LetterId letter = string.letters[module];
     if (!may_have_picture(letter)) return 0;
     State& state = *state_;
+    const double* values = string.parameters.data() + parameters_at;
+    if (!state.model->nested) {
+        const CompiledProduction* simple = state.main.homomorphism.laid_out[letter];
+        if (simple && lay_out(*simple, values, picture)) return 1;
+    }
     std::shared_ptr<Painter>& painter = state.model->painters.local();
     if (!painter) painter = std::make_shared<Painter>(*state.model);
     painter->work_for(state);
-    const double* values = string.parameters.data() + parameters_at;
     const Identity identity = string.has_identities() ? string.identities[module] : mix(module);
     const Subject subject{string,
                           {&string, links.partner.data(), offsets ? offsets->data() : nullptr},

@@ -297,7 +297,8 @@ bool Writer::write_module() {
     }
     std::copy_n(plan.production ? plan.letters : plan.block.data(), plan.length, at_.out);
     if (plan.kind == Plan::Kind::program || plan.kind == Plan::Kind::mixed ||
-        (plan.kind == Plan::Kind::lanes && !write_lanes_exactly(plan, at_.values, at_.out_values))) {
+        (plan.kind == Plan::Kind::lanes &&
+         !write_lanes_exactly(*plan.lanes, plan.parameters, plan.reads > 0, at_.values, at_.out_values))) {
         write_values(plan, at_);
     } else if (plan.kind != Plan::Kind::lanes) {
         std::copy_n(at_.values, plan.parameters, at_.out_values);

@@ -107,6 +107,29 @@ TEST_CASE("homomorphism changes what is drawn, not the string", "[lsystem]") {
     CHECK(text_after(model, 2) == "A(2)F");
 }
 
+TEST_CASE("a picture whose production always applies is that of one with a condition that holds", "[lsystem]") {
+    const auto drawn_of = [](double x, bool tested) {
+        ModelBuilder model;
+        model.system().axiom = {model.module("A", {number(x), number(-3)}), model.module("F", {}),
+                                model.module("E", {})};
+        const auto picture = [&](const char* strict, int arity, std::vector<ModuleTemplate> successor) {
+            Production production = model.make({}, {{strict, arity}}, {}, std::move(successor));
+            if (tested) production.condition = number(0) < number(1) + formal(0) * formal(0);
+            model.system().homomorphism.productions.push_back(std::move(production));
+        };
+        picture("A", 2,
+                {model.module("F", {formal(1) * number(2) - number(1)}),
+                 model.module("G", {number(7), formal(0) * number(1e10)})});
+        tested = false;
+        picture("F", 0, {model.module("G", {number(0.5), number(1)})});
+        picture("E", 0, {});
+        return pictured(model, 0);
+    };
+    CHECK(drawn_of(2, false) == "F(-7)G(7,2e+10)G(0.5,1)");
+    CHECK(drawn_of(2, true) == drawn_of(2, false));
+    CHECK_THROWS_WITH(drawn_of(1e300, false), Catch::Contains("in module A(1e+300,-3) at step 0"));
+}
+
 TEST_CASE("homomorphism sees contexts with their parameters, with and without offsets", "[lsystem]") {
     ModelBuilder model;
     model.system().axiom = {model.module("L", {number(2)}), model.module("[", {}), model.module("L", {number(9)}),
