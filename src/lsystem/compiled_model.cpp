@@ -82,6 +82,9 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     // Decomposition takes the first production that applies, whatever the weights (cpfg).
     compiled_->decomposition = compile_rules(system_.decomposition.productions, false);
     compile_depth(system_.decomposition, compiled_->decomposition);
+    for (CompiledProduction& production : compiled_->rules.productions) {
+        production.decomposes = compiled_->decomposition.follow(production);
+    }
     compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism));
     compile_depth(system_.homomorphism, compiled_->homomorphism);
     find_laid_out(compiled_->homomorphism);
@@ -434,7 +437,9 @@ void SystemCompiler::find_drawers() {
 void SystemCompiler::find_laid_out(CompiledRules& rules) {
     for (const std::int32_t always : rules.always) {
         const CompiledProduction* picture = always < 0 ? nullptr : &rules.productions[static_cast<std::size_t>(always)];
-        const bool simple = picture && rules.maximum_depth > 0 && picture->affine && rules.is_final(*picture);
+        const bool final =
+            picture && (rules.maximum_depth == 1 || (rules.maximum_depth > 1 && !rules.follow(*picture)));
+        const bool simple = final && picture->affine;
         rules.laid_out.push_back(simple ? picture : nullptr);
     }
 }

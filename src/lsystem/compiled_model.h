@@ -65,6 +65,7 @@ struct CompiledProduction {
     std::optional<ColumnProgram> tests;   ///< the condition
     std::optional<ColumnProgram> values;  ///< of `rest` or, where nothing is a lane, the successor
     bool reads_context = false;           ///< the successor needs parameters of modules in the context
+    bool decomposes = false;              ///< what it writes may be decomposed
     bool writes_draw = false;             ///< after-block or successor take random numbers
     bool tests_draw = false;              ///< before-block, condition or weight take random numbers
 
@@ -98,11 +99,10 @@ struct CompiledRules {
 
     bool empty() const { return productions.empty(); }
     bool has(LetterId letter) const { return first[letter] != first[letter + 1]; }
-    /// Of a homomorphism or decomposition: what the production writes is not replaced in turn.
-    bool is_final(const CompiledProduction& production) const {
+    /// Some of these productions is of a letter that the production writes.
+    bool follow(const CompiledProduction& production) const {
         const auto end = production.letters.begin() + static_cast<std::ptrdiff_t>(production.length);
-        return maximum_depth <= 1 ||
-               std::none_of(production.letters.begin(), end, [&](LetterId letter) { return has(letter); });
+        return std::any_of(production.letters.begin(), end, [&](LetterId letter) { return has(letter); });
     }
     /// A production may replace both of two modules that stand side by side.
     bool joins(LetterId left, LetterId right) const {

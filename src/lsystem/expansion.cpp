@@ -1,5 +1,7 @@
 #include "expansion.h"
 
+#include "lanes.h"
+
 #include <algorithm>
 
 namespace espalier {
@@ -18,26 +20,29 @@ const CompiledProduction* Expansion::choose(const ModuleStack& stack, Site& site
     return matcher_.choose(rules_, site);
 }
 
-void Expansion::push_successor(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
-                               std::uint32_t depth, ModuleStack& stack) {
+void Expansion::evaluate(const CompiledProduction& production, const double* values) {
     if (!production.after.empty()) machine_.run(production.after);
-    machine_.run(production.successor);
     successor_.resize(production.parameters);
+    // Blocks may have changed what the formals are bound to.
+    const bool in_lanes = production.affine && production.before.empty() && production.after.empty();
+    if (in_lanes && write_lanes_exactly(production, values, successor_.data())) return;
+    machine_.run(production.successor);
     for (std::size_t k = 0; k < production.parameters; ++k) {
         successor_[k] = machine_.value(production.successor.results[k]);
     }
     require_finite(production, successor_.data());
+}
+
+void Expansion::push_successor(const CompiledProduction& production, const double* values, const Lineage* strict,
+                               std::uint32_t step, std::uint32_t depth, ModuleStack& stack) {
+    evaluate(production, values);
     const Brood brood(strict[0].identity, step);
     const double* end = successor_.data() + production.parameters;
     for (std::size_t k = production.length; k-- > 0;) {
-        const Descent& descent = production.descents[k];
-        ModuleStack::Entry entry{production.letters[k], production.arities[k], depth, {}};
-        if (descent.heir_of != Descent::born)
-            entry.lineage = strict[descent.heir_of];
-        else
-            entry.lineage = {brood.born(descent.place, depth), strict[0].identity, step};
-        end -= entry.arity;
-        stack.push(entry, end);
+        const std::uint16_t arity = production.arities[k];
+        end -= arity;
+        stack.push({production.letters[k], arity, depth, lineage(production.descents[k], strict, brood, step, depth)},
+                   end);
     }
 }
 

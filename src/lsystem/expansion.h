@@ -81,9 +81,14 @@ public:
     /// Takes the last module from the stack and pushes what replaces it. Returns the module if nothing does.
     const ModuleStack::Entry* replace(ModuleStack& stack, const Site& origin, std::uint32_t step);
 
-    /// Evaluates the successor of a production whose formals are bound and pushes it, last module first.
-    void push_successor(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
-                        std::uint32_t depth, ModuleStack& stack);
+    /// Evaluates the successor of a production whose formals are bound, those of the strict predecessor to `values`,
+    /// and pushes it, last module first.
+    void push_successor(const CompiledProduction& production, const double* values, const Lineage* strict,
+                        std::uint32_t step, std::uint32_t depth, ModuleStack& stack);
+    /// The same, but hands each module to `emit`, first module first: nothing decomposes them.
+    template <class Emitter>
+    void emit_successor(const CompiledProduction& production, const double* values, const Lineage* strict,
+                        std::uint32_t step, Emitter&& emit);
 
     bool reached_limit() const { return reached_limit_; }
     /// The module that was replaced last.
@@ -95,6 +100,12 @@ private:
     Matcher& matcher_;
     Machine& machine_;
     const CompiledProduction* choose(const ModuleStack& stack, Site& site);
+    void evaluate(const CompiledProduction& production, const double* values);
+    static Lineage lineage(const Descent& descent, const Lineage* strict, const Brood& brood, std::uint32_t step,
+                           std::uint32_t depth) {
+        if (descent.heir_of != Descent::born) return strict[descent.heir_of];
+        return {brood.born(descent.place, depth), strict[0].identity, step};
+    }
 
     std::vector<double> values_, successor_;
     ModuleStack::Entry entry_;
@@ -123,8 +134,21 @@ inline const ModuleStack::Entry* Expansion::replace(ModuleStack& stack, const Si
     strict_.assign(1, entry_.lineage);
     for (std::size_t k = 0; k < more; ++k) strict_.push_back(stack.below(k).lineage);
     stack.drop(more);
-    push_successor(*production, strict_.data(), step, entry_.depth + 1, stack);
+    push_successor(*production, values_.data(), strict_.data(), step, entry_.depth + 1, stack);
     return nullptr;
+}
+
+template <class Emitter>
+void Expansion::emit_successor(const CompiledProduction& production, const double* values, const Lineage* strict,
+                               std::uint32_t step, Emitter&& emit) {
+    evaluate(production, values);
+    const Brood brood(strict[0].identity, step);
+    const double* at = successor_.data();
+    for (std::size_t k = 0; k < production.length; ++k) {
+        const std::uint16_t arity = production.arities[k];
+        emit(production.letters[k], at, arity, lineage(production.descents[k], strict, brood, step, 0));
+        at += arity;
+    }
 }
 
 template <class Emitter>

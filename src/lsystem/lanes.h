@@ -1,7 +1,7 @@
 // Parameters that need no program: writes the lanes of a plan.
 #pragma once
 
-#include "plans.h"
+#include "compiled_model.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +39,12 @@ inline bool write_lanes_exactly(const Lanes& lanes, std::size_t count, bool read
         finite &= value - value == 0;
     }
     return finite;
+}
+
+inline bool write_lanes_exactly(const CompiledProduction& production, const double* values, double* out) {
+    const bool reads = std::any_of(production.strict.begin(), production.strict.end(),
+                                   [](const CompiledPattern& pattern) { return pattern.arity > 0; });
+    return write_lanes_exactly(production.lanes, production.parameters, reads, values, out);
 }
 
 }  // namespace espalier

@@ -106,7 +106,14 @@ std::size_t OnePass::rewrite(const Site& site) {
         matcher_.begin_successor(*production, site);
         strict_.clear();
         for (std::size_t k = 0; k < width; ++k) strict_.push_back(lineage(site.first + k));
-        rewriting_.push_successor(*production, strict_.data(), input_.step, 0, stack_);
+        if (!production->decomposes && !enclosure_) {
+            rewriting_.emit_successor(*production, site.values, strict_.data(), input_.step,
+                                      [&](LetterId letter, const double* values, std::size_t arity,
+                                          const Lineage& lineage) { out_.append(letter, values, arity, lineage); });
+            follow_reseeding();
+            return width;
+        }
+        rewriting_.push_successor(*production, site.values, strict_.data(), input_.step, 0, stack_);
         follow_reseeding();
     } else {
         const int arity = model_.source->alphabet.arity(site.letter);

@@ -22,7 +22,9 @@ Brush::Brush(const CompiledSystem& system)
       machine(system.machine()),
       matcher(system, machine),
       expansion(system.homomorphism, matcher, machine) {
-    for (const CompiledProduction& production : rules.productions) final.push_back(rules.is_final(production));
+    for (const CompiledProduction& production : rules.productions) {
+        final.push_back(rules.maximum_depth <= 1 || !rules.follow(production));
+    }
 }
 
 Painter::Painter(const CompiledModel& model) : model_(model) {
@@ -86,7 +88,7 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
         strict_.assign(production->strict.size(), {subject.site.drawer, 0, 0});
         used.matcher.begin_successor(*production, subject.site);
         stack_.clear();
-        used.expansion.push_successor(*production, strict_.data(), state_->step, 1, stack_);
+        used.expansion.push_successor(*production, subject.site.values, strict_.data(), state_->step, 1, stack_);
         Subject inside = subject;
         inside.site.width = production->strict.size();
         if (model_.nested)
