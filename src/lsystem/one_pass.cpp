@@ -16,9 +16,10 @@ GrowingString::GrowingString(ModuleString& string, const StepInput& input, std::
     bytes_ += held_;
 }
 
-void GrowingString::grow(std::size_t arity) {
-    const std::size_t parameters = string_.parameters.size() + arity;
-    if (string_.letters.size() == modules_) modules_ = std::max<std::size_t>(1024, modules_ * 2);
+void GrowingString::grow(std::size_t more_modules, std::size_t more_parameters) {
+    const std::size_t modules = string_.letters.size() + more_modules;
+    const std::size_t parameters = string_.parameters.size() + more_parameters;
+    if (modules > modules_) modules_ = std::max<std::size_t>(1024, (modules - 1) * 2);
     if (parameters > parameters_) parameters_ = std::max<std::size_t>(1024, parameters * 2);
     const std::size_t needed = bytes_needed({modules_, parameters_}, input_.ancestry);
     const std::size_t total = bytes_ += needed > held_ ? needed - held_ : 0;
@@ -30,6 +31,22 @@ void GrowingString::grow(std::size_t arity) {
     if (input_.ancestry != Ancestry::whole) return;
     string_.parents.reserve(modules_);
     string_.births.reserve(modules_);
+}
+
+void GrowingString::append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters) {
+    const bool has_room =
+        end - begin <= modules_ - string_.letters.size() && parameters <= parameters_ - string_.parameters.size();
+    if (!has_room) grow(end - begin, parameters);
+    const auto append = [&](auto& column, const auto& old) {
+        column.insert(column.end(), old.data() + begin, old.data() + end);
+    };
+    append(string_.letters, input_.from.letters);
+    string_.parameters.insert(string_.parameters.end(), values, values + parameters);
+    if (input_.ancestry == Ancestry::none) return;
+    append(string_.identities, input_.from.identities);
+    if (input_.ancestry == Ancestry::identities) return;
+    append(string_.parents, input_.from.parents);
+    append(string_.births, input_.from.births);
 }
 
 OnePass::OnePass(const StepInput& input, Machine& machine, Services& services, GrowingString& out)
@@ -69,18 +86,19 @@ private:
 
 }  // namespace
 
-Lineage OnePass::lineage(std::size_t module) const {
-    if (input_.ancestry == Ancestry::none) return {};
-    if (input_.ancestry == Ancestry::identities) return {input_.from.identities[module]};
-    return {input_.from.identities[module], input_.from.parents[module], input_.from.births[module]};
-}
-
 std::size_t OnePass::run(std::size_t begin, std::size_t end, std::size_t parameters_at) {
     const auto arities = model_.source->alphabet.arities();
     const LetterId* letters = input_.from.letters.data();
     const double* values = input_.from.parameters.data() + parameters_at;
     std::size_t i = begin;
     while (i < end) {
+        if (lives_on(letters[i])) {
+            const std::size_t first = i;
+            const double* const first_values = values;
+            for (; i < end && lives_on(letters[i]); ++i) values += arities[letters[i]];
+            out_.append_run(first, i, first_values, static_cast<std::size_t>(values - first_values));
+            continue;
+        }
         const auto at = static_cast<std::size_t>(values - input_.from.parameters.data());
         const Site site{i, at, letters[i], values, lineage(i).identity, 0};
         std::size_t consumed = 0;

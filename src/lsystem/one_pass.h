@@ -18,7 +18,7 @@ public:
     GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes, Room room = Room::own);
 
     void append(LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
-        if (string_.letters.size() == modules_ || parameters_ - string_.parameters.size() < arity) grow(arity);
+        if (string_.letters.size() == modules_ || parameters_ - string_.parameters.size() < arity) grow(1, arity);
         string_.letters.push_back(letter);
         string_.parameters.insert(string_.parameters.end(), values, values + arity);
         if (input_.ancestry == Ancestry::none) return;
@@ -28,10 +28,13 @@ public:
         string_.births.push_back(lineage.birth);
     }
 
+    /// Appends modules of the old string that live on; `parameters` begin at `values`.
+    void append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters);
+
     std::vector<std::uint64_t> uses;  ///< of each production of the main L-system, for when memory runs out
 
 private:
-    void grow(std::size_t arity);
+    void grow(std::size_t modules, std::size_t parameters);
 
     ModuleString& string_;
     const StepInput& input_;
@@ -53,7 +56,12 @@ public:
 
 private:
     std::size_t rewrite(const Site& site);
-    Lineage lineage(std::size_t module) const;
+    bool lives_on(LetterId letter) const { return !model_.rules.has(letter) && !model_.decomposition.has(letter); }
+    Lineage lineage(std::size_t module) const {
+        if (input_.ancestry == Ancestry::none) return {};
+        if (input_.ancestry == Ancestry::identities) return {input_.from.identities[module]};
+        return {input_.from.identities[module], input_.from.parents[module], input_.from.births[module]};
+    }
     void decompose(const Site& site);
     void decompose_within(const Site& site);
     void follow_reseeding();
