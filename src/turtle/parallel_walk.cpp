@@ -14,30 +14,46 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <optional>
 
 namespace espalier {
 namespace {
 
 constexpr std::size_t chunks_per_thread = 4;
 
-/// A bracket at or behind `from` that seems not to stand within a polygon, so that a stretch can begin there.
-std::size_t border(const WalkInput& input, std::size_t from) {
-    constexpr std::size_t widest = 1024;
-    const ModuleString& string = input.string;
-    const std::size_t last = std::min(string.size(), from + widest);
-    std::size_t found = last;
-    for (std::size_t i = from; i < last; ++i) {
-        const LetterId letter = string.letters[i];
-        if (letter <= Alphabet::close_bracket) {
-            found = std::min(found, i);
-        } else if (const std::string& name = input.model.alphabet.name(letter); name == "{") {
-            break;
-        } else if (name == "}") {
-            found = last;
+/// Finds where stretches can begin.
+class Borders {
+public:
+    explicit Borders(const WalkInput& input)
+        : string_(input.string),
+          alphabet_(input.model.alphabet),
+          opening_(alphabet_.find_symbol("{")),
+          closing_(alphabet_.find_symbol("}")) {}
+
+    /// A bracket at or behind `from` that seems not to stand within a polygon; the string's end if there is none near.
+    std::size_t find(std::size_t from) const {
+        constexpr std::size_t widest = 1024;
+        const std::size_t last = std::min(string_.size(), from + widest);
+        std::size_t found = last;
+        for (std::size_t i = from; i < last; ++i) {
+            const LetterId letter = string_.letters[i];
+            if (letter <= Alphabet::close_bracket) {
+                found = std::min(found, i);
+                if (!closing_) break;
+            } else if (const SymbolId symbol = alphabet_.symbol_of(letter); symbol == opening_) {
+                break;
+            } else if (symbol == closing_) {
+                found = last;
+            }
         }
+        return found < last ? found : string_.size();
     }
-    return found < last ? found : string.size();
-}
+
+private:
+    const ModuleString& string_;
+    const Alphabet& alphabet_;
+    std::optional<SymbolId> opening_, closing_;  ///< of polygons
+};
 
 /// Axes that a stretch takes over from those before it are numbered from here until all of them are known.
 constexpr std::uint32_t taken_over = 0x80000000;
@@ -81,9 +97,10 @@ std::deque<Stretch> cut(const WalkInput& input, std::size_t chunk) {
     const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
     const std::size_t size = input.string.size();
     const std::size_t count = threads < 2 ? 1 : std::min(size / chunk, threads * chunks_per_thread);
+    const Borders borders(input);
     std::deque<Stretch> stretches;
     for (std::size_t begin = 0, k = 1; begin < size; ++k) {
-        const std::size_t end = k < count ? border(input, std::max(begin + 1, size / count * k)) : size;
+        const std::size_t end = k < count ? borders.find(std::max(begin + 1, size / count * k)) : size;
         stretches.emplace_back(WalkPlan(begin, end));
         begin = end;
     }

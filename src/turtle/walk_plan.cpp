@@ -3,147 +3,24 @@
 #include <algorithm>
 
 namespace espalier {
-namespace {
-
-// Fields of a packed count. 64 modules fill none of them; the depth, which may fall, is the highest.
-constexpr int internodes_at = 24, queries_at = 31, answers_at = 38, unclear_at = 45, depth_at = 52;
-
-std::size_t field(std::uint64_t packed, int at, int bits = 7) {
-    return (packed >> at) & ((std::uint64_t{1} << bits) - 1);
-}
-
-std::uint64_t packed_rows(Symbol::Effect effect) {
-    using enum Symbol::Effect;
-    return std::uint64_t{effect == draws} << internodes_at | std::uint64_t{effect == asks} << queries_at |
-           std::uint64_t{effect == answers} << answers_at;
-}
-
-/// Of packed counts: all of them, and the least of all sums from the first on. The depth decides which is less.
-struct Sum {
-    std::uint64_t all = 0;
-    std::int64_t least = 0;
-
-    void add(std::uint64_t count) {
-        all += count;
-        least = std::min(least, static_cast<std::int64_t>(all));
-    }
-    void add(const Sum& next) {
-        least = std::min(least, static_cast<std::int64_t>(all) + next.least);
-        all += next.all;
-    }
-};
-
-/// Adds up modules, one behind the other.
-template <bool alone>
-class Lane {
-public:
-    /// `before`: the letter before the first one.
-    Lane(const LetterCounts& counts, LetterId before)
-        : rows_(counts.rows()), table_(counts.table()), row_(alone ? 0 : rows_[before]) {}
-
-    void add(LetterId letter) {
-        sum.add(table_[row_ + letter]);
-        if constexpr (!alone) row_ = rows_[letter];
-    }
-
-    Sum sum;
-
-private:
-    const std::uint32_t* rows_;
-    const std::uint64_t* table_;
-    std::size_t row_;
-};
-
-template <bool alone>
-Sum sum_of(const LetterId* letters, std::size_t count, LetterId before, const LetterCounts& counts) {
-    Lane<alone> lane(counts, before);
-    for (std::size_t i = 0; i < count; ++i) lane.add(letters[i]);
-    return lane.sum;
-}
-
-/// The same of a whole block, in lanes that need not wait for each other.
-template <bool alone>
-Sum sum_of_block(const LetterId* letters, LetterId before, const LetterCounts& counts) {
-    constexpr std::size_t length = WalkPlan::block_size / 4;
-    Lane<alone> first(counts, before), second(counts, letters[length - 1]), third(counts, letters[2 * length - 1]),
-        fourth(counts, letters[3 * length - 1]);
-    for (std::size_t i = 0; i < length; ++i) {
-        first.add(letters[i]);
-        second.add(letters[i + length]);
-        third.add(letters[i + 2 * length]);
-        fourth.add(letters[i + 3 * length]);
-    }
-    first.sum.add(second.sum);
-    first.sum.add(third.sum);
-    first.sum.add(fourth.sum);
-    return first.sum;
-}
-
-}  // namespace
-
-void WalkCounts::add(Symbol::Effect effect) {
-    internodes += effect == Symbol::Effect::draws;
-    queries += effect == Symbol::Effect::asks;
-    answers += effect == Symbol::Effect::answers;
-}
-
-WalkCounts& WalkCounts::operator+=(const WalkCounts& other) {
-    parameters += other.parameters;
-    internodes += other.internodes;
-    queries += other.queries;
-    answers += other.answers;
-    return *this;
-}
-
-LetterCounts::LetterCounts(const SymbolTable& symbols) {
-    const std::vector<LetterMeaning>& single = symbols.levels[0];
-    const auto add_row = [&](const LetterMeaning* before) {
-        for (std::size_t letter = 0; letter < single.size(); ++letter) {
-            LetterMeaning meaning = single[letter];
-            bool unclear = false;
-            if (before && symbols.levels[before->level][letter].belongs) {
-                meaning = symbols.levels[before->level][letter];
-                unclear = meaning.level || single[letter].level || before->effect != Symbol::Effect::other;
-            }
-            std::uint64_t packed = meaning.arity + packed_rows(meaning.effect);
-            packed += std::uint64_t{unclear} << unclear_at;
-            packed += std::uint64_t{letter == Alphabet::open_bracket} << depth_at;
-            packed -= std::uint64_t{letter == Alphabet::close_bracket} << depth_at;
-            table_.push_back(packed);
-        }
-    };
-    add_row(nullptr);
-    for (const LetterMeaning& meaning : single) {
-        rows_.push_back(meaning.level ? std::uint32_t(table_.size()) : 0);
-        if (meaning.level) add_row(&meaning);
-    }
-}
-
 void WalkPlan::read(const WalkInput& input, const LetterCounts& counts) {
-    const bool clear = counts.alone() ? add_up<true>(input, counts) : add_up<false>(input, counts);
-    if (!clear) count_rows(input);
+    if (!add_up(input, counts)) count_rows(input);
     find_runs(input);
 }
 
 /// False if there are symbols of which more than two modules must be seen.
-template <bool alone>
 bool WalkPlan::add_up(const WalkInput& input, const LetterCounts& counts) {
     const LetterId* const letters = input.string.letters.data();
     bool clear = true;
     blocks_.reserve((end_ - begin_) / block_size + 1);
     for (std::size_t first = begin_; first < end_; first += block_size) {
-        const std::size_t last = std::min(end_, first + block_size);
         // No symbol reaches into a stretch. A module that formed one with its like would be unclear.
         const LetterId before = letters[std::max(first, begin_ + 1) - 1];
-        const Sum block = last - first == block_size ? sum_of_block<alone>(letters + first, before, counts)
-                                                     : sum_of<alone>(letters + first, last - first, before, counts);
-        blocks_.push_back({counts_.parameters, depth_, depth_ + (block.least >> depth_at)});
-        depth_ += static_cast<std::int64_t>(block.all) >> depth_at;
-        counts_.parameters += field(block.all, 0, internodes_at);
-        counts_.internodes += field(block.all, internodes_at);
-        counts_.queries += field(block.all, queries_at);
-        counts_.answers += field(block.all, answers_at);
-        clear &= field(block.all, unclear_at) == 0;
+        const LetterSum block = counts.sum(letters + first, std::min(block_size, end_ - first), before);
+        blocks_.push_back({counts_.parameters, depth_, depth_ + block.least});
+        depth_ += block.depth;
+        counts_ += block.counts;
+        clear &= block.clear;
     }
     return clear;
 }
@@ -175,9 +52,7 @@ void WalkPlan::find_runs(const WalkInput& input) {
         const std::size_t opening = opening_of(string, i, depth);
         keep_from(i + 1);
         if (opening == end_) {
-            std::int64_t least = 0;
-            for (const Block& block : blocks_) least = std::min(least, block.least);
-            pops_ = static_cast<std::size_t>(-least);
+            pops_ = static_cast<std::size_t>(-depth);  // nowhere is it less: branches behind this module are whole
             return;
         }
         end = i = opening;

@@ -2,44 +2,16 @@
 // end still feels.
 #pragma once
 
+#include "turtle/letter_counts.h"
 #include "turtle/string_walk.h"
 
-#include <array>
 #include <vector>
 
 namespace espalier {
 
-/// Sums over stretches: parameters, and rows of result that are known from the letters.
-struct WalkCounts {
-    std::size_t parameters = 0, internodes = 0, queries = 0, answers = 0;
-
-    /// The rows of one symbol.
-    void add(Symbol::Effect effect);
-
-    WalkCounts& operator+=(const WalkCounts& other);
-};
-
-/// What every letter behind another adds to the counts and to the depth of branches, packed into one number.
-class LetterCounts {
-public:
-    explicit LetterCounts(const SymbolTable& symbols);
-
-    /// Where the row of the table begins that is for letters behind this one.
-    const std::uint32_t* rows() const { return rows_.data(); }
-    const std::uint64_t* table() const { return table_.data(); }
-    /// One row is for all: no symbol that these letters form has several modules.
-    bool alone() const { return table_.size() == rows_.size(); }
-
-private:
-    std::vector<std::uint32_t> rows_;
-    std::vector<std::uint64_t> table_;
-};
-
 /// Modules [begin, end) of the string, bounded by brackets, so that no symbol reaches across.
 class WalkPlan {
 public:
-    static constexpr std::size_t block_size = 64;
-
     WalkPlan(std::size_t begin, std::size_t end) : begin_(begin), end_(end) {}
 
     /// Reads the letters. May run beside others.
@@ -56,6 +28,7 @@ public:
     std::size_t kept() const;
 
 private:
+    static constexpr std::size_t block_size = LetterCounts::block_size;
     /// So many modules: the parameters before them, the depth before them and the least depth behind one of them, all
     /// counted from the beginning of the stretch.
     struct Block {
@@ -67,7 +40,6 @@ private:
         std::size_t begin, end, parameters;
     };
 
-    template <bool alone>
     bool add_up(const WalkInput& input, const LetterCounts& counts);
     void count_rows(const WalkInput& input);
     void find_runs(const WalkInput& input);

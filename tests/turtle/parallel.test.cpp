@@ -225,6 +225,48 @@ TEST_CASE("what a turtle carries across branches is not lost between threads", "
     CHECK(failed < 75);
 }
 
+TEST_CASE("axes that reach over many stretches keep their number", "[turtle]") {
+    constexpr std::size_t laterals = 2000;
+    const std::string lateral = "[+(20)F(1)-F(1)-F(1)+F(1)+F(1)-F(1)-F(1)+F(1)]";
+    std::string text = "F[";
+    for (std::size_t i = 0; i < laterals; ++i) text += "F" + lateral;
+    const Drawing drawing(text + "]F");
+    for (const int threads : {2, 3, 8}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+        const SymbolTable symbols(drawing.model);
+        Interpretation result;
+        REQUIRE(walk_in_parallel({drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0}, 50, result));
+        const auto& rows = result.geometry.internodes;
+        REQUIRE(rows.size() == 2 + 9 * laterals);
+        CHECK(rows.front().axis == 0);
+        CHECK(rows.back().axis == 0);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < laterals; ++i) {
+            const Internode* const row = &rows[1 + 9 * i];
+            wrong += row[0].axis != 1 || row[1].axis != i + 2 || row[8].axis != i + 2;
+        }
+        CHECK(wrong == 0);
+        CHECK(result.geometry.axes == laterals + 2);
+    }
+}
+
+TEST_CASE("a model that carries more than was foreseen is walked in one piece from then on", "[turtle]") {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+    std::string text;
+    for (int i = 0; i < 100; ++i) text += "F[+F-F-F+F+F-F-F+F]";
+    const Drawing plain_branches(text);
+    CHECK(goes_in_parallel(plain_branches, 50));
+
+    const Drawing drawing(text + "[@!(5)F@O(1)]" + text);
+    const SymbolTable symbols(drawing.model);
+    const WalkInput input{drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0};
+    Interpretation result;
+    CHECK(!walk_in_parallel(input, 50, result));
+    CHECK(symbols.unpredictable);
+    CHECK(Bytes(result).bytes == Bytes(Interpretation()).bytes);
+    CHECK(walked(drawing, 50) == walked(drawing, 0));
+}
+
 TEST_CASE("the first of several mistakes is told, whichever thread met one", "[turtle]") {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 8);
     std::string text;
