@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
 #include <iterator>
 #include <optional>
@@ -63,30 +64,36 @@ struct Stretch {
     WalkPlan plan;
     WalkCounts before;
     WalkState start, end;
-    Interpretation rest;  ///< what was not counted before
-    std::uint32_t axes_before = 0;
+    Interpretation rest;            ///< what was not counted before
+    std::uint32_t axes_before = 0;  ///< stays 0 if numbered
     bool as_foreseen = false;
+    std::atomic<bool> numbered = false;  ///< walked as foreseen, with the numbers that axes have in the whole plant
 
     explicit Stretch(const WalkPlan& plan_) : plan(plan_) {}
     std::span<Internode> internodes(Interpretation& result) const {
         return std::span(result.geometry.internodes).subspan(before.internodes, plan.counts().internodes);
     }
-    void walk(const WalkInput& input, Interpretation& result);
+    /// Goes on from the end of the one before it if that one is numbered by then: then there is nothing to number
+    /// afterwards. `last` is null for the first.
+    void walk(const WalkInput& input, const Stretch* last, Interpretation& result);
     /// The number of an axis in the whole plant.
     std::uint32_t axis(std::uint32_t number, const std::vector<std::uint32_t>& known) const {
         return number >= taken_over ? known[number - taken_over] : axes_before + number;
     }
 };
 
-void Stretch::walk(const WalkInput& input, Interpretation& result) {
+void Stretch::walk(const WalkInput& input, const Stretch* last, Interpretation& result) {
     const Walk::Room room{internodes(result), std::span(result.queries).subspan(before.queries, plan.counts().queries),
                           std::span(result.answers).subspan(before.answers, plan.counts().answers)};
     try {
         const LentWalk walk(input, rest, &room);
-        walk->state() = start;
+        const bool goes_on = last && last->numbered;
+        walk->state() = goes_on ? last->end : start;
+        if (goes_on) rest.geometry.axes = last->rest.geometry.axes;
         walk->run(plan.begin(), plan.end(), before.parameters);
         end = walk->state();
         as_foreseen = walk->filled_room() && end.is_between_drawings();
+        numbered = as_foreseen && (goes_on || !last);
     } catch (const WrongPlan&) {
     } catch (const RunError&) {  // the walk in one piece meets it too, if it is one
     }
@@ -145,7 +152,7 @@ bool connect(std::deque<Stretch>& stretches, std::vector<std::uint32_t>& known) 
         if (k + 1 == stretches.size()) break;
         Stretch& next = stretches[k + 1];
         if (!stretch.end.stands_like(next.start)) return false;
-        next.axes_before = stretch.axes_before + stretch.rest.geometry.axes;
+        if (!next.numbered) next.axes_before = stretch.axes_before + stretch.rest.geometry.axes;
         const TurtleState* end = stretch.end.turtles.begin();
         for (const TurtleState& start : next.start.turtles) learn(stretch, start.axis, (end++)->axis);
     }
@@ -178,25 +185,26 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
     if (stretches.size() < 2) return false;
     const auto for_all = [&](const auto& action) {
         tbb::parallel_for(
-            std::size_t(0), stretches.size(), [&](std::size_t k) { action(stretches[k]); }, tbb::auto_partitioner());
+            std::size_t(0), stretches.size(),
+            [&](std::size_t k) { action(stretches[k], k > 0 ? &stretches[k - 1] : nullptr); }, tbb::auto_partitioner());
     };
     bool as_foreseen = false;
     // The caller may work on other plants side by side: this thread is not to take up one of those in between.
     tbb::this_task_arena::isolate([&] {
         const LetterCounts letters(input.symbols);
-        for_all([&](Stretch& stretch) { stretch.plan.read(input, letters); });
+        for_all([&](Stretch& stretch, const Stretch*) { stretch.plan.read(input, letters); });
         if (!foresee(input, stretches)) return;
         WalkCounts total = stretches.back().before;
         total += stretches.back().plan.counts();
         result.geometry.internodes.resize(total.internodes);
         result.queries.resize(total.queries);
         result.answers.resize(total.answers);
-        for_all([&](Stretch& stretch) { stretch.walk(input, result); });
+        for_all([&](Stretch& stretch, const Stretch* last) { stretch.walk(input, last, result); });
         std::vector<std::uint32_t> known;
         as_foreseen = connect(stretches, known);
         if (!as_foreseen) return;
-        for_all([&](const Stretch& stretch) {
-            if (&stretch == &stretches.front()) return;
+        for_all([&](const Stretch& stretch, const Stretch*) {
+            if (stretch.numbered) return;
             for (Internode& internode : stretch.internodes(result))
                 internode.axis = stretch.axis(internode.axis, known);
         });
