@@ -69,15 +69,6 @@ private:
     std::map<Candidates, std::uint32_t> trials_, lotteries_;
 };
 
-/// The pattern names a module, not a bracket that begins or ends a branch to be followed.
-bool is_ordinary_left(const CompiledPattern& pattern) {
-    return pattern.letter > Alphabet::close_bracket;
-}
-
-bool is_ordinary_right(const CompiledPattern& pattern) {
-    return !pattern.skip_branch && pattern.letter != Alphabet::open_bracket;
-}
-
 Choosing ChoosingCompiler::compile() {
     find_gazes();
     classify();
@@ -105,12 +96,12 @@ void ChoosingCompiler::find_gazes() {
 void ChoosingCompiler::look_for(const CompiledProduction& production) {
     Gazes& gazes = choosing_.gazes;
     for (const CompiledPattern& pattern : production.left) {
-        gazes.left.wanted |= is_ordinary_left(pattern);
-        choosing_.needs_partners |= !is_ordinary_left(pattern);
+        gazes.left.wanted |= pattern.is_ordinary_left();
+        choosing_.needs_partners |= !pattern.is_ordinary_left();
     }
     for (const CompiledPattern& pattern : production.right) {
-        gazes.right.wanted |= is_ordinary_right(pattern);
-        gazes.next.wanted |= !pattern.skip_branch && !is_ordinary_right(pattern);
+        gazes.right.wanted |= pattern.is_ordinary_right();
+        gazes.next.wanted |= !pattern.skip_branch && !pattern.is_ordinary_right();
         choosing_.needs_partners |= pattern.skip_branch;
     }
 }
@@ -123,9 +114,9 @@ void ChoosingCompiler::classify() {
         if (!system_.ignored[letter] && classes[letter] == 0) classes[letter] = count++;
     };
     for (const CompiledProduction& production : rules_.productions) {
-        if (!production.left.empty() && is_ordinary_left(production.left[0]))
+        if (!production.left.empty() && production.left[0].is_ordinary_left())
             name(left, lefts, production.left[0].letter);
-        if (!production.right.empty() && is_ordinary_right(production.right[0]))
+        if (!production.right.empty() && production.right[0].is_ordinary_right())
             name(right, rights, production.right[0].letter);
     }
     if (lefts > most_classes || rights > most_classes || left.size() * lefts * rights > most_outcomes) return;
@@ -170,12 +161,12 @@ bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint3
                        constant(system_, production.condition) == std::optional(0.0);
     if (never) return false;
     const bool told = choosing_.places() > 1;
-    if (told && !production.left.empty() && is_ordinary_left(production.left[0])) {
+    if (told && !production.left.empty() && production.left[0].is_ordinary_left()) {
         const std::uint32_t named = left_class(production.left[0].letter);
         if (named == 0 || named != left) return false;
     }
     const bool next_to_it = production.strict.size() == 1;
-    if (told && next_to_it && !production.right.empty() && is_ordinary_right(production.right[0])) {
+    if (told && next_to_it && !production.right.empty() && production.right[0].is_ordinary_right()) {
         const std::uint32_t named = right_class(production.right[0].letter);
         if (named == 0 || named != right) return false;
     }
@@ -184,12 +175,7 @@ bool ChoosingCompiler::possible(const CompiledProduction& production, std::uint3
 
 /// True if a production's strict predecessor and contexts stand wherever it is possible.
 bool ChoosingCompiler::in_place(const CompiledProduction& production) const {
-    const bool told = choosing_.places() > 1;
-    const bool left =
-        production.left.empty() || (told && production.left.size() == 1 && is_ordinary_left(production.left[0]));
-    const bool right =
-        production.right.empty() || (told && production.right.size() == 1 && is_ordinary_right(production.right[0]));
-    return left && right && production.strict.size() == 1;
+    return production.is_of_neighbours() && (production.context_free() || choosing_.places() > 1);
 }
 
 /// True if a production applies wherever it is possible.

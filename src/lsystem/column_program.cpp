@@ -239,16 +239,16 @@ std::optional<ColumnProgram> ColumnProgram::make(const Program& program, std::sp
             made.constants_.push_back({column, constants[reg]});
             continue;
         }
-        const std::optional<std::uint32_t> at = place(reg - static_cast<std::uint32_t>(constants.size()));
-        if (!at) return std::nullopt;
-        made.inputs_.push_back({column, *at});
+        const std::optional<Source> source = place(reg - static_cast<std::uint32_t>(constants.size()));
+        if (!source) return std::nullopt;
+        made.inputs_.push_back({column, *source});
     }
     for (const std::uint32_t result : program.results) made.results_.push_back(columns(result));
     made.width_ = columns.size();
     return made;
 }
 
-bool ColumnProgram::run(const double* const* values, std::size_t count, const Variables& variables, bool quirks,
+bool ColumnProgram::run(const Modules& modules, std::size_t count, const Variables& variables, bool quirks,
                         std::vector<double>& columns) const {
     if (columns.size() < (width_ + 1) * lanes) columns.resize((width_ + 1) * lanes);
     double* const to = columns.data();
@@ -257,7 +257,8 @@ bool ColumnProgram::run(const double* const* values, std::size_t count, const Va
     for (const Constant& constant : constants_) std::fill_n(to + constant.column * lanes, count, constant.value);
     for (const Input& input : inputs_) {
         double* const column = to + input.column * lanes;
-        for (std::size_t k = 0; k < count; ++k) column[k] = values[k][input.place];
+        const double* const* const values = modules[input.source.whose].data();
+        for (std::size_t k = 0; k < count; ++k) column[k] = values[k][input.source.place];
     }
     return run_code(steps_, to, count, goes_on, variables, quirks);
 }

@@ -27,16 +27,26 @@ public:
         bool may_divide_by_zero;
     };
 
-    /// Where a formal stands among the parameters of a module; nothing if it belongs to another.
-    using Place = std::function<std::optional<std::uint32_t>(std::uint32_t formal)>;
+    /// Whose parameters a program reads: the module's that is replaced, or its nearest neighbours'.
+    enum Whose : std::uint8_t { own, left, right };
+    static constexpr std::size_t whose_count = 3;
+    /// Of modules at once, where the parameters of each begin; of neighbours only where a program reads them.
+    using Modules = std::array<std::array<const double*, lanes>, whose_count>;
+
+    /// Where a formal stands among whose parameters; nothing if it belongs to another module.
+    struct Source {
+        Whose whose;
+        std::uint32_t place;
+    };
+    using Place = std::function<std::optional<Source>(std::uint32_t formal)>;
 
     /// Nothing if the program cannot be run in columns. Its registers have their numbers.
     static std::optional<ColumnProgram> make(const Program& program, std::span<const double> constants,
                                              std::uint32_t formals, const Place& place);
 
-    /// Of `count` modules, whose parameters begin at `values`. `columns` is memory to work in. False if one of them
+    /// Of `count` modules. `columns` is memory to work in. False if one of them
     /// divides by zero where that is an error: whoever runs the program for each alone will tell which.
-    bool run(const double* const* values, std::size_t count, const Variables& variables, bool quirks,
+    bool run(const Modules& modules, std::size_t count, const Variables& variables, bool quirks,
              std::vector<double>& columns) const;
     /// The values of a result, one a module, where `run` left them.
     const double* result(std::size_t k, const std::vector<double>& columns) const {
@@ -50,7 +60,8 @@ private:
         double value;
     };
     struct Input {
-        std::uint32_t column, place;
+        std::uint32_t column;
+        Source source;
     };
 
     std::vector<Step> steps_;
@@ -64,8 +75,8 @@ private:
 /// Modules that wait until a column program is run for all of them.
 struct Batch {
     std::size_t count = 0;
-    std::array<const double*, ColumnProgram::lanes> values;  ///< where their parameters begin
-    std::array<double*, ColumnProgram::lanes> to;            ///< where their successors' parameters begin
+    ColumnProgram::Modules modules;
+    std::array<double*, ColumnProgram::lanes> to;  ///< where their successors' parameters begin
     std::array<std::uint32_t, ColumnProgram::lanes> changes;
 };
 

@@ -504,10 +504,20 @@ void SystemCompiler::place_registers() {
     compiled_->registers = programs_.register_count(compiled_->formals);
 }
 
+/// Where a formal stands among the parameters of a module that is replaced alone, and of its nearest neighbours.
+std::optional<ColumnProgram::Source> source_of(std::uint32_t formal, const CompiledProduction& production) {
+    using enum ColumnProgram::Whose;
+    if (const auto place = place_of(formal, production.strict)) return ColumnProgram::Source{own, *place};
+    if (!production.is_of_neighbours()) return std::nullopt;
+    if (const auto place = place_of(formal, production.left)) return ColumnProgram::Source{left, *place};
+    if (const auto place = place_of(formal, production.right)) return ColumnProgram::Source{right, *place};
+    return std::nullopt;
+}
+
 /// Programs of productions that are taken for what their modules are, whatever came before them.
 void SystemCompiler::make_columns() {
     for (CompiledProduction& production : compiled_->rules.productions) {
-        const auto place = [&](std::uint32_t formal) { return place_of(formal, production.strict); };
+        const auto place = [&](std::uint32_t formal) { return source_of(formal, production); };
         const auto columns = [&](const Program& program) {
             return ColumnProgram::make(program, compiled_->constants, compiled_->formals, place);
         };

@@ -28,6 +28,10 @@ struct CompiledPattern {
     std::uint16_t arity = 0;
     std::uint32_t first_formal = 0;
     bool skip_branch = false;
+
+    // The pattern names a module, not a bracket that begins or ends a branch to be followed.
+    bool is_ordinary_left() const { return letter > Alphabet::close_bracket; }
+    bool is_ordinary_right() const { return !skip_branch && letter != Alphabet::open_bracket; }
 };
 
 /// Where a module of a successor comes from: the strict predecessor's module it carries on, or born with a place.
@@ -70,6 +74,11 @@ struct CompiledProduction {
     bool tests_draw = false;              ///< before-block, condition or weight take random numbers
 
     bool context_free() const { return left.empty() && right.empty(); }
+    /// It is about one module and the nearest neighbours of that.
+    bool is_of_neighbours() const {
+        return strict.size() == 1 && (left.empty() || (left.size() == 1 && left[0].is_ordinary_left())) &&
+               (right.empty() || (right.size() == 1 && right[0].is_ordinary_right()));
+    }
     /// It applies wherever the letters of its strict predecessor stand.
     bool spelled() const { return context_free() && before.empty() && !has_condition; }
 };

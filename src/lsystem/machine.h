@@ -68,7 +68,7 @@ public:
     /// Throws EvaluationError.
     void run(const Program& program);
     bool run(const ColumnProgram& program, const Batch& batch) {
-        return program.run(batch.values.data(), batch.count, *variables_, quirks_, columns_);
+        return program.run(batch.modules, batch.count, *variables_, quirks_, columns_);
     }
     const double* result(const ColumnProgram& program, std::size_t k) const { return program.result(k, columns_); }
     /// Modules that wait, by a number that whoever makes them wait chooses.

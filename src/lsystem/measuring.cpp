@@ -246,7 +246,7 @@ const CompiledProduction* Measuring::choose(const Trial& trial, const Change& ch
 
 void Measuring::test(std::uint32_t trial, const Change& change) {
     Batch& batch = machine_.batch(trial);
-    batch.values[batch.count] = site_at(change).values;
+    add_to(batch, input_, change.module, site_at(change).values);
     batch.changes[batch.count] = static_cast<std::uint32_t>(&change - chunk_.changes);
     if (++batch.count == ColumnProgram::lanes) decide(trial);
 }

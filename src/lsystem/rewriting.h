@@ -89,6 +89,20 @@ inline bool keeps_places(const StepInput& input) {
     return input.model.choosing.tells_all && !input.model.plans.valued() && input.ancestry == Ancestry::none;
 }
 
+/// Adds a module to those that wait, with its neighbours if productions may read their parameters.
+inline void add_to(Batch& batch, const StepInput& input, std::size_t module, const double* values) {
+    using enum ColumnProgram::Whose;
+    batch.modules[own][batch.count] = values;
+    if (!input.view.places) return;
+    const double* const parameters = input.from.parameters.data();
+    const auto look = [&](ColumnProgram::Whose whose, const Gaze& gaze, const Column<std::uint32_t>& positions) {
+        if (!gaze.wanted || positions[module] == Neighbours::none) return;  // then no production asks
+        batch.modules[whose][batch.count] = parameters + (*input.view.places)[positions[module]];
+    };
+    look(left, input.model.choosing.gazes.left, input.view.neighbours->left);
+    look(right, input.model.choosing.gazes.right, input.view.neighbours->right);
+}
+
 /// The modules born of one parent in one step.
 class Brood {
 public:

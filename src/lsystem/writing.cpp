@@ -68,7 +68,7 @@ private:
     const Plan& plan();
     bool write_module();
     bool write_rounds();
-    void wait(const CompiledProduction& production, const double* values, double* to);
+    void wait(const CompiledProduction& production, const LetterId* in, const double* values, double* to);
     void settle(const CompiledProduction& production);
     Batch& batch(const CompiledProduction& production) {
         return machine_.batch(static_cast<std::size_t>(&production - input_.model.rules.productions.data()));
@@ -164,13 +164,13 @@ template <bool Valued>
             copy_run<value_block>(at.values, at.out_values, plan.arity);
         } else if (plan.kind == Plan::Kind::program) {
             if (plan.production->values)
-                wait(*plan.production, at.values, at.out_values);
+                wait(*plan.production, at.in, at.values, at.out_values);
             else
                 write_values(plan, at);
         } else if (plan.kind == Plan::Kind::mixed) {
             if (!write_lanes(plan, at.values, at.out_values)) return false;
             if (!plan.production->values) return write_rest(plan, at);
-            wait(*plan.production, at.values, at.out_values);
+            wait(*plan.production, at.in, at.values, at.out_values);
         }
     }
     return true;
@@ -368,9 +368,9 @@ void Writer::end_stretch() {
 }
 
 /// Lets a module wait until the values of many are computed.
-void Writer::wait(const CompiledProduction& production, const double* values, double* to) {
+void Writer::wait(const CompiledProduction& production, const LetterId* in, const double* values, double* to) {
     Batch& waiting = batch(production);
-    waiting.values[waiting.count] = values;
+    add_to(waiting, input_, module_at(in), values);
     waiting.to[waiting.count] = to;
     waits_ = true;
     if (++waiting.count == ColumnProgram::lanes) settle(production);

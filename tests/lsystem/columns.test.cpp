@@ -1,0 +1,114 @@
+// Programs that are run for many modules at once give each what it gets alone. Models with an order are run one module
+// after the other: what they grow is compared with what others do.
+#include "catch.h"
+#include "lsystem/model_builder.h"
+
+#include <string>
+#include <vector>
+
+using namespace espalier;
+using namespace espalier::test;
+
+TEST_CASE("conditions and values of many modules at once are those of each alone", "[lsystem]") {
+    const auto grown = [](bool ordered) {
+        ModelBuilder model;
+        const std::uint32_t limit = model.add_global("limit");
+        model.system().start = {assign(global(limit), number(40))};
+        for (int k = 0; k < 20'000; ++k) model.system().axiom.push_back(model.module("A", {number(k % 97), number(k)}));
+        const Expression x = formal(0), y = formal(1);
+        model.rule({{"A", 2}}, {model.module("A", {x * y * number(0.5), call(Function::sin, {x + y})})}).condition =
+            x < global(limit);
+        model.rule({{"A", 2}}, {model.module("B", {x * x, y / number(3), y})}).condition = y < x * number(100);
+        if (ordered) {
+            const std::uint32_t count = model.add_global("count");
+            model.rule("Z", "Z").after = {assign(global(count), number(1))};
+        }
+        return text_after(model, 2);
+    };
+    CHECK((grown(false) == grown(true)));
+}
+
+TEST_CASE("where many modules are computed at once, each takes its own way through && || and ?:", "[lsystem]") {
+    const auto grown = [](bool ordered) {
+        ModelBuilder model;
+        for (int k = 0; k < 20'000; ++k) model.system().axiom.push_back(model.module("A", {number(k % 7), number(k)}));
+        const Expression x = formal(0), y = formal(1);
+        const Expression has_x = apply(Operator::not_equal, {x, number(0)});
+        const Expression half = choose(apply(Operator::remainder, {y, number(2)}), y / number(2), number(-1));
+        // Nobody divides by zero who does not come to it.
+        model
+            .rule({{"A", 2}},
+                  {model.module("A", {x + number(1), choose(has_x, choose(number(3) < x, y / x, half), x - y)})})
+            .condition = apply(Operator::logical_and, {has_x, y / x < number(3000)});
+        model.rule({{"A", 2}}, {model.module("B", {y / (x + number(1)), half})}).condition =
+            apply(Operator::logical_or, {y < number(9000), number(0) < x * y});
+        if (ordered) {
+            const std::uint32_t count = model.add_global("count");
+            model.rule("Z", "Z").after = {assign(global(count), number(1))};
+        }
+        return text_after(model, 3);
+    };
+    CHECK((grown(false) == grown(true)));
+}
+
+TEST_CASE("where many modules are computed at once, each reads the parameters of its own neighbours", "[lsystem]") {
+    const auto grown = [](bool ring, bool ignores, bool ordered) {
+        ModelBuilder model;
+        const auto module = [&](const char* symbol, double value) { return model.module(symbol, {number(value)}); };
+        for (int k = 0; k < 6'000; ++k) {
+            for (ModuleTemplate& each : std::vector<ModuleTemplate>{
+                     module("A", k % 5 + 1), module("I", k), model.module("[", {}), module("A", k % 3), module("B", k),
+                     model.module("]", {}), module("B", k % 11)}) {
+                model.system().axiom.push_back(std::move(each));
+            }
+        }
+        model.system().ring = ring;
+        if (ignores) {
+            model.system().filter = LSystem::Filter::ignore;
+            model.system().filtered = {model.model().alphabet.symbol_of(model.module("I", {number(0)}).letter)};
+        }
+        const std::vector<Pattern> a = {{"A", 1}}, b = {{"B", 1}};
+        // Formals: left, strict, right.
+        model.add(model.make(a, b, a, {module("B", 0.5), model.module("A", {formal(0) + formal(1) - formal(2)})}))
+            .condition = apply(Operator::logical_or, {formal(0) < formal(2), formal(1) < number(3)});
+        model.add(model.make({}, b, b, {model.module("B", {formal(1) * number(0.5)})}));
+        model.add(model.make(b, a, {}, {model.module("A", {formal(1) / (formal(0) + number(1))})})).condition =
+            formal(0) < number(50);
+        model.add(model.make(a, a, {}, {model.module("A", {formal(0) + number(2)}), module("I", 1)}));
+        if (ordered) {
+            const std::uint32_t count = model.add_global("count");
+            model.rule("Z", "Z").after = {assign(global(count), number(1))};
+        }
+        return text_after(model, 4);
+    };
+    for (const bool ring : {false, true}) {
+        for (const bool ignores : {false, true}) CHECK((grown(ring, ignores, false) == grown(ring, ignores, true)));
+    }
+    CHECK((grown(false, true, false) != grown(true, true, false)));
+    CHECK((grown(false, true, false) != grown(false, false, false)));
+}
+
+TEST_CASE("the first module that divides by zero is named, however many are computed at once", "[lsystem]") {
+    ModelBuilder model;
+    const auto axiom = [&](int zero_of_b, int zero_of_a) {
+        model.system().axiom.clear();
+        for (int k = 0; k < 300; ++k) {
+            model.system().axiom.push_back(model.module("A", {number(k == zero_of_a ? 0 : k + 1)}));
+            model.system().axiom.push_back(model.module("B", {number(k == zero_of_b ? 0 : k + 1), number(k)}));
+        }
+    };
+    // One is found by a condition, the other by a value.
+    model.rule({{"A", 1}}, {model.module("A", {number(2)})}).condition = number(1) / formal(0) < number(2);
+    model.rule({{"B", 2}}, {model.module("C", {formal(1) / formal(0)})}).condition =
+        apply(Operator::remainder, {formal(1), formal(0)}) < number(1000);
+    const auto refused = [&] {
+        Derivation derivation(model.compiled());
+        ModuleString string, next;
+        derivation.start(string);
+        derivation.step(string, next);
+    };
+    axiom(200, 100);
+    CHECK_THROWS_WITH(refused(), Catch::Contains("1 / 0") && Catch::Contains("A(0)"));
+    axiom(100, 200);
+    CHECK_THROWS_WITH(refused(), Catch::Contains("100 % 0") && Catch::Contains("B(0,100)"));
+}
