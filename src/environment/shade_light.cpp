@@ -87,7 +87,8 @@ double ShadeLight::interpolated(const glm::dvec3& point, std::span<const ShadeCa
 
 template <class LightOf>
 double ShadeLight::interpolated(const Corner& corner, const LightOf& light_of) const {
-    const auto& [voxel, t] = corner;
+    const glm::ivec3& voxel = corner.voxel;
+    const glm::dvec3& t = corner.part;
     const auto along_x = [&](int y, int z) {
         const glm::ivec3 v(voxel.x, voxel.y + y, z);
         return mixed(light_of(v), light_of(v + glm::ivec3(1, 0, 0)), t.x);

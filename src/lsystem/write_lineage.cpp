@@ -67,7 +67,7 @@ struct Place {
 
 template <Ancestry kept>
 [[gnu::always_inline]] inline void write_run(const Lines& lines, Place& place, std::size_t end) {
-    const auto [module, at] = place;
+    const std::size_t module = place.module, at = place.at;
     const std::size_t count = end - module;
     if (end + lineage_block <= lines.known && at + count + lineage_block <= lines.room)
         lines.for_each_column<kept>([&](const auto& column) { column.copy_run(module, at, count); });
@@ -80,7 +80,7 @@ template <Ancestry kept>
 [[gnu::always_inline]] inline void write_brood(const Lines& lines, const Kin& kin, const Place& place) {
     constexpr bool whole = kept == Ancestry::whole;
     if (kept == Ancestry::drawers && kin.length == 0) return;
-    const auto [module, at] = place;
+    const std::size_t module = place.module, at = place.at;
     const Identity parent = lines.identities.from[module];
     const Brood brood(parent, lines.step);
     const std::uint32_t* const places = kin.places.data();

@@ -62,7 +62,7 @@ std::vector<std::string> parameter_names(const RecordedRun& run) {
     if (with_plants == frames.rend()) return names;
     const RecordedGeometry geometry = run.geometry(*with_plants);
     for (const auto& [name, values] : geometry.parameters) {
-        const auto is_drawn = [&](std::size_t i) {
+        const auto is_drawn = [&geometry, &values = values](std::size_t i) {
             return std::isfinite(values[i]) && geometry.of_points.kinds[i] != Kind::query;
         };
         for (std::size_t i = 0; i < values.size(); ++i) {
