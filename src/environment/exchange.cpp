@@ -35,6 +35,7 @@ std::string described(const PlantView& plant, int step) {
 
 void write_turtle_answers(const WorldView& world, std::span<ModuleString*> strings) {
     for (const PlantView& plant : world.plants) {
+        if (!plant.asks) continue;
         const std::span<const TurtleAnswer> answers = plant.interpretation->answers;
         const std::span<const TurtleDirection> directions = plant.interpretation->directions;
         ModuleString& string = *strings[plant.plant];
@@ -79,7 +80,7 @@ void Environment::gather(const WorldView& world) {
 bool Environment::borrow(const WorldView& world) {
     const PlantView* only = nullptr;
     for (const PlantView& plant : world.plants) {
-        if (plant.interpretation->queries.empty()) continue;
+        if (!plant.asks || plant.interpretation->queries.empty()) continue;
         if (only != nullptr) return false;
         only = &plant;
     }
@@ -111,7 +112,7 @@ void Environment::name_processes(const PlantView& plant) {
 }
 
 void Environment::gather(const PlantView& plant, int step) {
-    if (plant.interpretation->queries.empty()) return;
+    if (!plant.asks || plant.interpretation->queries.empty()) return;
     name_processes(plant);
     for (const Query& asked : plant.interpretation->queries) {
         const std::optional<std::size_t> process = process_for(asked, plant, step);

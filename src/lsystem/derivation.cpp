@@ -1,4 +1,5 @@
 #include "espalier/base/excerpt.h"
+#include "espalier/base/prefetch.h"
 
 #include "painter.h"
 #include "powers.h"
@@ -309,6 +310,15 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     state.run_block(state.main.end_each, "the EndEach block");
     if (steps_done() == length()) state.run_block(state.main.end, "the End block");
     state.files.flush_all();
+}
+
+// What every step touches.
+void Derivation::prefetch() const {
+    const State& state = *state_;
+    constexpr std::size_t head = 96;  // up to the variables
+    espalier::prefetch(&state, head);
+    espalier::prefetch(&state.services.stopped, sizeof(bool));
+    espalier::prefetch(&state.settings.memory, sizeof(std::size_t));
 }
 
 void Derivation::advance(ModuleString& string, ModuleString& spare, int steps) {

@@ -1,6 +1,7 @@
 // A plant of a world, and the memory its strings take turns in.
 #pragma once
 
+#include "espalier/base/prefetch.h"
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/scene.h"
 #include "espalier/turtle/interpretation.h"
@@ -8,6 +9,7 @@
 #include "lent.h"
 #include "memory.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -44,6 +46,10 @@ struct Plant {
     void rewrite(const Rewrite& rewrite, ModuleString* spare);
     /// Of small strings always as if there were two that fit: when memory gets scarce there will be.
     std::size_t bytes_of_strings() const;
+    // Hints that a stage will soon come to this plant: whoever waits for its lines of memory one by one waits longer
+    // than a small plant takes.
+    void prefetch_derivation() const;
+    void prefetch_interpretation() const;
 };
 
 inline void swap_columns(ModuleString& a, ModuleString& b) {
@@ -52,6 +58,29 @@ inline void swap_columns(ModuleString& a, ModuleString& b) {
     a.identities.swap(b.identities);
     a.parents.swap(b.parents);
     a.births.swap(b.births);
+}
+
+/// Asks for a column's beginning; what follows the processor asks for itself.
+template <class Column>
+void prefetch_column(const Column& column) {
+    constexpr std::size_t most = 1024;
+    prefetch(column.data(), std::min(column.size() * sizeof(column[0]), most));
+}
+
+inline void Plant::prefetch_derivation() const {
+    derivation.prefetch();
+    prefetch_column(string->letters);
+    prefetch_column(string->parameters);
+    prefetch_column(string->identities);
+    prefetch_column(string->parents);
+    prefetch_column(string->births);
+}
+
+inline void Plant::prefetch_interpretation() const {
+    prefetch(&description->turtle, sizeof(TurtleSettings));
+    prefetch_column(string->letters);
+    prefetch_column(string->parameters);
+    prefetch_column(interpretation->geometry.internodes);
 }
 
 template <class Rewrite>

@@ -90,8 +90,9 @@ struct World::State {
     int frames_of = -1;
 
     double time() const { return step * scene.dt; }
+    using Prefetch = void (Plant::*)() const;
     template <class Action>
-    Totals for_every_plant(const Action& action);
+    Totals for_every_plant(Prefetch prefetch, const Action& action);
     template <class Rewrite>
     void derive(const Rewrite& rewrite);
     void interpret_and_exchange();
@@ -103,16 +104,19 @@ struct World::State {
     DerivationSettings settings_of(const PlantDescription& plant, const std::filesystem::path& files) const;
 };
 
-// All plants in parallel, with a string whose memory they may pass on. Of several failures the first plant's is
-// reported, whoever failed first.
+// All plants in parallel, with a string whose memory they may pass on; `prefetch` tells of a plant some time before. Of
+// several failures the first plant's is reported, whoever failed first.
 template <class Action>
-Totals World::State::for_every_plant(const Action& action) {
+Totals World::State::for_every_plant(Prefetch prefetch, const Action& action) {
+    constexpr std::size_t ahead = 2;
     std::mutex failing;
     std::exception_ptr failure;
     std::size_t failed = plants.size();
     const auto act = [&](const tbb::blocked_range<std::size_t>& range, Totals sum) {
         SpareString spare(spares);
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            if (range.end() - i > 2 * ahead) espalier::prefetch(&plants[i + 2 * ahead], sizeof(Plant));
+            if (range.end() - i > ahead) (plants[i + ahead].*prefetch)();
             try {
                 action(plants[i], spare.string);
             } catch (...) {
@@ -151,7 +155,7 @@ void World::State::derive(const Rewrite& rewrite) {
         return needed.recorded() > shares.plants;
     };
     std::atomic<bool> full = is_too_much();
-    const Totals derived = for_every_plant([&](Plant& plant, ModuleString& spare) {
+    const Totals derived = for_every_plant(&Plant::prefetch_derivation, [&](Plant& plant, ModuleString& spare) {
         if (full) return;
         plant.rewrite(rewrite, passes_on ? &spare : nullptr);
         const std::size_t bytes = plant.bytes_of_strings();
@@ -208,11 +212,12 @@ void World::State::interpret_and_exchange() {
     release_frames();
     {
         const Stopwatch stopwatch(times.interpret);
-        totals = for_every_plant([&](Plant& plant, const ModuleString&) {
+        totals = for_every_plant(&Plant::prefetch_interpretation, [&](Plant& plant, const ModuleString&) {
             Interpretation& interpretation = plant.interpretation.for_writing();
             interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle,
                       plant.has_pictures ? &plant.derivation : nullptr, {plant.number}, interpretation);
             plant.memory.set_drawn(interpretation);
+            views[plant.number].asks = interpretation.asks();
             if (frames.empty()) return;
             views[plant.number].string = strings[plant.number] = &*plant.string;
             views[plant.number].interpretation = &interpretation;
@@ -327,7 +332,9 @@ void World::restore(std::istream& in) {
     state_->environment->restore(in);
     state_->step = step;
     state_->frames_of = -1;
-    state_->take_derived(state_->for_every_plant([](const Plant&, const ModuleString&) {}));
+    Totals restored;
+    for (const Plant& plant : state_->plants) restored.add(plant);
+    state_->take_derived(restored);
 }
 
 void World::start() {

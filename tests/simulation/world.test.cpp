@@ -62,6 +62,19 @@ TEST_CASE_METHOD(Worlds, "the axiom is exchanged before the first derivation", "
     CHECK(text(world) == "F(2)F(2)?P(0,4,0)");
 }
 
+TEST_CASE_METHOD(Worlds, "a plant is answered in the steps in which it asks, whoever else does", "[simulation]") {
+    const std::string model =
+        "#define WAIT 1\nlsystem: 1\nderivation length: 4\naxiom: F(2)A(WAIT)\nA(n) : n > 0 --> A(n - 1)\n"
+        "A(n) --> ?P(0,0,0)\n?P(x,y,z) : y < 9 --> F(1)?P(y,9,0)\nendlsystem\n";
+    World world(scene(model, "[[plant]]\nmodel = 'plant.l'\ndefine = { WAIT = 2 }\n"));
+    walk(world, 2);
+    CHECK(text(world, 0) == "F(2)?P(0,2,0)");
+    CHECK(text(world, 1) == "F(2)A(0)");
+    world.step();
+    CHECK(text(world, 0) == "F(2)F(1)?P(0,3,0)");
+    CHECK(text(world, 1) == "F(2)?P(0,2,0)");
+}
+
 TEST_CASE_METHOD(Worlds, "a plant stands where the scene puts it", "[simulation]") {
     World world(scene("lsystem: 1\nderivation length: 0\naxiom: F(1)?P(0,0,0)\nendlsystem\n", "",
                       "positions = [[3, 0, 0], [0, 0, -2]]\nheading = [1, 0, 0]\n"));

@@ -22,6 +22,7 @@ struct PlantView {
     const Model* model = nullptr;
     const ModuleString* string = nullptr;
     const Interpretation* interpretation = nullptr;
+    bool asks = true;  ///< false: there are no questions, not even to the turtle, and nobody need look for them
 };
 
 /// The world at one step. `dt` is the time a derivation step stands for, in the scene's unit.

@@ -61,6 +61,9 @@ public:
     /// (naming file, line, column, module and values), and when the memory budget would be exceeded.
     void step(const ModuleString& from, ModuleString& to);
 
+    /// A hint that step() will be called soon.
+    void prefetch() const;
+
     /// Up to so many steps at once, of which only the last string is wanted; fewer if the model stops or changes its
     /// length. Faster than one by one where nothing but its letter decides what becomes of a module. `spare`'s memory
     /// is used and its content lost.

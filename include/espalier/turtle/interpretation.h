@@ -22,6 +22,7 @@ struct Interpretation {
     std::vector<TurtleDirection> directions;
 
     void clear();
+    bool asks() const { return !queries.empty() || !answers.empty() || !directions.empty(); }
 };
 
 /// What the turtle does with each letter of a model, looked up once per model. Thread safe to use.
