@@ -89,9 +89,9 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compile_depth(system_.homomorphism, compiled_->homomorphism);
     find_laid_out(compiled_->homomorphism);
     find_drawers();
+    compiled_->may_cut = writes_cut(*model_) && !compiled_->rules.has(Alphabet::cut);
     compiled_->plans = make_plans(*compiled_);
     compiled_->ring = system_.ring;
-    compiled_->may_cut = writes_cut(*model_) && !compiled_->rules.has(Alphabet::cut);
     find_ignored();
     name_variables();
     place_registers();

@@ -3,6 +3,7 @@
 
 #include "painter.h"
 #include "powers.h"
+#include "small_step.h"
 
 #include <fmt/format.h>
 
@@ -37,6 +38,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     : model(std::move(compiled)),
       main(model->main()),
       machines(main, variables, services),
+      steps_are_small(given.lineage && has_small_steps(*model)),
       settings(std::move(given)),
       ancestry(ancestry_of(*model, settings)),
       files(settings.input_folder, settings.output_folder),
@@ -298,6 +300,11 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     State& state = *state_;
     state.variables.globals[0] = ++state.step;
     ++state.generation;
+    const bool runs_blocks = !state.steps_are_small || steps_done() == length();
+    if (!runs_blocks && rewrite_small(state.main.plans, from, state.step, state.settings.memory, to)) {
+        state.forecast.letters = nullptr;
+        return;
+    }
     state.run_block(state.main.start_each, "the StartEach block");
     {
         const Workplace workplace(from.size(), state.own_scratch);
@@ -312,13 +319,14 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     state.files.flush_all();
 }
 
-// What every step touches.
+// What a step of a small string touches.
 void Derivation::prefetch() const {
     const State& state = *state_;
     constexpr std::size_t head = 96;  // up to the variables
     espalier::prefetch(&state, head);
     espalier::prefetch(&state.services.stopped, sizeof(bool));
     espalier::prefetch(&state.settings.memory, sizeof(std::size_t));
+    espalier::prefetch(&state.forecast.letters, sizeof(void*));
 }
 
 void Derivation::advance(ModuleString& string, ModuleString& spare, int steps) {

@@ -49,6 +49,7 @@ struct Derivation::State {
     bool length_is_set = false;  ///< by set_length(), not by the model
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
+    const bool steps_are_small;  ///< those of small strings: see small_step.h
     /// Grows with every change of variables, so that painters know what they have seen.
     std::uint64_t generation = 0;
     Scratch* scratch = nullptr;  ///< lent for the step at hand

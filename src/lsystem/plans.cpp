@@ -40,6 +40,7 @@ Plan plan_of(const CompiledProduction& production) {
     plan.lanes = &production.lanes;
     plan.production = &production;
     plan.kind = kind_of(production);
+    plan.inherits = production.kin.same;
     return plan;
 }
 
@@ -65,9 +66,16 @@ void measure(Plans& plans) {
         include(plan);
         plans.lengths.push_back(plan.length);
         plans.parameters.push_back(plan.parameters);
-        plans.rewritten.push_back(plan.depends() || plan.production);
+        plans.rewritten.push_back(plan.depends() || (plan.production && !plan.inherits));
     }
     for (const Plan& plan : plans.choices) include(plan);
+}
+
+std::uint64_t packed_sizes(const Plan& plan) {
+    const bool runs = plan.kind == Plan::Kind::program || plan.kind == Plan::Kind::mixed;
+    const bool fits = std::max({plan.reads, plan.length, plan.parameters}) <= PackedSizes::most;
+    if (runs || plan.depends() || !fits) return PackedSizes::unknown;
+    return PackedSizes::pack(plan.reads, plan.length, plan.parameters);
 }
 
 /// What the next step will make of letters that stand alone.
@@ -134,6 +142,8 @@ Plans make_plans(const CompiledSystem& model) {
         plans.draws |= draws;
     }
     measure(plans);
+    for (const Plan& plan : plans.of_letter) plans.sizes.push_back(packed_sizes(plan));
+    if (model.may_cut) plans.sizes[Alphabet::cut] = PackedSizes::unknown;
     look_ahead(plans);
     return plans;
 }

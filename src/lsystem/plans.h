@@ -107,17 +107,35 @@ struct alignas(64) Plan {
     const Change* ahead = nullptr;
     std::uint32_t ahead_count = 0;
 
+    bool inherits = false;  ///< the production's kin is the same (Kin::same)
+
     bool depends() const { return kind == Kind::choose || kind == Kind::spelled; }
     std::uint64_t held_before() const { return std::uint64_t{reads} << 32 | read_drawers; }
     std::uint64_t held_after() const { return std::uint64_t{parameters} << 32 | drawers; }
 };
 
+/// Three numbers in one: parameters that a plan reads, modules and parameters that it writes. Those of a small string's
+/// letters can be added up.
+struct PackedSizes {
+    static constexpr std::uint64_t most = 1024;  ///< letters of a string, and each number of a letter
+    static constexpr int bits = 21;
+    static constexpr std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+    static constexpr std::uint64_t unknown = (most + 1) << bits;  ///< of a letter: makes any sum too large
+    static_assert(most * (most + 1) <= mask);
+
+    static std::uint64_t pack(std::uint64_t reads, std::uint64_t modules, std::uint64_t parameters) {
+        return reads | modules << bits | parameters << 2 * bits;
+    }
+};
+
 struct Plans {
     std::vector<Plan> of_letter;
     std::vector<std::uint32_t> lengths, parameters;  ///< of each letter's plan
-    std::vector<std::uint8_t> rewritten;             ///< by letter: the letters tell its plan, maybe not the copy
+    std::vector<std::uint8_t> rewritten;             ///< by letter: its module may not live on as who it is
     /// By letter what its module has: whether it comes to draw, and (from bit 32 on) parameters.
     std::vector<std::uint64_t> holdings;
+    /// By letter PackedSizes of its plan, where that depends on nothing else and runs no program.
+    std::vector<std::uint64_t> sizes;
     bool draws = false;           ///< some letter comes to draw
     std::vector<Plan> choices;    ///< of all letters, one after the other
     bool all_known = true;        ///< no letter needs choosing: letters tell all

@@ -159,6 +159,14 @@ void write_lineages(const Lines& lines, std::span<const Change> changes) {
     write_lines<Ancestry::whole>(lines, changes);
 }
 
+/// Of changes that were found already.
+ESPALIER_VECTOR_CLONES
+void write_found_lineages(const Lines& lines, std::span<const Change> changes) {
+    Place place;
+    write_changes<Ancestry::whole>(lines, changes, place);
+    write_run<Ancestry::whole>(lines, place, lines.size);
+}
+
 ESPALIER_VECTOR_CLONES
 void write_identities(const Lines& lines, std::span<const Change> changes) {
     write_lines<Ancestry::identities>(lines, changes);
@@ -170,6 +178,26 @@ void write_drawers(const Lines& lines, std::span<const Change> changes) {
 }
 
 }  // namespace
+
+void write_lineage(const Plans& plans, std::span<const Change> changes, const ModuleString& from, std::uint32_t step,
+                   ModuleString& to) {
+    const auto pair = [](const auto& old, auto& made) {
+        return Pair<typename std::decay_t<decltype(old)>::value_type>{old.data(), made.data()};
+    };
+    const Lines lines{pair(from.identities, to.identities),
+                      pair(from.parents, to.parents),
+                      pair(from.births, to.births),
+                      from.letters.data(),
+                      from.letters.data() + from.size(),
+                      plans,
+                      step,
+                      0,
+                      from.size(),
+                      from.size(),
+                      from.size() + spare_lineage,
+                      to.size() + spare_lineage};
+    write_found_lineages(lines, changes);
+}
 
 void write_lineage(const StepInput& input, const Chunk& chunk, ModuleString& to) {
     const ModuleString& from = input.from;

@@ -21,4 +21,8 @@ bool write(const StepInput& input, Scratch& scratch, const Chunk& chunk, Machine
 /// Writes identities and, if they are kept, parents and births of what replaces a chunk.
 void write_lineage(const StepInput& input, const Chunk& chunk, ModuleString& to);
 
+/// The same of a whole string, in columns with room for a block behind their ends.
+void write_lineage(const Plans& plans, std::span<const Change> changes, const ModuleString& from, std::uint32_t step,
+                   ModuleString& to);
+
 }  // namespace espalier
