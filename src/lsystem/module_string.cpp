@@ -6,6 +6,11 @@ namespace espalier {
 namespace {
 
 template <class T>
+std::size_t filled(const Column<T>& column) {
+    return column.size() * sizeof(T);
+}
+
+template <class T>
 std::size_t held(const Column<T>& column) {
     return column.capacity() * sizeof(T);
 }
@@ -23,6 +28,10 @@ void ModuleString::clear() {
 void ModuleString::append(LetterId letter, std::span<const double> values) {
     letters.push_back(letter);
     parameters.insert(parameters.end(), values.begin(), values.end());
+}
+
+std::size_t ModuleString::content() const {
+    return filled(letters) + filled(parameters) + filled(identities) + filled(parents) + filled(births);
 }
 
 std::size_t ModuleString::bytes() const {

@@ -10,11 +10,6 @@ std::size_t bytes_of(const Values& values) {
     return values.size() * sizeof(values[0]);
 }
 
-std::size_t bytes_of(const ModuleString& string) {
-    return bytes_of(string.letters) + bytes_of(string.parameters) + bytes_of(string.identities) +
-           bytes_of(string.parents) + bytes_of(string.births);
-}
-
 std::size_t bytes_of(const PlantGeometry& geometry) {
     return bytes_of(geometry.internodes) + bytes_of(geometry.polygons) + bytes_of(geometry.vertices) +
            bytes_of(geometry.organs) + bytes_of(geometry.mesh.vertices) + bytes_of(geometry.mesh.triangles) +
@@ -55,7 +50,7 @@ void KeptFrame::release() {
 std::size_t KeptFrame::bytes(const Frame& frame) {
     std::size_t bytes = 0;
     for (const PlantFrame& plant : frame.plants) {
-        bytes += bytes_of(*plant.string) + bytes_of(plant.interpretation->geometry) +
+        bytes += plant.string->content() + bytes_of(plant.interpretation->geometry) +
                  bytes_of(plant.interpretation->queries) + bytes_of(plant.interpretation->answers) +
                  bytes_of(plant.interpretation->directions);
     }

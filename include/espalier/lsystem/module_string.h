@@ -33,6 +33,8 @@ struct ModuleString {
     void clear();
     /// Appends one module without lineage; for building strings by hand.
     void append(LetterId letter, std::span<const double> values = {});
+    /// Bytes of the modules, without the room that the columns have besides.
+    std::size_t content() const;
     /// Bytes held by the columns.
     std::size_t bytes() const;
 };
