@@ -36,10 +36,10 @@ private:
         void set_aside() {
             const auto is_free = [](const std::shared_ptr<T>& one) { return one.use_count() == 1; };
             const auto free = std::find_if(earlier.begin(), earlier.end(), is_free);
-            if (free == earlier.end())
-                earlier.push_back(std::exchange(now, std::make_shared<T>()));
-            else
-                now.swap(*free);
+            std::shared_ptr<T> next = free == earlier.end() ? std::make_shared<T>() : std::move(*free);
+            // Of more that are free, some would stay so for ever.
+            std::erase_if(earlier, [&](const std::shared_ptr<T>& one) { return !one || is_free(one); });
+            earlier.push_back(std::exchange(now, std::move(next)));
         }
     };
 

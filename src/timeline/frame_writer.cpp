@@ -17,7 +17,7 @@ FrameWriter::~FrameWriter() {
 }
 
 bool FrameWriter::has_room(std::size_t bytes) const {
-    return waiting_.empty() || (waiting_.size() < most_frames && bytes_ + bytes <= most_bytes);
+    return waiting_.empty() || (waiting_.size() < most_frames && bytes_ + bytes <= room_);
 }
 
 std::unique_ptr<FrameWriter::Job> FrameWriter::make_room(std::size_t bytes) {

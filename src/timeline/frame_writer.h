@@ -3,6 +3,7 @@
 
 #include "timeline/kept_frame.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -36,6 +37,8 @@ public:
     /// As many frames may be on their way, if together they take no more than so many bytes; one always may.
     static constexpr std::size_t most_frames = 4;
     static constexpr std::size_t most_bytes = std::size_t{256} << 20;
+    /// Fewer bytes than that, from now on. For the thread that adds.
+    void keep_at_most(std::size_t bytes) { room_ = std::min(bytes, most_bytes); }
 
 private:
     struct Job {
@@ -59,6 +62,7 @@ private:
     /// thereby what it may write into.
     std::vector<std::unique_ptr<Job>> done_;
     std::size_t bytes_ = 0;  ///< of those that wait
+    std::size_t room_ = most_bytes;
     std::exception_ptr failure_;
     bool ends_ = false;
     std::thread thread_;

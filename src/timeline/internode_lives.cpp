@@ -5,9 +5,12 @@
 #include "espalier/base/random.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 
 namespace espalier {
 
@@ -17,6 +20,19 @@ constexpr std::uint32_t vacant = 0xFFFFFFFF;
 constexpr std::size_t look_ahead = 64;
 
 }  // namespace
+
+std::size_t internodes_born(int step, const ModuleString& string, const Column<Internode>& internodes) {
+    if (!string.has_lineage()) return 0;
+    const auto born = static_cast<std::uint32_t>(step);
+    const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::size_t sum) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += string.births[internodes[i].module] == born;
+        return sum;
+    };
+    constexpr std::size_t worth_sharing = std::size_t{1} << 15;
+    const tbb::blocked_range<std::size_t> all(0, internodes.size(), worth_sharing);
+    if (internodes.size() < 2 * worth_sharing) return count(all, 0);
+    return tbb::parallel_reduce(all, std::size_t{0}, count, std::plus<>());
+}
 
 bool InternodeLives::is(std::uint32_t life, Identity identity, std::uint32_t part) const {
     return lives_[life].identity == identity && lives_[life].part == part;

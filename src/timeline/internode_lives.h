@@ -22,6 +22,9 @@ struct InternodeLife {
     std::uint32_t place;  ///< among those that lived at its last step
 };
 
+/// How many internodes there are whose modules were born at `step`.
+std::size_t internodes_born(int step, const ModuleString& string, const Column<Internode>& internodes);
+
 class InternodeLives {
 public:
     /// Brings the lives to a step. `symbols` numbers the letters. Throws RunError if the string keeps no lineage.

@@ -157,6 +157,16 @@ void Timeline::record(const Frame& frame, bool is_last) {
     recorded_ = recorded_ || due;
 }
 
+RecordedMemory Timeline::memory(int step, const ModuleString& string, const Interpretation& interpretation) const {
+    RecordedMemory sum;
+    for (const auto& recorder : recorders_) sum += recorder->memory(step, string, interpretation);
+    return sum;
+}
+
+void Timeline::keep_at_most(std::size_t bytes) {
+    writer_->keep_at_most(bytes);
+}
+
 void Timeline::wait() {
     writer_->wait();
 }
@@ -190,7 +200,12 @@ void Timeline::finish() {
         }
     };
     attempt([this] { writer_->wait(); });
-    for (const auto& recorder : recorders_) attempt([&recorder] { recorder->finish(); });
+    // Those that see every step may have to write what they gathered: they need the room that others give back.
+    for (const bool sees_every_step : {false, true}) {
+        for (const auto& recorder : recorders_) {
+            if (recorder->sees_every_step() == sees_every_step) attempt([&recorder] { recorder->finish(); });
+        }
+    }
     if (first) std::rethrow_exception(first);
 }
 

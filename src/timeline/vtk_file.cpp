@@ -116,10 +116,17 @@ void VtkFile::write(const std::filesystem::path& path) {
     write_text(path, pieces());
 }
 
+// One text after the other: all of them would take as much memory as the arrays.
 std::uint64_t VtkFile::digest() {
+    while (!open_.empty()) close();
     std::uint64_t sum = espalier::digest("");
-    for (const std::string_view piece : pieces()) sum = espalier::digest(piece, sum);
-    return sum;
+    Column<char> text;
+    for (std::size_t i = 0; i < count_; ++i) {
+        text.clear();
+        encode(parts_[i].array, text);
+        sum = espalier::digest(view(text), espalier::digest(parts_[i].markup, sum));
+    }
+    return espalier::digest(markup_, sum);
 }
 
 }  // namespace espalier

@@ -162,6 +162,15 @@ bool connect(std::deque<Stretch>& stretches, std::vector<std::uint32_t>& known) 
 template <class Row>
 void append(std::vector<Row>& rows, std::vector<Row>& more) {
     rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    std::vector<Row>().swap(more);
+}
+
+/// For the rows of all stretches at once: growing bit by bit, they would be there three times for a moment.
+template <class Row>
+void make_room(std::vector<Row> PlantGeometry::*rows, const std::deque<Stretch>& stretches, PlantGeometry& geometry) {
+    std::size_t count = 0;
+    for (const Stretch& stretch : stretches) count += (stretch.rest.geometry.*rows).size();
+    if ((geometry.*rows).capacity() < count) (geometry.*rows).reserve(count + count / 8);
 }
 
 // Surfaces of cylinders and patches are never there: they carry from stretch to stretch.
@@ -216,6 +225,9 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
     }
     result.geometry.shapes = input.settings.shapes;
     result.geometry.axes = stretches.back().axes_before + stretches.back().rest.geometry.axes;
+    make_room(&PlantGeometry::organs, stretches, result.geometry);
+    make_room(&PlantGeometry::polygons, stretches, result.geometry);
+    make_room(&PlantGeometry::vertices, stretches, result.geometry);
     for (Stretch& stretch : stretches) {
         append(result.geometry, stretch.rest.geometry, stretch.before.internodes);
         append(result.directions, stretch.rest.directions);

@@ -18,6 +18,20 @@ struct RecorderContext {
     int last_step = 0;             ///< of the run as planned
 };
 
+/// Bytes that recording takes, besides the frame itself.
+struct RecordedMemory {
+    std::size_t frame = 0;   ///< while the frame is written, and until the next is
+    std::size_t kept = 0;    ///< from this frame on to the end of the run
+    std::size_t finish = 0;  ///< for this frame's sake at the end of the run, when what `frame` counts is gone
+
+    RecordedMemory& operator+=(const RecordedMemory& other) {
+        frame += other.frame;
+        kept += other.kept;
+        finish += other.finish;
+        return *this;
+    }
+};
+
 /// Constructors take (Settings& timeline table, const RecorderContext&). Every file appears complete or not at all;
 /// what is on disk after `record` returns is a whole timeline up to that frame, whatever happens next. The run itself
 /// is ahead of that by a few frames: recorders work beside it, one after the other, on a thread of their own.
@@ -31,8 +45,11 @@ public:
     virtual std::vector<std::string> fields() const { return {}; }
     /// The frame and what it points to are gone when this returns; grids of fields may be kept.
     virtual void record(const Frame& frame) = 0;
-    /// After the last frame, also of an interrupted or failed run.
+    /// After the last frame, also of an interrupted or failed run; lets go of memory that nobody needs then.
     virtual void finish() = 0;
+    /// What recording a plant takes at this step, told from the plant alone: how far the recorder is depends on chance,
+    /// where a run runs out of memory must not. Called side by side, before the step is recorded.
+    virtual RecordedMemory memory(int, const ModuleString&, const Interpretation&) const { return {}; }
 
     /// What the frames to come depend on, as bytes, when every frame so far is written; for a checkpoint.
     virtual void save(std::ostream&) const {}

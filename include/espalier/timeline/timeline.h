@@ -34,6 +34,10 @@ public:
     /// The first frame chosen is on disk when this returns, so that a mistake in the table is told at once. What goes
     /// wrong with a later one is thrown by the next call, of this or of another; nothing is recorded after it.
     void record(const Frame& frame, bool is_last = false);
+    /// What all recorders take for a plant's sake at this step; see Recorder::memory.
+    RecordedMemory memory(int step, const ModuleString& string, const Interpretation& interpretation) const;
+    /// Frames that wait to be written take no more than so many bytes, or 256 MiB, from now on; one frame always may.
+    void keep_at_most(std::size_t bytes);
     /// Returns when every frame recorded is on disk.
     void wait();
     /// Waits; then what the frames to come depend on, as bytes.

@@ -68,6 +68,13 @@ public:
         file_.write(path_);
     }
 
+    // Measured. At the end lives become rows and arrays, and these become texts.
+    RecordedMemory memory(int step, const ModuleString& string, const Interpretation& interpretation) const override {
+        constexpr std::size_t of_life = 130, at_the_end = 190;
+        const std::size_t born = internodes_born(step, string, interpretation.geometry.internodes);
+        return {0, born * of_life, born * at_the_end};
+    }
+
     void save(std::ostream& out) const override {
         put(out, last_step_);
         put(out, time_);
@@ -94,6 +101,9 @@ private:
     };
 
     void gather() {
+        std::size_t count = 0;
+        for (const auto& [plant, lives] : plants_) count += lives.all().size();
+        rows_.reserve(count);
         for (const auto& [plant, lives] : plants_) {
             for (const InternodeLife& life : lives.all()) rows_.push_back({plant, &life});
         }
@@ -101,6 +111,10 @@ private:
 
     // Two points an internode: neighbours may have been seen last at different steps.
     void fill_geometry() {
+        coordinates_.reserve(6 * rows_.size());
+        radii_.reserve(2 * rows_.size());
+        connectivity_.reserve(2 * rows_.size());
+        offsets_.reserve(rows_.size());
         for (const Row& row : rows_) {
             const InternodeLife& life = *row.life;
             for (const glm::vec3& point : {life.base, life.tip}) {
