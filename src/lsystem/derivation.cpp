@@ -339,6 +339,25 @@ void Derivation::advance(ModuleString& string, ModuleString& spare, int steps) {
     }
 }
 
+// What small strings need is their thread's.
+std::size_t Derivation::working_memory(const ModuleString& string) const {
+    const State& state = *state_;
+    const CompiledSystem& main = state.main;
+    const std::size_t foreseen = 2 * state.forecast.changes.size() * sizeof(Change);
+    if (string.size() <= grain) return foreseen;
+    std::size_t of_module = 0;
+    if (main.in_two_passes() && !main.plans.all_known) of_module += sizeof(LetterId) + sizeof(Change);
+    if (state.model->uses_context) of_module += bytes_of_neighbours(main.choosing.gazes);
+    if (state.model->uses_context && main.choosing.needs_partners) of_module += sizeof(std::uint32_t);
+    if (state.model->binds_context) of_module += sizeof(std::uint32_t);
+    const std::size_t pieces = main.in_two_passes() ? 0 : string.content();
+    return foreseen + pieces + of_module * string.size();
+}
+
+void Derivation::set_memory(std::size_t bytes) {
+    state_->settings.memory = bytes;
+}
+
 int Derivation::steps_done() const {
     return static_cast<int>(state_->step);
 }

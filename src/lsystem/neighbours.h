@@ -30,6 +30,12 @@ struct Gazes {
     bool at_once = false;
 };
 
+/// What Neighbours takes for each module.
+inline std::size_t bytes_of_neighbours(const Gazes& gazes) {
+    const std::size_t columns = std::size_t{gazes.left.wanted} + gazes.right.wanted + gazes.next.wanted;
+    return columns * (gazes.positions ? sizeof(std::uint32_t) : sizeof(std::uint8_t));
+}
+
 /// A part of the string, seen from inside: what its modules see beyond it is filled in when all parts are known.
 template <class Value>
 struct Section {

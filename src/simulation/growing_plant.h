@@ -44,7 +44,8 @@ struct Plant {
     /// somebody reads, and all if `spare` is null, have a second memory of their own.
     template <class Rewrite>
     void rewrite(const Rewrite& rewrite, ModuleString* spare);
-    /// Of small strings always as if there were two that fit: when memory gets scarce there will be.
+    /// With what derivation needs besides. Of small strings always as if there were two that fit: when memory gets
+    /// scarce there will be.
     std::size_t bytes_of_strings() const;
     // Hints that a stage will soon come to this plant: whoever waits for its lines of memory one by one waits longer
     // than a small plant takes.
@@ -107,8 +108,10 @@ void Plant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
 
 inline std::size_t Plant::bytes_of_strings() const {
     const bool small = modules_before <= most_passed_on || string->size() <= most_passed_on;
-    if (small || !next) return 2 * content(*string);
-    return content(*string) + content(**next);
+    const std::size_t before = small || !next ? string->content() : (*next)->content();
+    // New columns have an eighth more room than they need: much memory at once stays untouched, little does not.
+    const std::size_t room = small ? (string->content() + before) / 8 : 0;
+    return string->content() + before + room + derivation.working_memory(*string);
 }
 
 /// Memory for strings that nobody holds now.

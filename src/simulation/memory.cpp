@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <bit>
 #include <fstream>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -33,42 +36,61 @@ std::size_t peak_memory() {
     return static_cast<std::size_t>(usage.ru_maxrss) * unit;
 }
 
+// By itself the GNU library raises this threshold up to 32 MiB, and columns that plants have outgrown lie unused
+// between those that came later: up to a quarter of what a run held.
+void give_back_what_is_large() {
+#ifdef __GLIBC__
+    constexpr int large = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, large);
+#endif
+}
+
 MemoryShares share_memory(std::size_t budget, std::size_t processes) {
     const std::size_t fields = processes == 0 ? 0 : budget / 2;
     const std::size_t plants = budget - fields;
-    // A step's new strings are made before anyone knows how much will be drawn of them: room for them stays free.
-    return {plants / 8 * 7, plants / 4, processes == 0 ? 0 : fields / processes};
+    // The rest is for the program itself, and for what is drawn of a step's strings before anyone knows how much.
+    return {plants / 8 * 7, plants / 16, processes == 0 ? 0 : fields / processes};
 }
 
-std::size_t content(const ModuleString& string) {
-    const auto bytes = [](const auto& column) { return column.size() * sizeof(column[0]); };
-    return bytes(string.letters) + bytes(string.parameters) + bytes(string.identities) + bytes(string.parents) +
-           bytes(string.births);
-}
-
-void PlantMemory::set_drawn(const Interpretation& interpretation) {
-    const auto written = [](const auto& column) { return column.size() * sizeof(column[0]); };
+void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plants) {
     // Memory that grows by doubling.
     const auto held = [](const auto& column) {
         return column.empty() ? 0 : std::bit_ceil(column.size()) * sizeof(column[0]);
     };
+    // Of large plants these are counted before they are written.
+    constexpr std::size_t large = 8192;
+    const auto written = [&](const auto& column) {
+        return column.size() < large ? held(column) : column.size() * sizeof(column[0]);
+    };
     const PlantGeometry& geometry = interpretation.geometry;
     const DrawnMesh& mesh = geometry.mesh;
-    internodes = written(geometry.internodes);
-    others = written(interpretation.queries) + written(interpretation.answers) + held(interpretation.directions) +
-             held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) + held(mesh.vertices) +
-             held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) + held(geometry.textures);
+    const std::size_t question = sizeof(Answer) + 2 * sizeof(double) + (many_plants ? sizeof(Query) : 0);
+    drawn = written(geometry.internodes) + written(interpretation.queries) + written(interpretation.answers) +
+            held(interpretation.directions) + held(geometry.polygons) + held(geometry.vertices) +
+            held(geometry.organs) + held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) +
+            held(geometry.labels) + held(geometry.textures) + interpretation.queries.size() * question;
 }
 
-PlantMemory PlantMemory::grown(double factor) const {
+void PlantMemory::set_recorded(const RecordedMemory& now, std::size_t before) {
+    drawn_before = before;
+    recorded = {now.frame, recorded.kept + now.kept, recorded.finish + now.finish};
+}
+
+void PlantMemory::add(const PlantMemory& plant) {
+    strings += plant.strings;
+    drawn += plant.drawn;
+    drawn_before += plant.drawn_before;
+    recorded += plant.recorded;
+}
+
+PlantMemory PlantMemory::grown(double factor, bool is_recorded) const {
     const auto times = [&](std::size_t bytes) { return static_cast<std::size_t>(static_cast<double>(bytes) * factor); };
-    return {strings, times(internodes), times(others)};
+    return {strings, times(drawn), is_recorded ? drawn : 0,
+            RecordedMemory{times(recorded.frame), times(recorded.kept), times(recorded.finish)}};
 }
 
-// The timeline copies the frame (half of `strings` are the old ones), makes its mesh twice, and its text. Measured: an
-// internode of 96 bytes costs 700 in all, and a forest, mostly leaves, two and a half times what is drawn of it.
-std::size_t PlantMemory::recorded() const {
-    return strings + strings / 2 + internodes * 7 + others * 3;
+std::size_t PlantMemory::total() const {
+    return strings + drawn + drawn_before + recorded.kept + std::max(recorded.frame, recorded.finish);
 }
 
 std::string commonest_module(const Model& model, const ModuleString& string) {

@@ -3,6 +3,7 @@
 #include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
 
+#include "memory.h"
 #include "run_record.h"
 #include "sealed_file.h"
 #include "written_files.h"
@@ -66,9 +67,15 @@ private:
         remove_checkpoint();
         if (options_.overwrite && files_before) remove_written_files(options_.output, *files_before);
         record_.note_files_before(files_below(files_folder_of(options_.output)));
-        if (scene_.frames) timeline_->choose(*scene_.frames);
-        write_record("running");
+        begin_recording();
         record_.begin(*timeline_);
+    }
+
+    void begin_recording() {
+        if (scene_.frames) timeline_->choose(*scene_.frames);
+        timeline_->keep_at_most(world_.bytes_for_frames());
+        world_.count_recording(*timeline_);
+        write_record("running");
     }
 
     void resume_timeline() {
@@ -81,8 +88,7 @@ private:
         timeline_.emplace(options_.output, scene_.timeline, scene_.steps, get_text(in, most_checkpoint_bytes));
         record_.resume(*timeline_, in);
         world_.restore(in);
-        if (scene_.frames) timeline_->choose(*scene_.frames);
-        write_record("running");
+        begin_recording();
     }
 
     void write_checkpoint() {
@@ -175,6 +181,7 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& output) {
 RunResult run(const Scene& scene, const RunOptions& options) {
     RunOptions resolved = options;
     if (resolved.memory == 0) resolved.memory = default_memory();
+    give_back_what_is_large();
     return Run(scene, resolved).walk();
 }
 

@@ -1,6 +1,7 @@
 #include "espalier/simulation/world.h"
 
 #include "espalier/base/bytes.h"
+#include "espalier/timeline/timeline.h"
 
 #include "growing_plant.h"
 #include "memory.h"
@@ -23,7 +24,7 @@
 namespace espalier {
 namespace {
 
-constexpr std::uint64_t checkpoint_signature = 0x31'646c'726f'57;  // "World1"
+constexpr std::uint64_t checkpoint_signature = 0x32'646c'726f'57;  // "World2"
 
 /// What is asked of all plants together after each stage.
 struct Totals {
@@ -81,6 +82,7 @@ struct World::State {
     std::vector<ModuleString*> strings;
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
     std::unique_ptr<Environment> environment;
+    const Timeline* timeline = nullptr;
     int step = 0;
     StageTimes times;
     std::vector<Diagnostic> warnings;
@@ -96,6 +98,9 @@ struct World::State {
     template <class Rewrite>
     void derive(const Rewrite& rewrite);
     void interpret_and_exchange();
+    void limit_strings(Plant& plant) const;
+    void draw(Plant& plant);
+    void count_memory(Plant& plant) const;
     [[noreturn]] void refuse_strings(bool passed_on) const;
     void take_derived(const Totals& derived);
     void require_memory(const PlantMemory& needed) const;
@@ -147,16 +152,14 @@ void World::State::derive(const Rewrite& rewrite) {
     release_frames();
     // While memory is plentiful nobody will ask for strings of before.
     constexpr std::size_t plentiful = 16;
-    const bool passes_on = totals.memory.recorded() <= shares.plants / plentiful;
+    const std::size_t besides = totals.memory.total() - totals.memory.strings;
+    const bool passes_on = totals.memory.total() <= shares.plants / plentiful;
     std::atomic<std::size_t> held = totals.memory.strings;
-    const auto is_too_much = [&] {
-        PlantMemory needed = totals.memory;
-        needed.strings = held;
-        return needed.recorded() > shares.plants;
-    };
+    const auto is_too_much = [&] { return held + besides > shares.plants; };
     std::atomic<bool> full = is_too_much();
     const Totals derived = for_every_plant(&Plant::prefetch_derivation, [&](Plant& plant, ModuleString& spare) {
         if (full) return;
+        limit_strings(plant);
         plant.rewrite(rewrite, passes_on ? &spare : nullptr);
         const std::size_t bytes = plant.bytes_of_strings();
         if (bytes != plant.memory.strings) {
@@ -169,6 +172,14 @@ void World::State::derive(const Rewrite& rewrite) {
     });
     if (plants.size() > 1 && is_too_much()) refuse_strings(passes_on);
     take_derived(derived);
+}
+
+// As much as is left, with the strings there are.
+void World::State::limit_strings(Plant& plant) const {
+    const std::size_t others = totals.memory.total() - plant.memory.strings;
+    const std::size_t working = plant.derivation.working_memory(*plant.string);
+    const std::size_t taken = others + working;
+    plant.derivation.set_memory(shares.plants - std::min(taken, shares.plants));
 }
 
 /// Which plants were rewritten when the others were given up depends on the threads: tells of the strings before.
@@ -193,18 +204,18 @@ void World::State::take_derived(const Totals& derived) {
     const double growth =
         totals.modules == 0 ? 1 : static_cast<double>(derived.modules) / static_cast<double>(totals.modules);
     totals = derived;
-    require_memory(totals.memory.grown(std::max(growth, 1.0)));
+    require_memory(totals.memory.grown(std::max(growth, 1.0), timeline != nullptr));
 }
 
 void World::State::require_memory(const PlantMemory& needed) const {
-    if (needed.recorded() <= shares.plants) return;
+    if (needed.total() <= shares.plants) return;
     const auto largest = std::max_element(plants.begin(), plants.end(), [](const Plant& a, const Plant& b) {
         return a.string->size() < b.string->size();
     });
     throw RunError(
         fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
                     "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
-                    step, totals.modules, needed.recorded() >> 20, shares.plants >> 20, largest->description->name,
+                    step, totals.modules, needed.total() >> 20, shares.plants >> 20, largest->description->name,
                     largest->string->size(), commonest_module(*largest->model, *largest->string)));
 }
 
@@ -213,19 +224,30 @@ void World::State::interpret_and_exchange() {
     {
         const Stopwatch stopwatch(times.interpret);
         totals = for_every_plant(&Plant::prefetch_interpretation, [&](Plant& plant, const ModuleString&) {
-            Interpretation& interpretation = plant.interpretation.for_writing();
-            interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle,
-                      plant.has_pictures ? &plant.derivation : nullptr, {plant.number}, interpretation);
-            plant.memory.set_drawn(interpretation);
-            views[plant.number].asks = interpretation.asks();
-            if (frames.empty()) return;
-            views[plant.number].string = strings[plant.number] = &*plant.string;
-            views[plant.number].interpretation = &interpretation;
+            draw(plant);
+            count_memory(plant);
         });
         require_memory(totals.memory);
     }
     const Stopwatch stopwatch(times.exchange);
     environment->exchange({step, time(), scene.dt, views}, strings);
+}
+
+void World::State::draw(Plant& plant) {
+    Interpretation& interpretation = plant.interpretation.for_writing();
+    interpret(*plant.model, *plant.symbols, *plant.string, plant.description->turtle,
+              plant.has_pictures ? &plant.derivation : nullptr, {plant.number}, interpretation);
+    views[plant.number].asks = interpretation.asks();
+    if (frames.empty()) return;
+    views[plant.number].string = strings[plant.number] = &*plant.string;
+    views[plant.number].interpretation = &interpretation;
+}
+
+void World::State::count_memory(Plant& plant) const {
+    const Interpretation& interpretation = *plant.interpretation;
+    const std::size_t before = plant.memory.drawn;
+    plant.memory.set_drawn(interpretation, plants.size() > 1);
+    if (timeline) plant.memory.set_recorded(timeline->memory(step, *plant.string, interpretation), before);
 }
 
 // Lets go of what they hold, so that it can be written into if nobody else does.
@@ -260,7 +282,7 @@ DerivationSettings World::State::settings_of(const PlantDescription& plant, cons
     settings.seed = scene.seed;
     settings.plant = plant.stream;
     settings.lineage = true;
-    settings.memory = shares.string;
+    settings.memory = shares.plants;
     settings.input_folder = folder_with(source_of(*plant.model));
     if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
     return settings;
@@ -314,6 +336,7 @@ void World::save(std::ostream& out) const {
     for (const Plant& plant : state_->plants) {
         plant.derivation.save(out);
         save_string(*plant.string, out);
+        put(out, plant.memory);
     }
     state_->environment->save(out);
 }
@@ -324,8 +347,8 @@ void World::restore(std::istream& in) {
     if (get<std::uint64_t>(in) != state_->plants.size()) throw RunError("the checkpoint is of another scene");
     for (Plant& plant : state_->plants) {
         plant.derivation.restore(in);
-        restore_string(*plant.string, state_->shares.string, in);
-        plant.memory.strings = plant.bytes_of_strings();
+        restore_string(*plant.string, state_->shares.plants, in);
+        plant.memory = get<PlantMemory>(in);
         plant.length = plant.derivation.length();
         plant.stopped = plant.derivation.stopped();
     }
@@ -334,7 +357,16 @@ void World::restore(std::istream& in) {
     state_->frames_of = -1;
     Totals restored;
     for (const Plant& plant : state_->plants) restored.add(plant);
-    state_->take_derived(restored);
+    state_->totals = restored;
+    state_->require_memory(state_->totals.memory);
+}
+
+void World::count_recording(const Timeline& timeline) {
+    state_->timeline = &timeline;
+}
+
+std::size_t World::bytes_for_frames() const {
+    return state_->shares.frames;
 }
 
 void World::start() {

@@ -154,6 +154,22 @@ TEST_CASE_METHOD(BadInput, "growth without end stops within its memory and keeps
     CHECK(run("derive doubling.l --memory 64M").code == 2);
 }
 
+TEST_CASE_METHOD(BadInput, "a plant rich in organs stays within its memory to the last frame", "[app]") {
+    write("balls.l",
+          "lsystem: 1\nderivation length: 1000\naxiom: A(0)\nA(n) : n > 0 --> A(n - 1)\n"
+          "A(n) : n <= 0 --> F(0.5)@O(0.2)@O(0.3)[+(20)A(3)]-(30)A(4)\nendlsystem\n");
+    const Outcome outcome = run("run balls.l --quiet --memory 192M --output out");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("step ") && Contains("--memory"));
+    const json record = json::parse(text_of(path() / "out" / "run.json"));
+    CHECK(frames_in("out") == record["steps_done"].get<std::size_t>() + 1);
+    const std::size_t mib = std::size_t{1} << 20, peak = record["peak_memory"].get<std::size_t>();
+    CHECK(peak > 96 * mib);
+#ifndef __SANITIZE_ADDRESS__
+    CHECK(peak < 256 * mib);  // 64 for the program itself
+#endif
+}
+
 TEST_CASE_METHOD(BadInput, "0/0 in a model names file, line, module and step", "[app]") {
     write("zero.l", models::zero_by_zero);
     const Outcome outcome = run("run zero.l --quiet --output out");

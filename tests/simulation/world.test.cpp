@@ -262,7 +262,7 @@ TEST_CASE_METHOD(Worlds, "what counts against the memory depends on neither the 
         return std::string("no error");
     };
     const std::string expected = message(1, 0);
-    CHECK_THAT(expected, Contains("step 3") && Contains("--memory"));
+    CHECK_THAT(expected, Contains("step 3") && Contains("memory"));
     for (const std::size_t frames : {0, 1, 2, 3}) {
         CHECK(message(1, frames) == expected);
         CHECK(message(4, frames) == expected);
@@ -279,7 +279,7 @@ TEST_CASE_METHOD(Worlds, "plants that fit one by one but not together end the ru
     World stand(scene(model,
                       "[simulation]\nsteps = 14\n"
                       "[[plant]]\nmodel = 'plant.l'\nname = 'oak'\ndefine = { SIZE = 2 }\n"
-                      "[[plant]]\nmodel = 'plant.l'\nname = 'ash'\ngrid = { columns = 60, spacing = 1 }\n"),
+                      "[[plant]]\nmodel = 'plant.l'\nname = 'ash'\ngrid = { columns = 120, spacing = 1 }\n"),
                 64 << 20);
     CHECK_THROWS_WITH(walk(stand, 14), Contains("step ") && Contains("'oak'") && Contains("--memory"));
     CHECK(stand.steps_done() < 14);

@@ -69,6 +69,12 @@ public:
     /// is used and its content lost.
     void advance(ModuleString& string, ModuleString& spare, int steps);
 
+    /// Bytes that a step from `string`, which the last step made, holds besides it and its successor: what is chosen
+    /// for its modules and what they see of each other. Told from the modules, not from the memory at hand.
+    std::size_t working_memory(const ModuleString& string) const;
+    /// Instead of DerivationSettings::memory from now on.
+    void set_memory(std::size_t bytes);
+
     int steps_done() const;
     /// The model's derivation length, or what a scene set with set_length().
     int length() const;

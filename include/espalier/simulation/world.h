@@ -11,6 +11,8 @@
 
 namespace espalier {
 
+class Timeline;
+
 /// The folder of the model's file, where it reads files of its own.
 std::filesystem::path folder_with(const Model& model);
 
@@ -25,6 +27,11 @@ public:
     /// `files`, below a folder of the plant's name if there are several; without it nothing is kept.
     World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {});
     ~World();
+
+    /// What recording takes counts against the memory, too. The timeline outlives the world's steps.
+    void count_recording(const Timeline& timeline);
+    /// How much of the memory is for frames that wait to be recorded.
+    std::size_t bytes_for_frames() const;
 
     /// Frame 0: every axiom, interpreted and exchanged.
     void start();
