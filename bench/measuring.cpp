@@ -1,8 +1,12 @@
 #include "measuring.h"
 
+#include "espalier/base/random.h"
 #include "espalier/simulation/simulation.h"
 
+#include "growing.h"
+
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <chrono>
@@ -47,6 +51,27 @@ public:
 private:
     Collector quiet_;
 };
+
+// Cores that share what they compute with, or with other machines, do not make two threads twice as fast.
+const char* const divisible_on_one = "divisible/1/real_time";
+const char* const divisible_on_two = "divisible/2/real_time";
+
+void divisible(benchmark::State& state) {
+    constexpr int parts = 64, length = 20'000;
+    const tbb::global_control control = threads(state);
+    for (auto _ : state) {
+        tbb::parallel_for(
+            0, parts,
+            [](int part) {
+                std::uint64_t value = std::uint64_t(part);
+                for (int k = 0; k < length; ++k) value = mix(value);
+                benchmark::DoNotOptimize(value);
+            },
+            tbb::simple_partitioner());
+    }
+    state.SetItemsProcessed(state.iterations() * parts);
+}
+BENCHMARK(divisible)->Arg(1)->Arg(2)->UseRealTime();
 
 void run_benchmark(const std::string& name, Collector& collector) {
     std::string exactly = "^";
@@ -99,6 +124,9 @@ double Measured::figure() const {
             return counter(work.least, "work") / counter(work.least, "yardstick");
         case Row::Measure::rate:
             return work.rate / (yardstick.repetitions == 0 ? nothing : yardstick.rate);
+        case Row::Measure::speedup:
+            if (yardstick.repetitions == 0 || divided.repetitions == 0) return nothing;
+            return 2 * (work.rate / yardstick.rate) / (divided.rate / divisible.rate);
         case Row::Measure::time_per_item:
             return (yardstick.repetitions == 0 ? nothing : yardstick.rate) / work.rate;
         case Row::Measure::time:
@@ -118,7 +146,7 @@ Measured measure(const Row& row, double seconds) {
     forget_peak_memory();
     const auto begin = std::chrono::steady_clock::now();
     Collector collector;
-    Measured measured{&row, {}, {}, 0};
+    Measured measured{&row, {}, {}, {}, {}, 0};
     double fastest = 0, fastest_yardstick = 0;
     const auto improved = [](double& before, const Best& now) {
         const bool better = before == 0 || now.seconds < before * (1 - noticeable);
@@ -130,6 +158,12 @@ Measured measure(const Row& row, double seconds) {
         if (!row.yardstick.empty()) run_benchmark(row.yardstick, collector);
         measured.work = collector.best(row.work);
         measured.yardstick = collector.best(row.yardstick);
+        if (row.measure == Row::Measure::speedup) {
+            run_benchmark(divisible_on_one, collector);
+            run_benchmark(divisible_on_two, collector);
+            measured.divisible = collector.best(divisible_on_one);
+            measured.divided = collector.best(divisible_on_two);
+        }
         const bool better_work = improved(fastest, measured.work);
         const bool better = improved(fastest_yardstick, measured.yardstick) || better_work;
         unchanged = better ? 0 : unchanged + 1;
@@ -144,7 +178,12 @@ std::vector<Measured> measure_chosen_by_google_benchmark() {
     benchmark::RunSpecifiedBenchmarks(&collector);
     std::vector<Measured> all;
     for (const Row& row : rows()) {
-        const Measured measured{&row, collector.best(row.work), collector.best(row.yardstick), peak_memory()};
+        const Measured measured{&row,
+                                collector.best(row.work),
+                                collector.best(row.yardstick),
+                                collector.best(divisible_on_one),
+                                collector.best(divisible_on_two),
+                                peak_memory()};
         if (!std::isnan(measured.figure())) all.push_back(measured);
     }
     return all;

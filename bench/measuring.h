@@ -25,6 +25,7 @@ struct Best {
 struct Measured {
     const Row* row = nullptr;
     Best work, yardstick;
+    Best divisible, divided;      ///< for a speedup: work that divides without loss, on one thread and on two
     std::size_t peak_memory = 0;  ///< of the process while this row was measured, bytes
 
     /// NaN if a side is missing or failed.

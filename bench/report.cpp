@@ -24,6 +24,8 @@ const char* name_of(Row::Measure measure) {
     switch (measure) {
         case Row::Measure::rate:
             return "items per second, work over yardstick";
+        case Row::Measure::speedup:
+            return "items per second, work over yardstick; 2 is what work that divides without loss gains here";
         case Row::Measure::time:
             return "seconds, work over yardstick";
         case Row::Measure::time_per_item:
@@ -60,6 +62,10 @@ Json row_json(const Measured& measured) {
                  {"verdict", verdict(measured)},
                  {"work", side_json(row.work, measured.work)}};
     if (!row.yardstick.empty()) json["yardstick"] = side_json(row.yardstick, measured.yardstick);
+    if (measured.divided.repetitions > 0) {
+        json["divisible_work"] = {side_json("on one thread", measured.divisible),
+                                  side_json("on two", measured.divided)};
+    }
     json["peak_memory"] = measured.peak_memory;
     return json;
 }

@@ -10,6 +10,7 @@ namespace espalier::bench {
 struct Row {
     enum class Measure {
         rate,           ///< items per second of the work, divided by the yardstick's
+        speedup,        ///< the same, 2 being what work that divides without loss gains from a second thread here
         time,           ///< seconds of the work, divided by the yardstick's
         time_per_item,  ///< seconds per item of the work, divided by the yardstick's
         value,          ///< the counter "value" of the work; no yardstick
