@@ -113,15 +113,15 @@ public:
 // Stays connected: an X server may begin anew when the last program leaves it (Xvfb does), and VTK, which comes next,
 // does not survive being turned away meanwhile.
 bool has_display() {
-    static const bool answers = [] {
-        if (!std::getenv("DISPLAY")) return false;
+    static void* const connection = []() -> void* {
+        if (!std::getenv("DISPLAY")) return nullptr;
         void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
-        if (!library) return false;
+        if (!library) return nullptr;
         using Open = void* (*)(const char*);
         const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
-        return open && open(nullptr);
+        return open ? open(nullptr) : nullptr;
     }();
-    return answers;
+    return connection != nullptr;
 }
 
 std::string why_no_pictures() {
