@@ -13,14 +13,6 @@ namespace {
 
 constexpr std::size_t lanes = ColumnProgram::lanes;
 
-bool has_two_operands(Opcode op) {
-    return op >= Opcode::power && op <= Opcode::not_equal;
-}
-
-bool reads_a(Opcode op) {
-    return op != Opcode::load_global && op != Opcode::jump;
-}
-
 bool is_jump(Opcode op) {
     return op >= Opcode::jump && op <= Opcode::jump_if_true;
 }
@@ -193,14 +185,14 @@ public:
     void meet(const Instruction& instruction) {
         if (!is_jump(instruction.op)) meet(instruction.target);
         if (reads_a(instruction.op)) meet(instruction.a);
-        if (has_two_operands(instruction.op)) meet(instruction.b);
+        if (reads_b(instruction.op)) meet(instruction.b);
         for (std::uint32_t k = 1; k < instruction.count; ++k) meet(instruction.a + k);
     }
     /// Puts columns in the place of registers.
     void place(Instruction& instruction) const {
         instruction.target = is_jump(instruction.op) ? 0 : (*this)(instruction.target);
         if (reads_a(instruction.op)) instruction.a = (*this)(instruction.a);
-        if (!is_jump(instruction.op)) instruction.b = has_two_operands(instruction.op) ? (*this)(instruction.b) : 0;
+        if (!is_jump(instruction.op)) instruction.b = reads_b(instruction.op) ? (*this)(instruction.b) : 0;
     }
     bool is_temporary(std::uint32_t reg) const { return reg >= constants_ + formals_; }
     std::uint32_t operator()(std::uint32_t reg) const {

@@ -51,14 +51,6 @@ Opcode opcode(Operator op) {
     }
 }
 
-bool reads_b(Opcode op) {
-    return op >= Opcode::power && op <= Opcode::not_equal;
-}
-
-bool reads_a(Opcode op) {
-    return (op >= Opcode::copy && op <= Opcode::call) || op == Opcode::jump_if_false || op == Opcode::jump_if_true;
-}
-
 bool is_unary(Operator op) {
     return op == Operator::negate || op == Operator::logical_not;
 }

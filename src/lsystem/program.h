@@ -49,6 +49,15 @@ enum class Opcode : std::uint8_t {
     file_scan,     // ScanCall a
 };
 
+// Whether register a or b of an instruction is an operand.
+inline bool reads_a(Opcode op) {
+    return (op >= Opcode::copy && op <= Opcode::call) || op == Opcode::jump_if_false || op == Opcode::jump_if_true;
+}
+
+inline bool reads_b(Opcode op) {
+    return op >= Opcode::power && op <= Opcode::not_equal;
+}
+
 /// Registers: the model's constants, then the formals of the production at hand, then temporaries.
 struct Instruction {
     Opcode op = Opcode::end;

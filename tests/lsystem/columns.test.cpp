@@ -9,6 +9,16 @@
 using namespace espalier;
 using namespace espalier::test;
 
+namespace {
+
+/// Adds a production that assigns, so that the model's modules are replaced one after the other.
+void give_order(ModelBuilder& model) {
+    const std::uint32_t count = model.add_global("count");
+    model.rule("Z", "Z").after = {assign(global(count), number(1))};
+}
+
+}  // namespace
+
 TEST_CASE("conditions and values of many modules at once are those of each alone", "[lsystem]") {
     const auto grown = [](bool ordered) {
         ModelBuilder model;
@@ -19,10 +29,7 @@ TEST_CASE("conditions and values of many modules at once are those of each alone
         model.rule({{"A", 2}}, {model.module("A", {x * y * number(0.5), call(Function::sin, {x + y})})}).condition =
             x < global(limit);
         model.rule({{"A", 2}}, {model.module("B", {x * x, y / number(3), y})}).condition = y < x * number(100);
-        if (ordered) {
-            const std::uint32_t count = model.add_global("count");
-            model.rule("Z", "Z").after = {assign(global(count), number(1))};
-        }
+        if (ordered) give_order(model);
         return text_after(model, 2);
     };
     CHECK((grown(false) == grown(true)));
@@ -42,10 +49,7 @@ TEST_CASE("where many modules are computed at once, each takes its own way throu
             .condition = apply(Operator::logical_and, {has_x, y / x < number(3000)});
         model.rule({{"A", 2}}, {model.module("B", {y / (x + number(1)), half})}).condition =
             apply(Operator::logical_or, {y < number(9000), number(0) < x * y});
-        if (ordered) {
-            const std::uint32_t count = model.add_global("count");
-            model.rule("Z", "Z").after = {assign(global(count), number(1))};
-        }
+        if (ordered) give_order(model);
         return text_after(model, 3);
     };
     CHECK((grown(false) == grown(true)));
@@ -75,10 +79,7 @@ TEST_CASE("where many modules are computed at once, each reads the parameters of
         model.add(model.make(b, a, {}, {model.module("A", {formal(1) / (formal(0) + number(1))})})).condition =
             formal(0) < number(50);
         model.add(model.make(a, a, {}, {model.module("A", {formal(0) + number(2)}), module("I", 1)}));
-        if (ordered) {
-            const std::uint32_t count = model.add_global("count");
-            model.rule("Z", "Z").after = {assign(global(count), number(1))};
-        }
+        if (ordered) give_order(model);
         return text_after(model, 4);
     };
     for (const bool ring : {false, true}) {
