@@ -1,7 +1,7 @@
 // The ground as cells, and how many discs lie over each.
 #pragma once
 
-#include "espalier/environment/picture_file.h"
+#include "espalier/base/picture_file.h"
 
 #include "environment/parameter_file.h"
 

@@ -1,8 +1,8 @@
 #include "shape_mesh_file.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/picture_bytes.h"
 
-#include "picture_bytes.h"
 #include "shape_mesh_formats.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "espalier/base/file.h"
+#include "espalier/base/text_cursor.h"
 #include "espalier/geometry/background.h"
-#include "espalier/language/text_cursor.h"
 
 #include "background_solids.h"
 

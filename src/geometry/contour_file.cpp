@@ -1,6 +1,6 @@
 #include "espalier/base/file.h"
+#include "espalier/base/line_reader.h"
 #include "espalier/geometry/side_files.h"
-#include "espalier/language/line_reader.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "espalier/base/file.h"
+#include "espalier/base/text_cursor.h"
 #include "espalier/geometry/side_files.h"
-#include "espalier/language/text_cursor.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "language/comments.h"
 
-#include "language/characters.h"
+#include "espalier/base/characters.h"
 
 #include <fmt/format.h>
 

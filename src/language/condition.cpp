@@ -1,5 +1,6 @@
 // The integer expressions of #if.
-#include "language/characters.h"
+#include "espalier/base/characters.h"
+
 #include "language/preprocessor.h"
 
 #include <fmt/format.h>

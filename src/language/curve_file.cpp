@@ -1,5 +1,5 @@
 #include "espalier/base/file.h"
-#include "espalier/language/line_reader.h"
+#include "espalier/base/line_reader.h"
 #include "espalier/language/side_files.h"
 
 #include <fmt/format.h>

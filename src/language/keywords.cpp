@@ -1,8 +1,7 @@
 #include "language/keywords.h"
 
+#include "espalier/base/characters.h"
 #include "espalier/base/text.h"
-
-#include "language/characters.h"
 
 #include <algorithm>
 #include <array>

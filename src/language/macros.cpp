@@ -1,6 +1,7 @@
 #include "language/macros.h"
 
-#include "language/characters.h"
+#include "espalier/base/characters.h"
+
 #include "language/comments.h"
 
 #include <fmt/format.h>

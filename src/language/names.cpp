@@ -1,8 +1,8 @@
 #include "language/names.h"
 
+#include "espalier/base/characters.h"
 #include "espalier/base/text.h"
 
-#include "language/characters.h"
 #include "language/walk.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "language/preprocessor.h"
 
+#include "espalier/base/characters.h"
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
 
-#include "language/characters.h"
 #include "language/comments.h"
 #include "language/macros.h"
 

@@ -1,7 +1,8 @@
 // Walks over preprocessed text: where statements end, which token comes next, what to say when it is the wrong one.
 #pragma once
 
-#include "language/characters.h"
+#include "espalier/base/characters.h"
+
 #include "language/source.h"
 
 #include <string>

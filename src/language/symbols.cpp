@@ -1,6 +1,6 @@
 #include "language/symbols.h"
 
-#include "language/characters.h"
+#include "espalier/base/characters.h"
 
 namespace espalier::language {
 

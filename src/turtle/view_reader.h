@@ -1,7 +1,7 @@
 // Reading a view file: its text as a stream of settings, and what the settings of several places share.
 #pragma once
 
-#include "espalier/language/text_cursor.h"
+#include "espalier/base/text_cursor.h"
 #include "espalier/turtle/view_file.h"
 
 #include <filesystem>

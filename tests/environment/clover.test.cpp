@@ -1,6 +1,6 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/environment/picture_file.h"
+#include "espalier/base/picture_file.h"
 
 #include "catch.h"
 #include "exchange_plants.h"

@@ -1,7 +1,7 @@
 #include "espalier/language/side_files.h"
 
 #include "espalier/base/error.h"
-#include "espalier/language/text_cursor.h"
+#include "espalier/base/text_cursor.h"
 
 #include "catch.h"
 #include "temporary_folder.h"

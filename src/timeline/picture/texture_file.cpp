@@ -1,7 +1,7 @@
 #include "timeline/picture/texture_file.h"
 
 #include "espalier/base/error.h"
-#include "espalier/environment/picture_file.h"
+#include "espalier/base/picture_file.h"
 
 #include <vtkBMPReader.h>
 #include <vtkImageData.h>

@@ -1,4 +1,4 @@
-#include "espalier/language/line_reader.h"
+#include "espalier/base/line_reader.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "espalier/environment/picture_file.h"
+#include "espalier/base/picture_file.h"
 
-#include "picture_bytes.h"
+#include "espalier/base/picture_bytes.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/environment/picture_file.h"
+#include "espalier/base/picture_file.h"
 
 #include <fmt/format.h>
 

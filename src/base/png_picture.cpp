@@ -1,4 +1,4 @@
-#include "picture_bytes.h"
+#include "espalier/base/picture_bytes.h"
 
 #include <vtkNew.h>
 #include <vtkObject.h>

@@ -1,6 +1,6 @@
-#include "espalier/language/text_cursor.h"
+#include "espalier/base/text_cursor.h"
 
-#include "language/characters.h"
+#include "espalier/base/characters.h"
 
 #include <algorithm>
 #include <charconv>
