@@ -1,140 +1,144 @@
 #include "espalier/base/picture_bytes.h"
 
-#include <vtkNew.h>
-#include <vtkObject.h>
-#include <vtkZLibDataCompressor.h>
-
-#include <array>
-#include <cstdlib>
+#include <csetjmp>
 #include <cstring>
-#include <vector>
+#include <png.h>
 
 namespace espalier {
 namespace {
 
-/// What the chunks of a file say, the picture still compressed.
-struct Chunks {
-    std::size_t width = 0, height = 0, channels = 0, bytes = 1;  ///< bytes of a channel
-    bool has_palette = false;
-    std::vector<Picture::Colour> palette;
-    std::string data;
+constexpr std::size_t signature_size = 8;
+
+/// What libpng asks for while it decodes. libpng reports errors by longjmp, so nothing here has a destructor.
+struct Source {
+    const PictureBytes* bytes;
+    std::size_t at;
+    bool ended;
 };
 
-std::size_t channels_of(int colour_type) {
-    switch (colour_type) {
-        case 0:
-        case 3:
-            return 1;  // grey, palette
-        case 4:
-            return 2;  // grey and opacity
-        case 2:
-            return 3;
-        case 6:
-            return 4;
-        default:
-            return 0;
+void read_bytes(png_structp png, png_bytep out, std::size_t count) {
+    auto& source = *static_cast<Source*>(png_get_io_ptr(png));
+    if (count > source.bytes->size() - source.at) {
+        source.ended = true;
+        png_error(png, "");
     }
+    std::memcpy(out, source.bytes->data() + source.at, count);
+    source.at += count;
 }
 
-void read_header(const PictureBytes& bytes, std::size_t at, Chunks& chunks) {
-    chunks.width = bytes.big4(at);
-    chunks.height = bytes.big4(at + 4);
-    chunks.channels = channels_of(bytes.at(at + 9));
-    chunks.has_palette = bytes.at(at + 9) == 3;
-    const int bits = bytes.at(at + 8);
-    chunks.bytes = bits == 16 ? 2 : 1;
-    if ((bits != 8 && bits != 16) || chunks.channels == 0 || bytes.at(at + 12) != 0) {
+[[noreturn]] void jump_back(png_structp png, png_const_charp) {
+    png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+/// libpng's state for one picture.
+class Decoder {
+public:
+    explicit Decoder(const PictureBytes& bytes)
+        : source_{&bytes, 0, false},
+          png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, jump_back, ignore_warning)) {
+        if (!png_) throw std::bad_alloc();
+        info_ = png_create_info_struct(png_);
+        png_set_read_fn(png_, &source_, read_bytes);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // `require_size` limits the pixels
+    }
+    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    /// Calls `read`, which must hold nothing with a destructor; an error of libpng is one of the file.
+    template <class Read>
+    void guarded(const Read& read) {
+        if (setjmp(png_jmpbuf(png_)) == 0) {
+            read(png_, info_);
+            return;
+        }
+        source_.bytes->fail(source_.ended ? "the picture ends too early" : "the picture is damaged");
+    }
+
+    png_const_structp png() const { return png_; }
+    png_const_infop info() const { return info_; }
+
+private:
+    Source source_;
+    png_structp png_;
+    png_infop info_ = nullptr;
+};
+
+void require_readable(const PictureBytes& bytes, const Decoder& decoder) {
+    const int bits = png_get_bit_depth(decoder.png(), decoder.info());
+    if ((bits != 8 && bits != 16) || png_get_interlace_type(decoder.png(), decoder.info()) != PNG_INTERLACE_NONE) {
         bytes.fail("only PNG pictures of 8 or 16 bits a channel that are not interlaced can be read");
     }
 }
 
-Chunks read_chunks(const PictureBytes& bytes) {
-    Chunks chunks;
-    for (std::size_t at = 8;;) {
-        const std::size_t length = bytes.big4(at);
-        std::string kind;
-        for (std::size_t i = 4; i < 8; ++i) kind += static_cast<char>(bytes.at(at + i));
-        if (length > bytes.size() || at + 12 + length > bytes.size()) bytes.fail("the picture ends too early");
-        const std::size_t begin = at + 8;
-        if (kind == "IHDR") read_header(bytes, begin, chunks);
-        if (kind == "PLTE") {
-            for (std::size_t i = 0; i + 2 < length; i += 3) {
-                chunks.palette.push_back({bytes.at(begin + i), bytes.at(begin + i + 1), bytes.at(begin + i + 2)});
+/// Appends the pixels of a row; indices of a palette are looked up here, because libpng takes any index.
+class RowReader {
+public:
+    RowReader(const PictureBytes& bytes, Decoder& decoder, PngPicture& picture)
+        : bytes_(bytes),
+          picture_(picture),
+          stored_(png_get_channels(decoder.png(), decoder.info())),
+          has_palette_(png_get_color_type(decoder.png(), decoder.info()) == PNG_COLOR_TYPE_PALETTE) {
+        decoder.guarded([&](png_structp png, png_infop info) {
+            if (has_palette_) png_get_PLTE(png, info, &palette_, &colours_);
+        });
+    }
+
+    void add(const std::vector<png_byte>& row) {
+        const std::size_t sample_size = picture_.greatest > 255 ? 2 : 1;
+        for (std::size_t at = 0; at < row.size(); at += stored_ * sample_size) {
+            if (has_palette_) {
+                add_colour(row[at]);
+                continue;
+            }
+            for (std::size_t k = 0; k < picture_.channels; ++k) {
+                const png_byte* sample = row.data() + at + k * sample_size;
+                const int value = sample_size == 2 ? 256 * sample[0] + sample[1] : sample[0];
+                picture_.samples.push_back(static_cast<std::uint16_t>(value));
             }
         }
-        if (kind == "IDAT") {
-            for (std::size_t i = 0; i < length; ++i) chunks.data += static_cast<char>(bytes.at(begin + i));
+    }
+
+private:
+    void add_colour(int index) {
+        if (index >= colours_) bytes_.fail("the picture uses a colour that its palette lacks");
+        for (const png_byte channel : {palette_[index].red, palette_[index].green, palette_[index].blue}) {
+            picture_.samples.push_back(channel);
         }
-        if (kind == "IEND") return chunks;
-        at = begin + length + 4;
     }
-}
 
-std::vector<std::uint8_t> inflated(const PictureBytes& bytes, const std::string& data, std::size_t size) {
-    std::vector<std::uint8_t> whole(size);
-    vtkNew<vtkZLibDataCompressor> zlib;
-    const int warns = vtkObject::GetGlobalWarningDisplay();
-    vtkObject::GlobalWarningDisplayOff();
-    const std::size_t got =
-        zlib->Uncompress(reinterpret_cast<const unsigned char*>(data.data()), data.size(), whole.data(), size);
-    vtkObject::SetGlobalWarningDisplay(warns);
-    if (got != size) bytes.fail("the picture is damaged");
-    return whole;
-}
-
-int paeth(int left, int above, int corner) {
-    const int guess = left + above - corner;
-    const int a = std::abs(guess - left), b = std::abs(guess - above), c = std::abs(guess - corner);
-    return a <= b && a <= c ? left : b <= c ? above : corner;
-}
-
-// Undoes what a row's filter took away, from its neighbours to the left and above.
-void unfilter(int filter, std::uint8_t* row, const std::uint8_t* above, std::size_t length, std::size_t step) {
-    for (std::size_t i = 0; i < length; ++i) {
-        const int left = i >= step ? row[i - step] : 0;
-        const int over = above ? above[i] : 0;
-        const int corner = above && i >= step ? above[i - step] : 0;
-        const std::array<int, 5> taken{0, left, over, (left + over) / 2, paeth(left, over, corner)};
-        row[i] = static_cast<std::uint8_t>(row[i] + taken[static_cast<std::size_t>(filter)]);
-    }
-}
-
-void add_pixel(const PictureBytes& bytes, const Chunks& chunks, const std::uint8_t* pixel, PngPicture& picture) {
-    if (chunks.has_palette) {
-        if (pixel[0] >= chunks.palette.size()) bytes.fail("the picture uses a colour that its palette lacks");
-        const Picture::Colour& colour = chunks.palette[pixel[0]];
-        picture.samples.insert(picture.samples.end(), colour.begin(), colour.end());
-        return;
-    }
-    for (std::size_t k = 0; k < picture.channels; ++k) {
-        const int sample = chunks.bytes == 2 ? 256 * pixel[2 * k] + pixel[2 * k + 1] : pixel[k];
-        picture.samples.push_back(static_cast<std::uint16_t>(sample));
-    }
-}
+    const PictureBytes& bytes_;
+    PngPicture& picture_;
+    std::size_t stored_;
+    bool has_palette_;
+    png_colorp palette_ = nullptr;
+    int colours_ = 0;
+};
 
 }  // namespace
 
 PngPicture read_png(const PictureBytes& bytes) {
-    for (std::size_t i = 0; i < 8; ++i) {
-        if (bytes.at(i) != static_cast<std::uint8_t>("\x89PNG\r\n\x1a\n"[i])) bytes.fail("this is no PNG picture");
+    if (!bytes.begins_with(std::string_view("\x89PNG\r\n\x1a\n", signature_size))) bytes.fail("this is no PNG picture");
+    // Before libpng, whose messages do not say the size.
+    constexpr std::size_t header = signature_size + 8;
+    bytes.require_size(bytes.big4(header), bytes.big4(header + 4), 1100);  // zlib packs 1032 bytes into one at most
+    Decoder decoder(bytes);
+    decoder.guarded([](png_structp png, png_infop info) { png_read_info(png, info); });
+    require_readable(bytes, decoder);
+    PngPicture picture;
+    picture.width = png_get_image_width(decoder.png(), decoder.info());
+    picture.height = png_get_image_height(decoder.png(), decoder.info());
+    picture.channels = png_get_color_type(decoder.png(), decoder.info()) & PNG_COLOR_MASK_COLOR ? 3 : 1;
+    picture.greatest = png_get_bit_depth(decoder.png(), decoder.info()) == 16 ? 65535 : 255;
+    RowReader rows(bytes, decoder, picture);
+    std::vector<png_byte> row(png_get_rowbytes(decoder.png(), decoder.info()));
+    for (std::size_t y = 0; y < picture.height; ++y) {
+        decoder.guarded([&](png_structp png, png_infop) { png_read_row(png, row.data(), nullptr); });
+        rows.add(row);
     }
-    const Chunks chunks = read_chunks(bytes);
-    bytes.require_size(chunks.width, chunks.height, 1100);  // zlib packs 1032 bytes into one at most
-    PngPicture picture{chunks.width,
-                       chunks.height,
-                       chunks.channels >= 3 || chunks.has_palette ? 3U : 1U,
-                       chunks.bytes == 2 ? 65535 : 255,
-                       {}};
-    const std::size_t step = chunks.channels * chunks.bytes, length = chunks.width * step;
-    std::vector<std::uint8_t> rows = inflated(bytes, chunks.data, (length + 1) * chunks.height);
-    const std::uint8_t* above = nullptr;
-    for (std::size_t y = 0; y < chunks.height; ++y) {
-        std::uint8_t* row = rows.data() + y * (length + 1) + 1;
-        if (row[-1] > 4) bytes.fail("the picture is damaged");
-        unfilter(row[-1], row, above, length, step);
-        above = row;
-        for (std::size_t x = 0; x < chunks.width; ++x) add_pixel(bytes, chunks, row + x * step, picture);
-    }
+    decoder.guarded([](png_structp png, png_infop) { png_read_end(png, nullptr); });
     return picture;
 }
 

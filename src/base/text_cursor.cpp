@@ -9,37 +9,11 @@
 
 namespace espalier {
 
-using language::is_digit;
-
-struct TextCursor::Source {
-    std::string text, name;                        // a plain file's
-    std::optional<PreprocessedText> preprocessed;  // or this
-
-    Place place(std::size_t offset) const {
-        if (preprocessed) return preprocessed->place(offset);
-        const auto begin = text.begin(), here = begin + std::ptrdiff_t(offset);
-        const std::size_t line_start = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
-        return {name, int(std::count(begin, here, '\n')) + 1, int(offset - line_start) + 1};
-    }
-    std::string line(std::size_t offset) const {
-        if (preprocessed) return preprocessed->source_line(offset);
-        const std::size_t start = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
-        std::string line = text.substr(start, text.find('\n', offset) - start);
-        if (line.ends_with('\r')) line.pop_back();
-        return line;
-    }
-};
-
 TextCursor::TextCursor(std::string_view text, std::string name)
-    : source_(std::make_shared<const Source>(Source{std::string(text), std::move(name), std::nullopt})),
-      end_(text.size()) {}
+    : TextCursor(plain_text(std::string(text), std::move(name))) {}
 
-TextCursor::TextCursor(const PreprocessedText& text)
-    : source_(std::make_shared<const Source>(Source{{}, {}, text})), end_(text.text().size()) {}
-
-std::string_view TextCursor::text() const {
-    return source_->preprocessed ? source_->preprocessed->text() : source_->text;
-}
+TextCursor::TextCursor(std::shared_ptr<const SourceText> text)
+    : source_(std::move(text)), end_(source_->text().size()) {}
 
 void TextCursor::skip(std::string_view characters) {
     while (!at_end() && characters.find(next()) != std::string_view::npos) ++at_;
@@ -97,7 +71,7 @@ Place TextCursor::place() const {
 }
 
 Diagnostic TextCursor::diagnostic(const std::string& message, Diagnostic::Severity severity) const {
-    return {severity, place(), message, source_->line(at_)};
+    return {severity, place(), message, source_->source_line(at_)};
 }
 
 void TextCursor::fail(const std::string& message) const {

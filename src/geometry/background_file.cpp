@@ -1,6 +1,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/text_cursor.h"
 #include "espalier/geometry/background.h"
+#include "espalier/language/preprocessor.h"
 
 #include "background_solids.h"
 
@@ -247,8 +248,7 @@ void read_background_text(std::string_view text, const std::string& name, const 
                           Background& background, std::vector<Diagnostic>& diagnostics) {
     ReadOptions options;
     options.warnings = &diagnostics;
-    const PreprocessedText preprocessed =
-        preprocess_text(text, name, std::filesystem::path(name).parent_path(), options);
+    const auto preprocessed = preprocess_text(text, name, std::filesystem::path(name).parent_path(), options);
     BackgroundReader(TextCursor(preprocessed), material, background, diagnostics).read();
 }
 

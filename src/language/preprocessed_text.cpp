@@ -5,31 +5,26 @@
 #include "language/source.h"
 
 namespace espalier {
+namespace {
 
-struct PreprocessedText::Origin {
+struct MappedSource : SourceText {
     language::Sources sources;
-    language::MappedText text;
+    language::MappedText mapped;
+
+    const std::string& text() const override { return mapped.text(); }
+    Place place(std::size_t offset) const override { return sources.place(mapped.location(offset)); }
+    std::string source_line(std::size_t offset) const override { return sources.line(mapped.location(offset)); }
 };
 
-const std::string& PreprocessedText::text() const {
-    return origin_->text.text();
-}
+}  // namespace
 
-Place PreprocessedText::place(std::size_t offset) const {
-    return origin_->sources.place(origin_->text.location(offset));
-}
-
-std::string PreprocessedText::source_line(std::size_t offset) const {
-    return origin_->sources.line(origin_->text.location(offset));
-}
-
-PreprocessedText preprocess_text(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                                 const ReadOptions& options) {
-    const auto origin = std::make_shared<PreprocessedText::Origin>();
+std::shared_ptr<const SourceText> preprocess_text(std::string_view text, const std::string& name,
+                                                  const std::filesystem::path& folder, const ReadOptions& options) {
+    const auto origin = std::make_shared<MappedSource>();
     language::Mistakes mistakes(origin->sources);
     try {
         const std::uint32_t file = origin->sources.add(name, std::string(text));
-        origin->text =
+        origin->mapped =
             language::preprocess(origin->sources, file, folder, options, mistakes, language::Overrides::may_be_unknown)
                 .text;
     } catch (const language::TooManyMistakes&) {
@@ -40,10 +35,10 @@ PreprocessedText preprocess_text(std::string_view text, const std::string& name,
         options.warnings->insert(options.warnings->end(), found.begin(), found.end());
     }
     if (std::vector<Diagnostic> errors = mistakes.errors(); !errors.empty()) throw UserError(std::move(errors));
-    return PreprocessedText(origin);
+    return origin;
 }
 
-PreprocessedText preprocess_file(const std::filesystem::path& path, const ReadOptions& options) {
+std::shared_ptr<const SourceText> preprocess_file(const std::filesystem::path& path, const ReadOptions& options) {
     return preprocess_text(read_text(path), path.string(), path.parent_path(), options);
 }
 

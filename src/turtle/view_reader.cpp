@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
 #include "espalier/geometry/side_files.h"
+#include "espalier/language/preprocessor.h"
 
 #include <fmt/format.h>
 
@@ -49,8 +50,8 @@ std::string without_colon(std::string_view label) {
 
 }  // namespace
 
-ViewReader::ViewReader(const PreprocessedText& text, fs::path folder)
-    : text_(text), setting_(text_), folder_(std::move(folder)) {
+ViewReader::ViewReader(std::shared_ptr<const SourceText> text, fs::path folder)
+    : text_(std::move(text)), setting_(text_), folder_(std::move(folder)) {
     view.turtle.line_style = LineStyle::pixel;  // until the file says otherwise
 }
 
@@ -288,7 +289,7 @@ View read_view_text(std::string_view text, const std::string& name, const Define
     ReadOptions options;
     options.defines = defines;
     options.warnings = &warnings;
-    const PreprocessedText preprocessed = preprocess_text(text, name, fs::path(name).parent_path(), options);
+    const auto preprocessed = preprocess_text(text, name, fs::path(name).parent_path(), options);
     View view = ViewReader(preprocessed, folder).read();
     view.diagnostics.insert(view.diagnostics.begin(), warnings.begin(), warnings.end());
     return view;

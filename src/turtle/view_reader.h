@@ -36,7 +36,7 @@ struct ViewWord {
 
 class ViewReader {
 public:
-    ViewReader(const PreprocessedText& text, std::filesystem::path folder);
+    ViewReader(std::shared_ptr<const SourceText> text, std::filesystem::path folder);
     View read();
 
     // What keywords do. Values may be separated by blanks, tabs and commas, and may stand on later lines.

@@ -128,9 +128,9 @@ TEST_CASE("names defined beforehand give way to a file's own definition, overrid
     options.predefined = {{"HILL", "1"}, {"SLOPE", "2"}};
     options.defines = {{"SLOPE", "3"}, {"UNKNOWN", "4"}};
     options.warnings = &warnings;
-    const PreprocessedText text = preprocess_text(
-        "HILL SLOPE\n#define HILL 7\n#define SLOPE 8\nHILL SLOPE\n#undef HILL\nHILL\n", "p.v", {}, options);
-    CHECK(text.text() == "1 3\n\n\n7 3\n\nHILL\n");
+    const auto text = preprocess_text("HILL SLOPE\n#define HILL 7\n#define SLOPE 8\nHILL SLOPE\n#undef HILL\nHILL\n",
+                                      "p.v", {}, options);
+    CHECK(text->text() == "1 3\n\n\n7 3\n\nHILL\n");
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].message ==
           "'HILL' is defined a second time, differently (first in the view file, as the name of a function)");
@@ -194,18 +194,18 @@ TEST_CASE("the text of a side file knows where it was written, through macros an
     folder.write("plant.v", "#include \"parts/angle.h\"\n/* how it turns */ angle factor: 360/-ANGLE x\n");
     ReadOptions options;
     options.defines = {{"UNKNOWN", "1"}};
-    const PreprocessedText text = preprocess_file(folder.path / "plant.v", options);
-    CHECK(text.text().find("angle factor: 360/-22 x\n") != std::string::npos);
-    const Place width = text.place(text.text().find("width"));
+    const auto text = preprocess_file(folder.path / "plant.v", options);
+    CHECK(text->text().find("angle factor: 360/-22 x\n") != std::string::npos);
+    const Place width = text->place(text->text().find("width"));
     CHECK(width.file == (folder.path / "parts/angle.h").string());
     CHECK(width.line == 2);
     CHECK(width.column == 6);
-    const std::size_t behind_macro = text.text().find(" x\n") + 1;
-    CHECK(text.place(behind_macro).line == 2);
-    CHECK(text.place(behind_macro).column == 45);
-    CHECK(text.place(text.text().find("22")).column == 39);
-    CHECK(text.source_line(behind_macro) == "/* how it turns */ angle factor: 360/-ANGLE x");
-    CHECK(preprocess_text("", "empty.v").text().empty());
-    CHECK(preprocess_text("", "empty.v").place(0).line == 1);
+    const std::size_t behind_macro = text->text().find(" x\n") + 1;
+    CHECK(text->place(behind_macro).line == 2);
+    CHECK(text->place(behind_macro).column == 45);
+    CHECK(text->place(text->text().find("22")).column == 39);
+    CHECK(text->source_line(behind_macro) == "/* how it turns */ angle factor: 360/-ANGLE x");
+    CHECK(preprocess_text("", "empty.v")->text().empty());
+    CHECK(preprocess_text("", "empty.v")->place(0).line == 1);
     CHECK_THROWS_AS(preprocess_text("#if 1\n", "plant.v"), UserError);
 }

@@ -1,7 +1,7 @@
 // Classes of characters, the same in every locale.
 #pragma once
 
-namespace espalier::language {
+namespace espalier {
 
 constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';
@@ -20,4 +20,4 @@ constexpr bool is_continuation_byte(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-}  // namespace espalier::language
+}  // namespace espalier

@@ -20,6 +20,7 @@ public:
     explicit PictureBytes(const std::filesystem::path& path) : name_(path.string()), bytes_(read_text(path)) {}
 
     std::size_t size() const { return bytes_.size(); }
+    const char* data() const { return bytes_.data(); }
     bool begins_with(std::string_view start) const { return std::string_view(bytes_).starts_with(start); }
     std::uint8_t at(std::size_t i) const {
         if (i >= bytes_.size()) fail("the picture ends too early");

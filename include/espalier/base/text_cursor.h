@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
-#include "espalier/language/preprocessor.h"
+#include "espalier/base/source_text.h"
 
 #include <cstddef>
 #include <memory>
@@ -20,7 +20,7 @@ public:
 
     /// `name` is the file's, for the places.
     TextCursor(std::string_view text, std::string name);
-    explicit TextCursor(const PreprocessedText& text);
+    explicit TextCursor(std::shared_ptr<const SourceText> text);
 
     bool at_end() const { return at_ == end_; }
     /// The character here; '\0' at the end.
@@ -46,10 +46,9 @@ public:
     [[noreturn]] void fail(const std::string& message) const;
 
 private:
-    struct Source;
-    std::string_view text() const;
+    std::string_view text() const { return source_->text(); }
 
-    std::shared_ptr<const Source> source_;
+    std::shared_ptr<const SourceText> source_;
     std::size_t at_ = 0, end_ = 0;
 };
 
