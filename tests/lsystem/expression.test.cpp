@@ -1,8 +1,8 @@
 #include "espalier/lsystem/constant.h"
 
 #include "catch.h"
-#include "lsystem/functions.h"
 #include "lsystem/model_builder.h"
+#include "lsystem/programs/functions.h"
 
 #include <cmath>
 

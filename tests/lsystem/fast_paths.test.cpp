@@ -1,6 +1,6 @@
 // Whatever a step is taken for, it writes what the plain derivation writes.
 #include "catch.h"
-#include "lsystem/plans.h"
+#include "lsystem/compile/plans.h"
 #include "lsystem/reference_derivation.h"
 
 #include <tbb/global_control.h>

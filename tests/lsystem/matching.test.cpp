@@ -1,8 +1,8 @@
 // Contexts and choices against a plain reading of the language: every neighbour is searched for, every production
 // tried.
 #include "catch.h"
+#include "lsystem/contexts/neighbours.h"
 #include "lsystem/model_builder.h"
-#include "lsystem/neighbours.h"
 
 #include <tbb/global_control.h>
 

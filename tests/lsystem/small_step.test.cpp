@@ -1,5 +1,5 @@
 // Steps of small strings whose letters tell all: they write what any step writes, and leave to it what is not for them.
-#include "lsystem/small_step.h"
+#include "lsystem/derive/small_step.h"
 
 #include "catch.h"
 #include "lsystem/reference_derivation.h"

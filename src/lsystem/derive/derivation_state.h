@@ -1,0 +1,73 @@
+// What a derivation remembers between steps.
+#pragma once
+
+#include "espalier/lsystem/derivation.h"
+
+#include "lsystem/derive/rewriting.h"
+#include "lsystem/derive/sub_systems.h"
+#include "lsystem/programs/files.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+
+namespace espalier {
+
+struct Derivation::State {
+    State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given);
+
+    void reset();
+    void run_block(const Program& block, const char* name);
+    void follow_length();
+    /// Runs what belongs to no module; its draws form one sequence from the beginning of the growth.
+    void in_block(Machine& machine, const std::string& name, const std::function<void()>& work);
+    RandomKey key(Stream stream) const { return RandomKey(settings.seed, settings.plant, stream, services.salt); }
+    /// Runs something with services that print nothing and write nothing.
+    void rehearse(const std::function<void(Services& silent)>& work);
+    void evaluate_seed();
+    void evaluate_length();
+    void evaluate_axiom(ModuleString& string);
+    void find_kept(const ModuleString& from);
+    std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;
+    StepInput prepare(const ModuleString& from);
+    void rewrite(const ModuleString& from, ModuleString& to);
+    /// Several steps at once; returns how many, 0 if the model does not allow it.
+    int leap(const ModuleString& from, ModuleString& to, int steps);
+    /// The same where the string holds sub-L-systems.
+    void rewrite_nested(const ModuleString& from, ModuleString& to);
+    void warn_of_depth();
+    void warn_once(const Place& place, const std::string& message);
+
+    // What every step touches stands together: of ten thousand small plants each line of memory counts.
+    std::shared_ptr<const CompiledModel> model;
+    const CompiledSystem& main;
+    Machines machines;
+    std::uint32_t step = 0;
+    int length = 0;
+    bool length_is_set = false;  ///< by set_length(), not by the model
+    std::atomic<bool> depth_limit{false};
+    bool warned_of_depth = false;
+    const bool steps_are_small;  ///< those of small strings: see small_step.h
+    /// Grows with every change of variables, so that painters know what they have seen.
+    std::uint64_t generation = 0;
+    Scratch* scratch = nullptr;  ///< lent for the step at hand
+    Variables variables;
+    Services services;
+    DerivationSettings settings;
+    Ancestry ancestry;
+
+    ModelFiles files;
+    Forecast forecast;  ///< of the string that was written last
+    std::unique_ptr<Scratch> own_scratch;
+    SubSystems sub_systems;
+    Machine block_machine;
+    RandomDraws block_draws{RandomKey(), 0, 0};
+    /// Never the same for two states.
+    const std::uint64_t serial;
+    std::mutex warning;
+    std::set<std::pair<std::string, std::pair<int, int>>> warned;
+};
+
+}  // namespace espalier
