@@ -34,7 +34,7 @@ const char* const description =
     "that\n"
     "other programs on the machine disturb the ratio little. 'reached' or 'short' says whether the goal is met; the "
     "exit\n"
-    "code is 1 if one is short. docs/performance.md tells where the time goes.";
+    "code is 1 if one is short. docs/developer/performance.md has the last results.";
 
 const char* const examples =
     "Examples:\n"

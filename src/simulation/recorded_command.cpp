@@ -58,6 +58,13 @@ bool tells_of_the_run(const fs::path& file) {
     return file == "run.json" || file == "timings.csv" || file == ".lock";
 }
 
+// Other commands leave pictures, charts and exports in the folder of a run.
+bool is_written_by_runs(const fs::path& file) {
+    static const std::set<fs::path> names{"plants.pvd",    "plants",         "fields.pvd", "fields",
+                                          "lifespans.vtp", "statistics.csv", "files"};
+    return names.contains(*file.begin());
+}
+
 std::set<fs::path> timeline_files(const fs::path& folder) {
     std::set<fs::path> files = files_below(folder);
     std::erase_if(files, tells_of_the_run);
@@ -131,7 +138,7 @@ std::vector<std::string> timeline_differences(const fs::path& before, const fs::
     std::vector<std::string> differences;
     for (const fs::path& file : old_files) {
         if (!new_files.contains(file)) {
-            differences.push_back(file.string() + " is missing");
+            if (is_written_by_runs(file)) differences.push_back(file.string() + " is missing");
             continue;
         }
         const std::string old_bytes = read_text(before / file), new_bytes = read_text(after / file);

@@ -54,6 +54,18 @@ TEST_CASE_METHOD(Workplace, "rerun names the files that differ", "[app]") {
     CHECK_THAT(again.out, Contains("0002.vtp is new") && Contains("statistics.csv differs from byte"));
 }
 
+TEST_CASE_METHOD(Workplace, "rerun ignores what other commands left in the folder of the run", "[app]") {
+    write("shrub.l", shrub);
+    REQUIRE(run("run shrub.l --quiet --output first").code == 0);
+    fs::create_directory(path() / "first" / "analysis");
+    for (const char* name : {"first/render.png", "first/plot.svg", "first/analysis/orders.csv"}) write(name, "x");
+    CHECK(run("rerun first --quiet").code == 0);
+    write("first/plants/9999.vtp", "x");
+    const Outcome again = run("rerun first --quiet");
+    CHECK(again.code == 2);
+    CHECK_THAT(again.out, Contains("9999.vtp is missing"));
+}
+
 TEST_CASE_METHOD(Workplace, "what cannot be repeated is refused in words", "[app]") {
     CHECK(run("rerun nowhere").code == 1);
     write("shrub.l", shrub);

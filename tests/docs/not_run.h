@@ -1,0 +1,71 @@
+// Commands of the pages that a test cannot run, each with its reason. An entry that no page has any more is an error.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pages {
+
+struct NotRun {
+    std::string page;
+    std::string command;
+    std::string reason;
+    std::string needs;  ///< a program: the command is run where this program is installed
+};
+
+inline const std::vector<NotRun>& not_run() {
+    static const std::vector<NotRun> list = {
+        {"README.md", "./dev run environments/two-trees.toml",
+         "installs packages and builds; this test belongs to what it builds", ""},
+        {"README.md", "./dev test", "installs packages and builds; this test belongs to what it builds", ""},
+        {"README.md", "espalier view output/two-trees",
+         "opens a window that stays until somebody closes it; tests/app/view.test.cpp drives one", ""},
+        {"CONTRIBUTING.md", "./dev build", "installs packages and builds; this test belongs to what it builds", ""},
+        {"CONTRIBUTING.md", "./dev test", "installs packages and builds; this test belongs to what it builds", ""},
+        {"CONTRIBUTING.md", "./dev check", "installs packages and builds; this test belongs to what it builds", ""},
+        {"CONTRIBUTING.md", "./dev format --check", "installs packages and builds; this test belongs to what it builds",
+         ""},
+        {"CONTRIBUTING.md", "./dev bench --row context",
+         "installs packages and builds; this test belongs to what it builds", ""},
+        {"CONTRIBUTING.md", "./dev fuzz model 60", "installs packages and builds; this test belongs to what it builds",
+         ""},
+        {"CONTRIBUTING.md", "cmake --build --preset release --target test_turtle",
+         "installs packages and builds; this test belongs to what it builds", ""},
+        {"CONTRIBUTING.md", "build/release/tests/test_turtle \"[turtle]\"", "ctest runs these tests", ""},
+        {"docs/experiments.md", "./dev test -R experiments",
+         "installs packages and builds; this test belongs to what it builds", ""},
+        {"docs/experiments.md", "build/release/tests/test_experiments \"[two-trees]\" -s", "ctest runs these tests",
+         ""},
+        {"docs/experiments/forest.md", "build/release/tests/test_experiments \"[forest]\" -s", "ctest runs these tests",
+         ""},
+        {"docs/experiments/several-processes.md", "build/release/tests/test_experiments \"[processes]\" -s",
+         "ctest runs these tests", ""},
+        {"docs/experiments/topiary.md", "build/release/tests/test_experiments \"[topiary]\" -s",
+         "ctest runs these tests", ""},
+        {"docs/library.md", "./dev build && sudo cmake --install build/release", "installs into the system", ""},
+        {"docs/library.md",
+         "g++ -std=c++20 grow.cpp -lespalier -lfmt -ltbb -o grow && ./grow environments/lone-tree.toml",
+         "needs an installed library", ""},
+        {"docs/performance.md", "./dev bench", "builds the benchmarks, and measures for minutes", ""},
+        {"docs/performance.md", "./dev bench --list", "builds the benchmarks, and measures for minutes", ""},
+        {"docs/performance.md", "./dev bench --row context --row forest",
+         "builds the benchmarks, and measures for minutes", ""},
+        {"docs/program.md", "espalier resume output/two-trees",
+         "needs a run that was interrupted; tests/app/resume.test.cpp interrupts some", ""},
+        {"docs/program.md", "espalier view output/two-trees",
+         "opens a window that stays until somebody closes it; tests/app/view.test.cpp drives one", ""},
+        {"docs/render.md", "espalier render output/two-trees --output growth.mp4", "ffmpeg writes this format",
+         "ffmpeg"},
+        {"docs/sweeps.md", "sbatch --array=1-$(wc -l < commands) docs/sweep.slurm",
+         "needs a cluster; tests/app/repeat.test.cpp runs docs/sweep.slurm", "sbatch"},
+        {"docs/view.md", "espalier view output/two-trees",
+         "opens a window that stays until somebody closes it; tests/app/view.test.cpp drives one", ""},
+        {"docs/view.md", "espalier view environments/two-trees.toml",
+         "opens a window that stays until somebody closes it; tests/app/view.test.cpp drives one", ""},
+        {"docs/view.md", "espalier view models/course/02-branching.l --steps 6",
+         "opens a window that stays until somebody closes it; tests/app/view.test.cpp drives one", ""},
+    };
+    return list;
+}
+
+}  // namespace pages
