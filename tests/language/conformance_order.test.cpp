@@ -34,11 +34,11 @@ std::string seen(const std::string& text) {
 }  // namespace
 
 TEST_CASE("8 the order of events in a step", "[conformance]") {
-    quote("`Start` is run, then the axiom's parameters are evaluated.");
+    quote("`Start` runs, then the parameters of the axiom are evaluated.");
     quote(
-        "For each step: `Q` grows by 1; `StartEach` is run; every module is replaced, from left to right; "
-        "`EndEach` is run.");
-    quote("After the last step `End` is run.");
+        "In each step, `Q` grows by 1, `StartEach` runs, every module is replaced, from left to right, and `EndEach` "
+        "runs.");
+    quote("After the last step, `End` runs.");
     std::string printed;
     DerivationSettings settings;
     settings.print = [&](const std::string& text) { printed += text; };
@@ -54,8 +54,8 @@ TEST_CASE("8 the order of events in a step", "[conformance]") {
 
 TEST_CASE("9 decomposition", "[conformance]") {
     quote(
-        "Each module that a step writes, copied or new, is decomposed at once, depth first, at most to the "
-        "maximum depth, which is 1 if nothing else is said. So the axiom is first decomposed in step 1.");
+        "Each module that a step writes, copied or new, is decomposed at once, depth first, down to the maximum depth "
+        "(default 1). The axiom is therefore first decomposed in step 1.");
     const std::string decomposition = "A --> BD\ndecomposition\nB --> CB\nD --> E\n";
     CHECK(step("AB", decomposition, "derivation length: 0\n") == "AB");
     CHECK(step("AB", decomposition) == "CBECB");
@@ -73,34 +73,34 @@ TEST_CASE("9 decomposition", "[conformance]") {
         {}, settings);
     CHECK(printed == "BCCD");
     quote(
-        "Decomposition takes the first production that matches. Contexts are those of the module of the "
-        "string before the step from which the decomposed module comes; several modules to the left of the "
-        "arrow must come from one such module.");
+        "Decomposition uses the first production that matches. Its contexts are those of the module in the old string "
+        "from which the decomposed module comes. Several modules on the left of the arrow must come from the same "
+        "module.");
     CHECK(step("AE", "A --> BCB\ndecomposition\nBC --> DD\nB --> F\nE --> G\n") == "DDFG");
     CHECK(step("AX", "A --> B\nX --> C\ndecomposition\nBC --> DD\n") == "BC");
     CHECK(step("LA", "A --> BB\nL --> M\ndecomposition\nL < B --> C\nM < B --> D\nB --> E\n") == "MCC");
     quote(
-        "`maximum depth: n`, `warnings` and `no warnings` stand behind the keyword, the last two on its own "
-        "line or below it.");
+        "`maximum depth: n`, `warnings` and `no warnings` follow the keyword; the last two may be on its line or below "
+        "it.");
     CHECK(step("A", "A --> B\ndecomposition no warnings\nB --> C\nhomomorphism warnings\nC --> D\n") == "C");
     CHECK(step("A", "A --> B\ndecomposition:\nwarnings\nmaximum depth: 1\nB --> C\n") == "C");
 }
 
 TEST_CASE("10 homomorphism", "[conformance]") {
     quote(
-        "The productions of a homomorphism are applied when a string is interpreted, to what the turtle sees; "
-        "the string itself stays as it is.");
+        "The productions of a homomorphism are applied when the turtle interprets the string. The string itself does "
+        "not change.");
     const std::string pictures = "A(x) --> A(x + 1)\nhomomorphism\nseed: 3\nA(x) --> !(x)B\nB --> @O(2)\n";
     CHECK(step("A(1)", pictures) == "A(2)");
     CHECK(seen(lsystem("derivation length: 1\n", "A(1)B", pictures)) == "!(2)B@O(2)");
     quote(
-        "They are applied depth first, at most to the maximum depth, which is 1 if nothing else is said; "
-        "modules that are reached at this depth are interpreted as they are.");
+        "They are applied depth first, down to the maximum depth (default 1). Modules at this depth are interpreted as "
+        "they are.");
     const std::string deep = "X --> X\nhomomorphism\nno warnings\nmaximum depth: 3\nA --> FA\n";
     CHECK(seen(lsystem("", "A", deep)) == "FFFA");
     quote(
-        "`maximum depth: n`, `seed: n`, `warnings` and `no warnings` may stand behind the keyword. A "
-        "homomorphism with weights draws from random numbers of its own.");
+        "`maximum depth: n`, `seed: n`, `warnings` and `no warnings` may follow the keyword. A homomorphism with "
+        "weights has its own random numbers.");
     const std::string grown = "A --> F(ran(1))A\n";
     const std::string drawn = "homomorphism\nseed: 5\nF(x) --> G(ran(1)) : 1\nF(x) --> H : 1\n";
     CHECK(step("A", grown, "derivation length: 3\n") == step("A", grown + drawn, "derivation length: 3\n"));
@@ -108,8 +108,8 @@ TEST_CASE("10 homomorphism", "[conformance]") {
 
 TEST_CASE("11 sub-L-systems", "[conformance]") {
     quote(
-        "Between `?(id)` or `?(id, scale)` and `$` the productions, decomposition, homomorphism, filters and "
-        "variables of the L-system labelled id apply. They nest.");
+        "Between `?(id)` or `?(id, scale)` and `$`, the productions, decomposition, homomorphism, filters and "
+        "variables of the L-system with the label id apply. Sub-L-systems can be nested.");
     const std::string inner = "lsystem: 2\ndefine: { external total; }\naxiom: L\nL(x) --> L(x + 1)L(x)\nendlsystem\n";
     CHECK(derived("lsystem: 1\nderivation length: 2\nStart: { total = 0; }\naxiom: ?(2, 0.5)L(1)$L(1)A\nA --> "
                   "FA\nendlsystem\n" +
@@ -123,25 +123,25 @@ TEST_CASE("11 sub-L-systems", "[conformance]") {
                   "lsystem: 2\nignore: F\naxiom: A\nB < A --> Y\ndecomposition\nB --> Z\nendlsystem\n") ==
           "B+X?(2)Z+A$");
     quote(
-        "A sub-L-system's axiom and derivation length are not used; the axiom may be missing. An L-system "
-        "that calls itself, through others or not, is an error.");
+        "The axiom and derivation length of a sub-L-system are ignored; the axiom may be missing. An L-system that "
+        "calls itself, directly or through others, is an error.");
     CHECK_FALSE(mistake("lsystem: 1\nderivation length: 2\naxiom: ?(2)A$\nX --> X\nendlsystem\n"
                         "lsystem: 2\nA --> ?(2)A$\nendlsystem\n")
                     .empty());
-    quote("Labels are whole numbers and occur once in a file.");
+    quote("Labels are whole numbers, and each occurs once in a file.");
     CHECK(mistake("lsystem: 1\naxiom: A\nA --> A\nendlsystem\nlsystem: 1\nA --> A\nendlsystem\n").find("label 1") !=
           std::string::npos);
 }
 
 TEST_CASE("11 variables of sub-L-systems", "[conformance]") {
     quote(
-        "Each place where a sub-L-system stands has variables of its own. `Start` is run when it is entered "
-        "first, `StartEach` and `EndEach` in each step, `End` when it is cut or the derivation ends.");
+        "Each occurrence of a sub-L-system has its own variables. `Start` runs when it is first entered, `StartEach` "
+        "and `EndEach` run in each step, and `End` runs when it is cut or the derivation ends.");
     CHECK(derived("lsystem: 1\nderivation length: 3\nStart: { n = 100; }\naxiom: ?(2)A(0)$?(2)A(10)$A(0)\n"
                   "A(x) --> A(n)\nendlsystem\nlsystem: 2\nStart: { n = 5; }\nStartEach: { n = n + 1; }\n"
                   "A(x) : x >= 10 {n = n + 10;} --> A(n)\nA(x) --> A(n)\nendlsystem\n") == "?(2)A(8)$?(2)A(38)$A(100)");
     quote(
-        "`external` names are variables and arrays of the L-system around; an external array has the size it "
+        "`external` names are variables and arrays of the surrounding L-system. An external array has the size that it "
         "has there.");
     CHECK(
         derived("lsystem: 1\ndefine: { array a[2] = {1, 2}; }\nderivation length: 2\n"
@@ -152,9 +152,9 @@ TEST_CASE("11 variables of sub-L-systems", "[conformance]") {
 
 TEST_CASE("12 cutting", "[conformance]") {
     quote(
-        "`%` that has no production of its own removes, in the step after it appeared, everything from itself "
-        "to the end of its branch: to the closing bracket that ends it, to the `$` that ends its "
-        "sub-L-system, or to the end of the string.");
+        "A `%` without a production of its own removes everything from itself to the end of its branch, in the step "
+        "after it appeared. The branch ends at its closing bracket, at the `$` of its sub-L-system, or at the end of "
+        "the string.");
     const std::string cutting = "A --> %\n";
     CHECK(step("B[CA[D]E]F", cutting) == "B[C%[D]E]F");
     CHECK(step("B[CA[D]E]F", cutting, "derivation length: 2\n") == "B[C]F");
@@ -162,6 +162,6 @@ TEST_CASE("12 cutting", "[conformance]") {
     CHECK(step("BA[D]E", cutting + "% --> X\n", "derivation length: 2\n") == "BX[D]E");
     CHECK(derived("lsystem: 1\nderivation length: 2\naxiom: ?(2)BAC$D\nX --> X\nendlsystem\n"
                   "lsystem: 2\nA --> %\nendlsystem\n") == "?(2)B$D");
-    quote("A `%` that a homomorphism draws removes nothing.");
+    quote("A `%` in a homomorphism removes nothing from the string.");
     CHECK(step("BAC", "X --> X\nhomomorphism\nA --> %\n", "derivation length: 3\n") == "BAC");
 }

@@ -18,8 +18,8 @@ std::string value(const std::string& expression, const std::string& start = "") 
 
 TEST_CASE("6 statements", "[conformance]") {
     quote(
-        "Statements are assignments to variables and array elements, expressions, `if` with or without "
-        "`else`, `while` and `do`. Bodies are always in braces.");
+        "A statement is an assignment to a variable or an array element, an expression, `if` with or without `else`, "
+        "`while` or `do`. Bodies are always in braces.");
     CHECK(derived(lsystem("define: { array sum[4]; }\nStart: {\n    i = 0;\n"
                           "    while (i < 4) { sum[i] = 2 ^ i; i = i + 1; }\n"
                           "    do { i = i - 1; } while (i > 0);\n"
@@ -31,13 +31,13 @@ TEST_CASE("6 statements", "[conformance]") {
     CHECK(value("n", "n\n= 2; n\n += m\n= 3;") == "5");
     CHECK(mistake(lsystem("Start: { if (1) n = 2; }\n", "A", "A --> A\n")).find("'{' to begin a block") !=
           std::string::npos);
-    quote("A `;` ends a statement, may stand behind a closing brace and alone, and may be missing before one.");
+    quote("A `;` ends a statement. It is optional before a closing brace, and allowed after one or alone.");
     CHECK(value("n", "if (1) { n = 1; }; ; n = n + 1") == "2");
 }
 
 TEST_CASE("6 operators", "[conformance]") {
     quote(
-        "Operators, from the tightest: `!`; unary `-`; `^`; `*` `/` `%`; `+` `-`; `<` `<=` `>` `>=`; `==` "
+        "Operators, from the highest precedence: `!`; unary `-`; `^`; `*` `/` `%`; `+` `-`; `<` `<=` `>` `>=`; `==` "
         "`!=` `<>`; `&&`; `||`; `? :`; `=`.");
     CHECK(value("!0 + 1") == "2");
     CHECK(value("2 * 3 ^ 2") == "18");
@@ -49,22 +49,22 @@ TEST_CASE("6 operators", "[conformance]") {
     CHECK(value("0 ? 1 : 0 ? 2 : 3") == "3");
     CHECK(value("1 == 2 && 3") == "0");
     quote(
-        "All operators on two values associate to the left, so that `2^3^2` is 64; unary minus binds tighter "
-        "than `^`, so that `-2^2` is 4.");
+        "All binary operators associate to the left, so `2^3^2` is 64. Unary minus has a higher precedence than `^`, "
+        "so `-2^2` is 4.");
     CHECK(value("2^3^2") == "64");
     CHECK(value("-2^2") == "4");
     CHECK(value("2^-1") == "0.5");
     CHECK(value("8 - 4 - 2") == "2");
     CHECK(value("16 / 4 / 2") == "2");
-    quote("`<>` is the same as `!=`. `%` cuts both sides to whole numbers first. Comparisons give 1 or 0.");
+    quote("`<>` is the same as `!=`. `%` first truncates both operands to whole numbers. Comparisons give 1 or 0.");
     CHECK(value("(1 <> 2) + (1 != 1) + (2 <= 2) + (2 >= 3)") == "2");
     CHECK(value("7.9 % 3.9") == "1");
     CHECK(value("-7 % 3") == "-1");
-    quote("`&&`, `||` and `? :` evaluate only what they need.");
+    quote("`&&`, `||` and `? :` evaluate only the operands that they need.");
     CHECK(value("n", "0 && (n = 1); 1 || (n = 2); x = 1 ? 3 : (n = 4);") == "0");
     quote(
-        "Division by zero is an error that names the place and the module; with `--cpfg-quirks` it divides by "
-        "1. So is a parameter that is infinite or no number.");
+        "Division by zero is an error that names the place and the module; with `--cpfg-quirks`, the divisor is 1. A "
+        "parameter that is infinite or not a number is an error too.");
     const std::string division = lsystem("derivation length: 1\n", "A(0)", "A(x) --> B(3 / x)\n");
     CHECK(mistake(division).find("model.l:4:14") != std::string::npos);
     CHECK(mistake(lsystem("", "A(1 / 0)", "B --> C\n")).find("division by zero: 1 / 0") != std::string::npos);
@@ -82,7 +82,7 @@ TEST_CASE("7 functions of numbers", "[conformance]") {
     CHECK(value("asin(0.5), acos(0.5), atan(1)") == "30,60,45");
     CHECK(value("atan(0, 2), atan(-1, 0), atan2(1, 0)") == "90,180,90");
     CHECK(value("exp(1), log(exp(2)), sqrt(16), fabs(-3), floor(-1.5), ceil(-1.5)") == "2.71828,2,4,3,-2,-1");
-    quote("-1, 0 or 1; x without its fraction (with `--cpfg-quirks`: x rounded)");
+    quote("-1, 0 or 1; x truncated to a whole number (with `--cpfg-quirks`: x rounded)");
     CHECK(value("sign(-3), sign(0), sign(0.1)") == "-1,0,1");
     CHECK(value("trunc(2.5), trunc(-2.5)") == "2,-2");
     ReadOptions quirks;
@@ -103,7 +103,7 @@ TEST_CASE("7 random numbers", "[conformance]") {
     CHECK(mean("(nran(2, 3) - 2) ^ 2") == Approx(9).margin(0.5));
     CHECK(mean("bran(2, 3)") == Approx(0.4).margin(0.01));
     CHECK(mean("biran(10, 0.3)") == Approx(3).margin(0.06));
-    quote("starts the random numbers anew from s");
+    quote("restarts the random numbers with seed s");
     CHECK(value("a == b", "srand(5); a = ran(1); srand(5); b = ran(1);") == "1");
     CHECK(value("a == b", "srand(5); a = ran(1); srand(6); b = ran(1);") == "0");
 }
@@ -119,7 +119,7 @@ TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
     quote("ends the derivation after this step");
     CHECK(step("A(0)", "A(x) --> A(x + 1)\n", "derivation length: 9\nEndEach: { if (Q == 3) { stop(1); } }\n") ==
           "A(3)");
-    quote("| `Display(x)`, `play(\"file\")` | nothing |");
+    quote("| `Display(x)`, `play(\"file\")` | no effect |");
     CHECK(step("A(0)", "A(x) : {Display(x); play(\"leaf.wav\");} --> A(x + 1)\n") == "A(1)");
     quote("the derivation length");
     CHECK(step("A(0)", "A(x) --> A(x + 1)\n",
@@ -127,15 +127,15 @@ TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
 }
 
 TEST_CASE("13 additions to statements and functions", "[conformance]") {
-    quote("`+= -= *= /= ++ --`, `for`, `break` and `else if` are as in C; `break` leaves the innermost loop.");
+    quote("`+= -= *= /= ++ --`, `for`, `break` and `else if` work as in C; `break` leaves the innermost loop.");
     CHECK(
         derived("lsystem: 1\nStart: { for (i = 0; i < 10; i++) { sum += i; if (sum > 20) { break; } else if (sum > 10) "
                 "{ sum -= 1; } } last = i; }\naxiom: A(sum, last)\nA --> B\nendlsystem\n") == "A(26,7)");
     CHECK(value("n, a", "n = 3; n *= 4; n /= 6; a = 5; --a; a++; ++a;") == "2,6");
     CHECK(value("n", "for (i = 0; i < 3; i++) { while (1) { n++; break; } }") == "3");
     quote(
-        "`min max abs round pow clamp(x, low, high) lerp(a, b, t) noise(x, y, z) atan2(y, x)` are functions, "
-        "`pi` and `e` numbers, all of them ordinary names: a model that assigns them has variables.");
+        "`min max abs round pow clamp(x, low, high) lerp(a, b, t) noise(x, y, z) atan2(y, x)` are functions, and `pi` "
+        "and `e` are numbers. All are ordinary names: if a model assigns one, it becomes a variable.");
     CHECK(value("min(3, 1, 2), max(3, 1), abs(-2), round(2.5), pow(2, 3), clamp(7, 0, 5), lerp(2, 4, 0.5)") ==
           "1,3,2,3,8,5,3");
     CHECK(value("noise(1, 2, 3), noise(0.5, 0, 0) <= 1") == "0,1");
@@ -145,8 +145,8 @@ TEST_CASE("13 additions to statements and functions", "[conformance]") {
 
 TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]") {
     quote(
-        "A declared module must be written with a number of parameters it was declared with. `?E ?P ?H ?L ?U "
-        "?Q` keep their meaning whatever is declared.");
+        "A declared module must have one of the declared numbers of parameters. `?E ?P ?H ?L ?U ?Q` always keep their "
+        "meaning.");
     const std::string declared =
         "environment light;\nmodule Apex(age, vigour), A(x), Internode(length);\nconst turn = 360 / 1.618^2;\n";
     CHECK(derived(declared + lsystem("derivation length: 1\n", "Apex(0, 1)?light(1)?E(2)A(3)",
@@ -155,15 +155,14 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
           "Internode(1)[+(137.514)]?light(1)?E(3)A(4)");
     CHECK(mistake(declared + lsystem("", "Apex(1)", "A(x) --> B\n")).find("declared with 2 parameters") !=
           std::string::npos);
-    quote("`environment ...;`, `module ...;` and `const ...;` stand before `lsystem:` or in its header.");
+    quote("`environment ...;`, `module ...;` and `const ...;` are written before `lsystem:` or in its header.");
     CHECK(derived("lsystem: 1\nconst n = 2;\nmodule Bud;\nderivation length: n\naxiom: Bud\nBud --> BudB\n"
                   "endlsystem\n") == "BudBB");
-    quote("Symbols may be any Unicode code point.");
+    quote("A symbol may be any Unicode character.");
     CHECK(step("\xC3\xA9\xE2\x9D\x80(1)", "\xE2\x9D\x80(x) --> \xC3\xA9\n") == "\xC3\xA9\xC3\xA9");
     quote(
-        "A `#define` is overridden from a scene (`define = { ANGLE = 30 }`) or the command line (`--define "
-        "ANGLE=30`); the file's own definition of that name is then passed over. A name that the file neither "
-        "defines nor tests is refused.");
+        "A scene (`define = { ANGLE = 30 }`) or the command line (`--define ANGLE=30`) can replace a `#define`; the "
+        "definition in the file is then ignored. A name that the file neither defines nor tests is refused.");
     ReadOptions options;
     options.defines = {{"ANGLE", "30"}};
     CHECK(derived("#define ANGLE 25\n" + lsystem("derivation length: 1\n", "A", "A --> +(ANGLE)\n"), options) ==
@@ -173,10 +172,10 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
 
 TEST_CASE("14 differences", "[conformance]") {
     quote(
-        "Only known directives are directives: `#5 F` at the beginning of a line is modules. A double quote "
-        "that is never closed ends with its line, not with the file.");
+        "A line that begins with `#` is a directive only if the directive is known: `#5 F` contains modules. A double "
+        "quote without a closing quote ends at the end of its line, not of the file.");
     CHECK(step("A", "#define W 3\n/* 5\" pot */\n// 6\" pot\nA --> F(W)\n") == "F(3)");
-    quote("Brackets need not match: `check` warns.");
+    quote("Brackets need not match; `check` warns.");
     CHECK(step("A[B", "A --> B\n") == "B[B");
     CHECK(step("A]B", "A --> B]\n") == "B]]B");
 }

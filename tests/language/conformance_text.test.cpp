@@ -8,24 +8,23 @@ using namespace espalier;
 using namespace espalier::test;
 
 TEST_CASE("1.1 comments and joined lines", "[conformance]") {
-    quote("A comment, `/* */` or `//`, becomes one blank, wherever it stands.");
+    quote("A comment, `/* */` or `//`, is replaced by one blank.");
     CHECK(derived("/* a\n plant */ lsystem: 1 // one\nderivation /* how\nlong */ length: 1\naxiom: A/* x */B\n"
                   "A /* < */ --> C // > D\n// B --> D\nendlsystem // end\n") == "CB");
-    quote("A backslash at the end of a line joins it with the next.");
+    quote("A backslash at the end of a line joins it with the next line.");
     CHECK(step("A", "A --> B\\\nC\n") == "BC");
     CHECK(step("AB", "#define TWO(x) x \\\nx\nA --> TWO(C)\n") == "CCB");
 }
 
 TEST_CASE("1.1 directives", "[conformance]") {
     quote(
-        "Directives are `#define` (with arguments or without), `#undef`, `#include`, `#if`, `#ifdef`, "
-        "`#ifndef`, `#elif`, `#else`, `#endif`, `#error`, `#line` and `#pragma`, of which the last two do "
-        "nothing.");
+        "Directives are `#define` (with arguments or without), `#undef`, `#include`, `#if`, `#ifdef`, `#ifndef`, "
+        "`#elif`, `#else`, `#endif`, `#error`, `#line` and `#pragma`. The last two have no effect.");
     CHECK(step("A",
                "#line 7\n  # pragma once\n#define N 2\n#if N == 1\nA --> B\n#elif N == 2\nA --> C\n#else\n"
                "A --> D\n#endif\n#undef N\n#ifndef N\n#ifdef M\nC --> E\n#endif\n#endif\n") == "C");
     CHECK(mistake("#error not yet\n" + lsystem("", "A", "A --> B\n")).find("#error not yet") != std::string::npos);
-    quote("A line that begins with `#` and is no directive holds modules.");
+    quote("A line that begins with `#` but is not a directive contains modules.");
     CHECK(step("A#", "A --> B\n\t#(0.06)F\n# --> #5 F\n#define W 3\n") == "B#(0.06)F#5F");
     CHECK(step("A", "#define W 3\nA --> B\n\t#(W)F\n") == "B#(3)F");
 }
@@ -34,20 +33,20 @@ TEST_CASE("1.1 macros", "[conformance]") {
     CHECK(step("A", "#define LENGTH 2.5\n#define SEGMENT(l, a) F(l)+(a)\nA --> F(LENGTH) SEGMENT(1, 30)\n") ==
           "F(2.5)F(1)+(30)");
     quote(
-        "A macro is replaced wherever its name stands, also where the name was meant as a module. It is "
-        "replaced from its definition on; a name with arguments is left alone where none follow.");
+        "A macro is replaced wherever its name occurs after the definition, even if the name was meant as a module. A "
+        "macro with arguments is not replaced if no arguments follow.");
     CHECK(step("AB", "#define B C\nA --> B\nB --> D\n") == "CB");
     CHECK(step("S", "#define S(x) F(x)\nS --> S(2)S\n") == "F(2)S");
-    quote("`$` and `_` are letters of names for the preprocessor: in `A$A` it finds no `A`, in `A@A` two.");
+    quote("The preprocessor treats `$` and `_` as letters of names: it finds no `A` in `A$A`, and two in `A@A`.");
     CHECK(step("X", "#define A 1\nX --> A$A A@A F_A\n") == "A$A1@1F_A");
     quote(
-        "Between quotes, single or double, nothing is replaced. A quote that its line does not close reaches "
-        "to the end of the line.");
+        "Nothing is replaced inside single or double quotes. A quote without a closing quote ends at the end of its "
+        "line.");
     CHECK(step("X", "#define A 1\nX --> 'A'A 'A\nY --> A\n") == "'A'1'A");
     CHECK(read(lsystem("", "X", "#define A 1\nX --> @L(\"A\", A)\n"))->texts.at(0) == "A");
     quote(
-        "No blanks are put around what replaces a macro, except where two signs would become one: `-N` with N "
-        "= -3 is `- -3`.");
+        "The replacement of a macro is inserted without blanks, except where two signs would become one: `-N` with N = "
+        "-3 is `- -3`.");
     CHECK(step("X", "#define N -3\n#define M 4\nX --> F(1-N)-(M)\n") == "F(4)-(4)");
     CHECK(derived("#define BOTH(x, y) ((x) > 1 && (y) < 3)\n#define AND &&\n#define BEGIN { n = 2;\n" +
                   lsystem("derivation length: 1\nStart: BEGIN }\n", "A(2, 1)",
@@ -55,8 +54,8 @@ TEST_CASE("1.1 macros", "[conformance]") {
 }
 
 TEST_CASE("1.1 included files", "[conformance]") {
-    quote("`#include`, with either kind of quotes, looks beside the file that includes.");
-    quote("Conditions compute with whole numbers; names they do not know are 0.");
+    quote("`#include`, with quotes or angle brackets, looks in the folder of the file that includes.");
+    quote("Conditions use whole numbers; unknown names are 0.");
     const auto folder = std::filesystem::temp_directory_path() / ("espalier-conformance-" + std::to_string(getpid()));
     std::filesystem::create_directories(folder / "parts");
     std::ofstream(folder / "parts/one.h") << "#include <two.h>\n";
@@ -67,7 +66,7 @@ TEST_CASE("1.1 included files", "[conformance]") {
 }
 
 TEST_CASE("1.1 ends of lines", "[conformance]") {
-    quote("Lines may end as in Unix or as in Windows, and the last one need not end.");
+    quote("Lines end as in Unix or as in Windows. The last line needs no end.");
     const std::string unix_text = lsystem("derivation length: 1\n", "A", "A -->\n\tB\nB --> C\n");
     std::string windows_text;
     for (const char c : unix_text) windows_text += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -78,46 +77,46 @@ TEST_CASE("1.1 ends of lines", "[conformance]") {
 
 TEST_CASE("1.2 lines", "[conformance]") {
     quote(
-        "A newline ends a statement, and a line that begins with a TAB goes on with the one before. Blank "
-        "lines and comments may stand between the two.");
+        "A newline ends a statement, but a line that begins with a TAB continues the line before. Blank lines and "
+        "comments between the two are ignored.");
     CHECK(step("A\n\tB", "A --> B\n\tC\n\n/* and */\n\n\tD\nB --> E\n") == "BCDE");
     CHECK(step("A(3)", "A(x) :\n\tx > 1\n\t-->\n\tF(x)[+A(x - 1)]\n") == "F(3)[+A(2)]");
     CHECK(step("AC", "A : a[1] --> B : a[1]\nC\n\t--> D\n", "define: { array a[2] = {0, 1}; }\nseed: 1\n") == "BD");
-    quote("Inside braces and parentheses a newline is a blank.");
+    quote("Inside braces and parentheses, a newline is a blank.");
     CHECK(step("A(1)", "A(x) : {\ny = x;\nz = 2;\n} y > 0 {\nw = 3;\n} --> B(y,\nz,\nw)\n") == "B(1,2,3)");
     CHECK(step("A", "A --> B(a[1][0])\n", "define:\n{\narray\na[2][2] = {\n{1, 2},\n{3, 4}\n};\n}\n") == "B(3)");
     quote(
-        "A line indented by blanks is a statement of its own if it holds an arrow or begins with a keyword; "
-        "else it goes on with the line before, as does one that begins with `-->`, `:`, `<` or `>`.");
+        "A line that is indented by blanks is a statement of its own if it contains an arrow or begins with a keyword. "
+        "Otherwise it continues the line before, as does a line that begins with `-->`, `:`, `<` or `>`.");
     CHECK(derived("lsystem: 1\n  derivation length: 1\n  axiom: A\n    B\n  A\n    --> C\n      D\n  B --> E\n"
                   "endlsystem\n") == "CDE");
 }
 
 TEST_CASE("1.3 modules", "[conformance]") {
     quote(
-        "A module's symbol is one character, any but blanks and `< > : * ( )`. Letters, digits, brackets, "
-        "braces, `;` and `,` are modules like any other.");
+        "The symbol of a module is one character: any character except blanks and `< > : * ( )`. Letters, digits, "
+        "brackets, braces, `;` and `,` are ordinary modules.");
     const std::string all = "`|^&%@#!~_=';,.?/\\$+-{}[]0189azAZ";
     CHECK(step("A", "A --> " + all + "\n") == all);
     CHECK(step("0", "0 --> 1[0]0\n1 --> 11\n", "derivation length: 2\n") == "11[1[0]0]1[0]0");
     CHECK(step("A{;(3)}", "A > { --> B\n; --> ,\n;(c) --> ,(c + 1)\n{ --> {.\n") == "B{.,(4)}");
     CHECK(step("+-++", "+ --> -\n- --> +(30)&\n") == "-+(30)&--");
     quote(
-        "`@o` is two modules, which only the turtle reads together; a production for `o` rewrites the second "
-        "of them, and the context `F@o(d)` is three modules.");
+        "`@o` is two modules, which only the turtle combines. A production for `o` rewrites the second of them, and "
+        "the context `F@o(d)` is three modules.");
     CHECK(step("@o@o(2)~a", "o --> c\na --> b\n") == "@c@o(2)~b");
     CHECK(step("AF@o(2)", "A > F@o(d) --> A(d)\n") == "A(2)F@o(2)");
     quote(
-        "A module matches on its symbol and on its number of parameters: `F`, `F(x)` and `F(x, y)` are three "
-        "different modules.");
+        "Modules match by their symbol and their number of parameters: `F`, `F(x)` and `F(x, y)` are three different "
+        "modules.");
     CHECK(step("F F(1) F(1,2)", "F --> A\nF(x) --> B\nF(x,y) --> C\n") == "ABC");
-    quote("Blanks may stand between a symbol and its parameters, and between modules.");
+    quote("Blanks between a symbol and its parameters, and between modules, are ignored.");
     CHECK(step("A (1, 2) B", "A ( x , y ) --> C (x+y)  D\n") == "C(3)DB");
     CHECK(step("A(1)A(2)", "A(x)<A(y):x==1&&y>1-->B(x)-(-30)\n") == "A(1)B(1)-(-30)");
     quote(
-        "A text in double quotes may stand among the parameters of a module, as in `@L(\"%d\", n)`; each "
-        "distinct text of a model is a number, which is the parameter. In texts `\\n`, `\\t` and `\\r` are "
-        "newline, TAB and carriage return.");
+        "A parameter of a module may be a text in double quotes, as in `@L(\"%d\", n)`. Each distinct text of a model "
+        "has a number, which becomes the parameter. In texts, `\\n`, `\\t` and `\\r` are newline, TAB and carriage "
+        "return.");
     CHECK(read(lsystem("", "@L(\"a\\tb\\r\\n\")", "A --> @S(\"a\")\n"))->texts ==
           std::vector<std::string>{"a\tb\r\n", "a"});
     CHECK(step("@S(\"a\")A", "A --> @L(\"%d\", 7)@L(\"a\", 8)\nL(t, n) --> L(t)\n") == "@S(0)@L(1,7)@L(0,8)");
@@ -131,25 +130,21 @@ TEST_CASE("1.4 numbers", "[conformance]") {
 
 TEST_CASE("2 the parts of a file", "[conformance]") {
     quote(
-        "A file holds one or more L-systems, each from `lsystem:` to `endlsystem`; the first is the one that "
-        "grows.");
+        "A file contains one or more L-systems, each from `lsystem:` to `endlsystem`. The first is the one that grows");
     CHECK(derived("lsystem: 1\nderivation length: 1\naxiom: A\nA --> B\nendlsystem\n"
                   "lsystem: 2\nderivation length: 5\naxiom: B\nB --> C\nA --> D\nendlsystem\n") == "B");
     quote(
-        "The items of the header stand in any order, the axiom among them; an array may be used above its "
+        "The items of the header, including the axiom, may have any order. An array may be used before its "
         "declaration.");
     CHECK(derived("lsystem: 1\nEnd: { z = 1; }\naxiom: A(n)+B\nStart: { a[1] = 4; n = a[1]; }\nignore: +\n"
                   "derivation length: 1\ndefine: { array a[2]; }\nseed: 3\nA(x) > B --> C(x)\nendlsystem\n") ==
           "C(4)+B");
-    quote(
-        "Productions may follow the axiom's line at once, and so may `decomposition` and `homomorphism`, each "
-        "of which may be missing.");
+    quote("The productions, `decomposition` and `homomorphism` follow the header, and each is optional.");
     CHECK(step("A", "decomposition\nA --> B\n") == "B");
     CHECK(step("A", "homomorphism\nA --> B\n") == "A");
     quote(
-        "A keyword's words begin with a small or a capital letter, and the blanks between them may be "
-        "missing: `start each:`, `Start Each:` and `StartEach:` are the same. So are `lsystem` and "
-        "`l-system`.");
+        "The words of a keyword begin with a small or a capital letter, and the blanks between them are optional: "
+        "`start each:`, `Start Each:` and `StartEach:` are the same. So are `lsystem` and `l-system`.");
     for (const char* each : {"start each:", "Start Each:", "StartEach:", "startEach:", "Start each"}) {
         CHECK(derived("Lsystem: 1\nDerivation length: 2\n" + std::string(each) +
                       " { n = n + 1; }\nAxiom: A(0)\n"
@@ -158,8 +153,8 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
     }
     CHECK(derived("L-system: 1\nRing L-system\nDerivationLength: 1\nAxiom: AB\nB < A --> C\nEndlsystem\n") == "CB");
     quote(
-        "A line with an arrow is a production, even if it begins like a keyword, as `end --> F` does. "
-        "Variables and parameters may have the names of keywords too.");
+        "A line with an arrow is a production, even if it begins like a keyword: `end --> F`. Variables and parameters "
+        "may have the names of keywords.");
     CHECK(step("end", "end --> F\n") == "F");
     CHECK(step("end", "end : 1 > 0 --> F\n") == "F");
     CHECK_FALSE(mistake(lsystem("", "A", "homomorphism: A --> B\n")).empty());
@@ -170,14 +165,14 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
 
 TEST_CASE("2 several L-systems, missing ends", "[conformance]") {
     quote(
-        "L-systems of one file share symbols, constants and declared modules; variables and arrays are each "
-        "one's own.");
+        "The L-systems of a file share symbols, constants and declared modules. Each has its own variables and "
+        "arrays.");
     const auto model = read(
         "module Bud(age);\nlsystem: 1\nconst k = 3;\nStart: {n = 1;}\naxiom: Bud(n)\nA --> A\n"
         "endlsystem\nlsystem: 2\nStart: {n = k;}\naxiom: Bud(n)\nA --> A\nendlsystem\n");
     CHECK(model->systems[0].axiom[0].letter == model->systems[1].axiom[0].letter);
     CHECK(model->systems[1].start[0].expressions[0]->operands[1].value == 3);
-    quote("Where `endlsystem` is missing, and for what stands behind it and is no L-system, there is a warning.");
+    quote("A missing `endlsystem`, and text after it that is not an L-system, cause a warning.");
     const std::string open = "lsystem: 1\nderivation length: 1\naxiom: A\nA --> B\n";
     CHECK(derived(open) == "B");
     CHECK(reading_warnings(open).size() == 1);
