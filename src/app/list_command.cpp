@@ -1,7 +1,7 @@
 #include "espalier/base/text.h"
 #include "espalier/environment/shape.h"
+#include "espalier/formats/exporter.h"
 #include "espalier/simulation/scene.h"
-#include "espalier/timeline/exporter.h"
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
 

@@ -1,6 +1,6 @@
 #include "environment/shade_grids.h"
 
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include <tbb/parallel_for.h>
 

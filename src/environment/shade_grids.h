@@ -2,7 +2,7 @@
 // asked for, and then only in the bricks that changed.
 #pragma once
 
-#include "espalier/environment/field.h"
+#include "espalier/geometry/field.h"
 
 #include "environment/shade_leaves.h"
 

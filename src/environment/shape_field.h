@@ -1,8 +1,8 @@
 // A shape sampled onto an OpenVDB level set, for recorders and users.
 #pragma once
 
-#include "espalier/environment/openvdb_grid.h"
 #include "espalier/environment/shape.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 namespace espalier {
 

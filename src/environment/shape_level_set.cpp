@@ -1,6 +1,6 @@
 #include "shape_level_set.h"
 
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

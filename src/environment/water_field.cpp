@@ -1,6 +1,6 @@
 #include "environment/water_field.h"
 
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include <openvdb/tree/LeafManager.h>
 

@@ -1,7 +1,7 @@
 // The content of a brick as an OpenVDB grid that others may read.
 #pragma once
 
-#include "espalier/environment/field.h"
+#include "espalier/geometry/field.h"
 
 #include "environment/water_grid.h"
 

@@ -1,6 +1,6 @@
 #include "environment/water_solids.h"
 
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include <openvdb/tools/Interpolation.h>
 #include <tbb/blocked_range.h>

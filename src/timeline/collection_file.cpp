@@ -5,7 +5,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
 
-#include "timeline/xml_text.h"
+#include "base/xml_text.h"
 
 #include <fmt/format.h>
 

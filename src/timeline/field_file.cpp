@@ -4,11 +4,11 @@
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 #include "espalier/base/text.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
+#include "base/xml_text.h"
+#include "geometry/written_grid.h"
 #include "timeline/vtk_file.h"
-#include "timeline/written_grid.h"
-#include "timeline/xml_text.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>

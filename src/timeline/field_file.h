@@ -1,7 +1,7 @@
 // Fields on disk: .vdb for OpenVDB, .vti for every viewer; the same bytes for the same grid.
 #pragma once
 
-#include "espalier/environment/field.h"
+#include "espalier/geometry/field.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/geometry/kind.h"
 #include "espalier/timeline/frame.h"
-#include "espalier/timeline/kind.h"
 
 #include "timeline/organ_mesh.h"
 #include "timeline/rewritten_column.h"

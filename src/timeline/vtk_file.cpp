@@ -3,7 +3,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 
-#include "timeline/xml_text.h"
+#include "base/xml_text.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -1,4 +1,4 @@
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "exchange_plants.h"

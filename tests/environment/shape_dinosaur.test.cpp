@@ -1,7 +1,7 @@
 // The mesh of the topiary scene: made by the shapes themselves, and read back as a mesh.
 #include "espalier/base/file.h"
-#include "espalier/environment/openvdb_grid.h"
 #include "espalier/environment/shape.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "environment/shape_field.h"

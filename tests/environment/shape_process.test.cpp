@@ -1,5 +1,5 @@
 #include "espalier/environment/environment_process.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "shape_tables.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/environment/environment_process.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "environment/water_direction.h"
 #include "environment/water_parameters.h"

@@ -1,7 +1,7 @@
 // Shared by the tests of roots: a scene grown with its water watched, and the root systems it made.
 #pragma once
 
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "experiments/growth.h"
 

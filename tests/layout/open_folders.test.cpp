@@ -1,6 +1,6 @@
 // A file in an open folder is all a new part needs: what lies there and what is registered must be the same.
 #include "espalier/environment/environment_process.h"
-#include "espalier/timeline/exporter.h"
+#include "espalier/formats/exporter.h"
 
 #include "catch.h"
 #include "sources.h"
@@ -48,9 +48,9 @@ TEST_CASE("every process explains itself", "[layout]") {
     }
 }
 
-TEST_CASE("every file of timeline/exporters registers the format it is named after", "[layout]") {
-    CHECK(!parts_in("src/timeline/exporters").empty());
-    CHECK(parts_in("src/timeline/exporters") == registered<espalier::ExporterRegistry>());
+TEST_CASE("every file of formats/exporters registers the format it is named after", "[layout]") {
+    CHECK(!parts_in("src/formats/exporters").empty());
+    CHECK(parts_in("src/formats/exporters") == registered<espalier::ExporterRegistry>());
 }
 
 TEST_CASE("every exporter says what it carries and what is lost", "[layout]") {

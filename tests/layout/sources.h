@@ -11,13 +11,27 @@ namespace layout {
 
 namespace fs = std::filesystem;
 
-inline const std::vector<std::string> stations{"base",        "lsystem",  "language",   "geometry", "turtle",
-                                               "environment", "timeline", "simulation", "app"};
+/// The growing half, then what looks at its files, each in the order of its line.
+inline const std::vector<std::string> growing{"base",   "lsystem",     "language", "geometry",
+                                              "turtle", "environment", "timeline", "simulation"};
+inline const std::vector<std::string> looking{"base", "geometry", "archive", "analysis", "formats", "picture", "view"};
 
-/// Where a station stands in the line, or -1.
-inline int place_in_line(const std::string& station) {
-    const auto at = std::find(stations.begin(), stations.end(), station);
-    return at == stations.end() ? -1 : static_cast<int>(at - stations.begin());
+inline bool is_in(const std::vector<std::string>& line, const std::string& station) {
+    return std::find(line.begin(), line.end(), station) != line.end();
+}
+
+inline bool is_station(const std::string& name) {
+    return is_in(growing, name) || is_in(looking, name) || name == "app";
+}
+
+/// True if a file of `station` may include headers of `other`: those that stand before it in its line. The stations
+/// analysis, formats and picture stand side by side.
+inline bool may_include(const std::string& station, const std::string& other) {
+    if (station == other || station == "app") return true;
+    const std::vector<std::string>& line = is_in(growing, station) ? growing : looking;
+    const auto at = std::find(line.begin(), line.end(), station);
+    if ((station == "formats" || station == "picture") && (other == "analysis" || other == "formats")) return false;
+    return std::find(line.begin(), at, other) != at;
 }
 
 inline const fs::path root = ESPALIER_SOURCE_DIR;

@@ -1,5 +1,5 @@
 #include "espalier/base/error.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "timeline/collections.h"

@@ -2,7 +2,7 @@
 #include "timeline/frame_writer.h"
 
 #include "espalier/base/error.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "timeline/frames.h"

@@ -1,6 +1,6 @@
+#include "espalier/base/csv_file.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/timeline/csv_file.h"
 
 #include "catch.h"
 #include "small_disk.h"

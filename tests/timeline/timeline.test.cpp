@@ -1,7 +1,7 @@
 #include "espalier/timeline/timeline.h"
 
 #include "espalier/base/error.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "small_disk.h"

@@ -1,5 +1,5 @@
 // What does not change is written once and named by the index at every time.
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
 #include "timeline/collections.h"

@@ -4,7 +4,7 @@
 #include "espalier/base/random.h"
 #include "espalier/base/registry.h"
 #include "espalier/base/settings.h"
-#include "espalier/environment/field.h"
+#include "espalier/geometry/field.h"
 #include "espalier/turtle/interpretation.h"
 
 #include <iosfwd>

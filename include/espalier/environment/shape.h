@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/base/settings.h"
-#include "espalier/environment/field.h"
+#include "espalier/geometry/field.h"
 #include "espalier/geometry/plant_geometry.h"
 
 #include <memory>

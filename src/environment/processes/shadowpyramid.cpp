@@ -2,7 +2,7 @@
 // Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3, as the
 // environment program of that name does it; voxel-shade is the process of ours.
 #include "espalier/environment/environment_process.h"
-#include "espalier/environment/openvdb_grid.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "environment/answer_statistics.h"
 #include "environment/parameter_file.h"

@@ -7,9 +7,9 @@
 #include "espalier/base/text.h"
 #include "espalier/timeline/recorder.h"
 
+#include "base/folder.h"
 #include "timeline/collection_file.h"
 #include "timeline/field_file.h"
-#include "timeline/folder.h"
 
 #include <fmt/format.h>
 

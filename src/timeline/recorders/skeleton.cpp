@@ -10,10 +10,10 @@
 #include "espalier/base/bytes.h"
 #include "espalier/timeline/recorder.h"
 
+#include "base/folder.h"
 #include "timeline/attribute_arrays.h"
 #include "timeline/chosen_parameters.h"
 #include "timeline/collection_file.h"
-#include "timeline/folder.h"
 #include "timeline/mesh_size.h"
 #include "timeline/plant_mesh.h"
 #include "timeline/vtk_file.h"

@@ -6,8 +6,8 @@
 // (m3, of all internodes); born, died (modules since the step before, brackets included); then the processes'
 // quantities.
 #include "espalier/base/bytes.h"
+#include "espalier/base/csv_file.h"
 #include "espalier/base/text.h"
-#include "espalier/timeline/csv_file.h"
 #include "espalier/timeline/recorder.h"
 
 #include "timeline/highest_point.h"

@@ -1,0 +1,56 @@
+// The form of the plants of a recorded run, measured: branching, widths, fractal dimension, crowns, profiles.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct AnalysisOptions {
+    std::set<std::string> leaf_symbols;  ///< whose surfaces are leaves; empty: everything with a surface
+    double layer = 0, voxel = 0;         ///< m; 0: chosen for each plant
+};
+
+/// A column of the table of measures.
+struct MeasureDescription {
+    std::string name, unit, meaning;
+};
+const std::vector<MeasureDescription>& measure_descriptions();
+
+class RunAnalysis {
+public:
+    /// Measures `plants` (their numbers) in `frames` of `run`. Throws UserError for a leaf symbol no frame knows.
+    RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* const> frames,
+                std::span<const std::uint32_t> plants, const AnalysisOptions& options = {});
+    ~RunAnalysis();
+    RunAnalysis(const RunAnalysis&) = delete;
+    RunAnalysis& operator=(const RunAnalysis&) = delete;
+
+    /// A row per step and plant: step, plant, then the measures. NaN where a plant has none.
+    RecordedTable table() const;
+
+    /// The layers of the last frame's plants: step, plant, height (of the layer's middle), length, surface, leaf_area,
+    /// density.
+    RecordedTable last_layers() const;
+
+    /// analysis.csv (the table), orders.csv, ramification.csv, layers.csv and internodes.csv, each complete or not at
+    /// all. Throws RunError.
+    void write_csv(const std::filesystem::path& folder) const;
+    /// analysis.json: all of it in one. Throws RunError.
+    void write_json(const std::filesystem::path& folder) const;
+
+private:
+    struct Frame;
+    std::string scene_;
+    std::vector<RecordedPlant> plants_;
+    std::vector<Frame> frames_;
+};
+
+}  // namespace espalier

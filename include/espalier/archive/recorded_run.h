@@ -1,0 +1,176 @@
+// A run as it lies on disk, read back as plain columns: for analysis, pictures and export, without growing it again.
+#pragma once
+
+#include "espalier/base/column.h"
+#include "espalier/geometry/kind.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// What is known of the modules behind points or cells: columns of one length.
+struct RecordedAttributes {
+    Column<std::uint64_t> identities, parents;
+    Column<std::uint32_t> plants;   ///< RecordedPlant::number
+    Column<std::uint16_t> symbols;  ///< into `symbol_names`
+    Column<std::int32_t> births;
+    Column<std::uint16_t> orders, colours;
+    Column<Kind> kinds;
+    Column<std::array<std::uint8_t, 3>> rgb;  ///< empty where no plant has a colour map
+
+    std::size_t size() const { return identities.size(); }
+};
+
+/// Cells of one kind: cell i has the points connectivity[offsets[i]] .. connectivity[offsets[i + 1] - 1] and row
+/// `first` + i of `of_cells`.
+struct RecordedCells {
+    Column<std::int32_t> offsets{0};
+    Column<std::int32_t> connectivity;
+    std::size_t first = 0;
+
+    std::size_t size() const { return offsets.size() - 1; }
+    std::span<const std::int32_t> operator[](std::size_t i) const {
+        return {connectivity.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
+    }
+};
+
+/// plants/NNNN.vtp: docs/timeline.md explains the arrays. All columns have their full length, all indices are in range.
+struct RecordedGeometry {
+    Column<glm::vec3> points, normals;
+    Column<glm::vec2> uvs;
+    Column<float> radii;
+    RecordedCells vertices, lines, polygons;
+    RecordedAttributes of_points, of_cells;
+    Column<std::uint16_t> textures, back_colours;      ///< of cells; textures index `texture_files`
+    std::map<std::string, Column<double>> parameters;  ///< the chosen ones, of points; NaN where a module has none
+    std::vector<std::string> symbol_names, texture_files;
+    std::vector<std::string> label_texts;  ///< of the vertices of Kind::label, in their order
+};
+
+/// An internode of a frame: the piece of an axis between two neighbouring points.
+struct RecordedInternode {
+    static constexpr std::int32_t none = -1;
+
+    glm::vec3 base, tip;
+    float base_radius, tip_radius;
+    std::uint64_t identity, parent;  ///< of its module
+    std::uint32_t plant;
+    std::uint16_t symbol, order, colour;
+    std::int32_t birth;
+    std::uint32_t axis;   ///< the line it belongs to
+    std::int32_t bearer;  ///< the internode it stands on, always an earlier one of its plant; none: the plant's first
+    std::int32_t base_point;  ///< rows of `points` and of `of_points`
+    std::int32_t tip_point;   ///< whose row holds its parameters
+};
+
+/// The internodes of all axes, axis after axis, each from its base on; outlines of organs are none.
+/// An axis stands on the internode that ends where it begins, of those the last of lower order; failing that, on one
+/// that begins there.
+std::vector<RecordedInternode> internodes_of(const RecordedGeometry& geometry);
+
+/// A row of lifespans.vtp: an internode where it was last seen.
+struct RecordedLife {
+    glm::vec3 base, tip;
+    float base_radius, tip_radius;
+    std::uint64_t identity, parent;
+    std::uint32_t plant;
+    std::uint16_t symbol, order, colour;
+    std::int32_t birth, death;  ///< alive at the steps birth <= t < death
+    bool alive;                 ///< at the end of the run
+};
+
+struct RecordedLives {
+    std::vector<RecordedLife> lives;
+    std::vector<std::string> symbol_names;
+};
+
+/// A field at its voxels' centres, x fastest.
+struct RecordedField {
+    std::string name, unit, meaning;
+    glm::ivec3 size{0};
+    glm::dvec3 origin{0};  ///< centre of the first voxel
+    glm::dvec3 voxel{1};
+    Column<float> values;
+
+    float at(int x, int y, int z) const {
+        return values[(static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(y)) *
+                          static_cast<std::size_t>(size.x) +
+                      static_cast<std::size_t>(x)];
+    }
+};
+
+/// statistics.csv and its like: a number per row and column; NaN where a cell is empty.
+struct RecordedTable {
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;
+
+    /// The column's index. Throws UserError naming the nearest, if there is none.
+    std::size_t column(const std::string& name) const;
+    /// Those of the last step, a row a plant.
+    std::vector<std::vector<double>> last_rows() const;
+};
+/// Throws UserError naming the file if it is missing or damaged; a row that is being written is none yet.
+RecordedTable read_table(const std::filesystem::path& file);
+
+struct RecordedPlant {
+    std::uint32_t number = 0;
+    std::string name, model;
+};
+
+/// A time of the run. What did not change is written once: several frames may name the same file.
+struct RecordedFrame {
+    int step = 0;
+    double time = 0;
+    std::filesystem::path plants;                         ///< empty where no plants were recorded
+    std::map<std::string, std::filesystem::path> fields;  ///< .vti, or .vdb where only that was recorded
+};
+
+/// How the run in a folder ended, as `RecordedRun::exit` says it. Throws UserError if there is none.
+std::string exit_of_run(const std::filesystem::path& folder);
+
+/// Opens a run's folder, also of a run that is still going. Everything that is missing or damaged, at once or when it
+/// is loaded, throws UserError naming the file.
+class RecordedRun {
+public:
+    explicit RecordedRun(std::filesystem::path folder);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const std::string& scene() const { return scene_; }  ///< its name
+    /// How it ended: "done", "interrupted", "failed: why", "killed"; "running" while it is going.
+    const std::string& exit() const { return exit_; }
+    const std::string& time_unit() const { return time_unit_; }
+    double dt() const { return dt_; }  ///< of a step, in time units
+    const std::vector<RecordedPlant>& plants() const { return plants_; }
+    /// The number of the plant of that name. Throws UserError naming the nearest.
+    std::uint32_t plant(const std::string& name) const;
+    /// In the order of time; every step at most once.
+    const std::vector<RecordedFrame>& frames() const { return frames_; }
+    /// The frame of that step. Throws UserError naming the nearest.
+    const RecordedFrame& frame(int step) const;
+    std::vector<std::string> field_names() const;
+
+    RecordedGeometry geometry(const RecordedFrame& frame) const;
+    RecordedField field(const RecordedFrame& frame, const std::string& name) const;
+    RecordedTable statistics() const;
+    RecordedLives lifespans() const;
+
+private:
+    std::filesystem::path folder_;
+    std::string scene_, exit_, time_unit_ = "step";
+    double dt_ = 1;
+    std::vector<RecordedPlant> plants_;
+    std::vector<RecordedFrame> frames_;
+};
+
+}  // namespace espalier

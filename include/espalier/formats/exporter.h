@@ -1,0 +1,69 @@
+// An exporter turns frames of a recorded run into another program's files. One file in src/formats/exporters/ per
+// format.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+#include "espalier/base/registry.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace espalier {
+
+struct ExportOptions {
+    int sides = 8;                       ///< of tubes; 3 at least
+    double simplify = 0;                 ///< metres that a tube's middle line and radius may stray; 0: every node stays
+    char up = 'y';                       ///< or 'z'
+    std::optional<std::uint32_t> plant;  ///< its number; none: all plants
+};
+
+/// A file that was written. Counts are 0 where a format has no such thing.
+struct ExportedFile {
+    std::filesystem::path path;
+    std::size_t vertices = 0, triangles = 0;
+    std::size_t elements = 0;  ///< internodes, organs, roots, voxels: what `noun` says
+    std::string noun;
+};
+
+struct ExportJob {
+    const RecordedRun& run;
+    std::span<const RecordedFrame* const> frames;  ///< at least one
+    ExportOptions options;
+    std::filesystem::path folder;  ///< is made if need be
+    std::function<void(const ExportedFile&)> report;
+    std::string name{};  ///< of the files; empty: the scene's, and the step of a frame that has a file of its own
+
+    /// A file of the whole job, or of a frame.
+    std::filesystem::path path(const std::string& extension) const;
+    std::filesystem::path path(const RecordedFrame& frame, const std::string& extension) const;
+};
+
+/// Files appear complete or not at all; equal runs give equal bytes.
+class Exporter {
+public:
+    virtual ~Exporter() = default;
+    /// Of its files: "obj".
+    virtual std::string extension() const = 0;
+    virtual void write(const ExportJob& job) const = 0;
+};
+
+using ExporterRegistry = Registry<Exporter>;
+
+/// Defining one registers an exporter.
+struct RegisteredExporter {
+    RegisteredExporter(PartDescription description, ExporterRegistry::Factory make) {
+        const std::string name = description.name;
+        ExporterRegistry::entries()[name] = {std::move(description), std::move(make)};
+    }
+};
+
+/// The format whose files have this extension, ".glb"; empty if there is none.
+std::string format_of_extension(const std::string& extension);
+
+/// Writes the frames in every format. Throws UserError for a format that is none, RunError if a file cannot be written.
+void export_run(const ExportJob& job, std::span<const std::string> formats);
+
+}  // namespace espalier

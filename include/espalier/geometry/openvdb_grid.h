@@ -1,0 +1,22 @@
+// What a Field holds. Include this only where grids are made, sampled or written: it includes OpenVDB.
+#pragma once
+
+#include "espalier/geometry/field.h"
+
+#include <openvdb/openvdb.h>
+
+namespace espalier {
+
+struct FieldGrid {
+    openvdb::FloatGrid::Ptr grid;  ///< index space to metres by its transform; voxel centres are at integer indices
+    openvdb::CoordBBox box;        ///< the voxels a viewer should be shown (.vti): the domain, or what is active
+    bool only_leaves = false;      ///< what is in no leaf is inactive and the background's: then it is written faster
+};
+
+/// openvdb::initialize(), once.
+void initialize_openvdb();
+
+/// A uniform-voxel grid whose voxel (0,0,0) has its centre at `origin` + voxel/2.
+openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dvec3& origin);
+
+}  // namespace espalier

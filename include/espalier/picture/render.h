@@ -1,0 +1,51 @@
+// Pictures, films and contact sheets of a recorded run.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+#include "espalier/picture/chart_page.h"
+#include "espalier/picture/picture_style.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace espalier {
+
+struct RenderJob {
+    const RecordedRun& run;
+    std::vector<const RecordedFrame*> frames;  ///< at least one; a film may show one several times
+    PictureStyle style;
+    CameraPlace camera;
+    double orbit = 0;            ///< degrees that the camera goes round while the frames pass
+    std::optional<bool> ground;  ///< none: where nothing grows beneath it
+    bool follow = false;         ///< the camera frames each frame anew, instead of all together
+    PictureSize size{1200, 900};
+    /// Told after each frame that was drawn.
+    std::function<void(std::size_t drawn, std::size_t all)> progress;
+};
+
+// Files appear complete or not at all; the same job gives the same pictures. All throw UserError for arrays and fields
+// that the run has not, RunError where nothing can be drawn or written.
+
+/// A PNG; of several frames one each, "NAME-0012.png" by its step. Returns the files.
+std::vector<std::filesystem::path> render_pictures(const RenderJob& job, const std::filesystem::path& path);
+
+/// .ogv is written here, .mp4, .webm and .gif by ffmpeg, if it is in PATH. Throws UserError for other extensions.
+void render_film(const RenderJob& job, double pictures_per_second, const std::filesystem::path& path);
+/// True if `render_film` knows the extension.
+bool is_film(const std::filesystem::path& path);
+/// Throws RunError saying what to install if the film's extension needs a program that is not in PATH.
+void require_film_writer(const std::filesystem::path& path);
+/// Throws UserError unless it is a .png.
+void require_png(const std::filesystem::path& path);
+/// What organs of every run can be coloured by, "natural" first.
+std::vector<std::string> colours_of_every_run();
+
+/// One PNG with frames side by side, row after row, each of `job.size` and with its time beneath.
+void render_sheet(const RenderJob& job, int columns, const std::filesystem::path& path);
+
+/// So many of the frames, evenly from the first to the last; repeated where there are fewer.
+std::vector<const RecordedFrame*> evenly(const std::vector<const RecordedFrame*>& frames, std::size_t count);
+
+}  // namespace espalier

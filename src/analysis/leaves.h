@@ -1,0 +1,34 @@
+// The leaves of a frame: what modules show as surfaces.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+/// What one module shows: a polygon, a disc, a surface of many facets, or several of them.
+struct Leaf {
+    glm::dvec3 position;  ///< mean of its corners, m
+    double area;          ///< of its facets, one side, m2
+};
+
+struct Leaves {
+    std::vector<Leaf> leaves;
+    std::vector<glm::dvec3> corners;
+};
+
+/// The leaves of each of `plants`, in their order: polygons, organs and patches of the modules with these symbols, of
+/// all modules if none is named.
+std::vector<Leaves> leaves_of(const RecordedGeometry& geometry, std::span<const std::uint32_t> plants,
+                              const std::set<std::string>& symbols = {});
+
+double total_area(const Leaves& leaves);
+
+}  // namespace espalier

@@ -1,0 +1,120 @@
+#include "analysis/profile.h"
+
+#include "espalier/base/error.h"
+
+#include "analysis/convex_hull.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace espalier {
+namespace {
+
+/// Heights above the foot between which everything lies.
+struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+
+    void add(double height) { low = std::min(low, height), high = std::max(high, height); }
+};
+
+Range range_of(const BranchTree& tree, const Leaves& leaves, double foot) {
+    Range range;
+    for (std::size_t i = 0; i < tree.size(); ++i) range.add(tree.bases[i].y - foot), range.add(tree.tips[i].y - foot);
+    for (const Leaf& leaf : leaves.leaves) range.add(leaf.position.y - foot);
+    return range;
+}
+
+double convenient_thickness(double extent) {
+    if (!(extent > 0)) return 1;
+    const double power = std::pow(10.0, std::floor(std::log10(extent / 20)));
+    // The lowest and the highest layer may be filled in part only, so that 19 whole ones lie between them.
+    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+        if (factor * power * 19 >= extent) return factor * power;
+    }
+    return 20 * power;
+}
+
+double shadow_of(const BranchTree& tree) {
+    std::vector<glm::dvec2> points;
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+        points.emplace_back(tree.bases[i].x, tree.bases[i].z);
+        points.emplace_back(tree.tips[i].x, tree.tips[i].z);
+    }
+    return convex_hull_area(std::move(points));
+}
+
+/// Shares an internode among the layers it passes, by length.
+void share(const BranchTree& tree, std::size_t internode, double foot, double thickness, std::vector<Layer>& layers) {
+    double low = tree.bases[internode].y - foot, high = tree.tips[internode].y - foot;
+    if (low > high) std::swap(low, high);
+    const double surface = std::numbers::pi * (tree.base_radii[internode] + tree.radii[internode]);
+    const auto index = [&](double height) {
+        const double at = std::floor((height - layers.front().from) / thickness);
+        return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(layers.size() - 1)));
+    };
+    const std::size_t first = index(low), last = index(high);
+    for (std::size_t i = first; i <= last; ++i) {
+        const double from = i == first ? low : layers[i].from, to = i == last ? high : layers[i].to;
+        const double part = first == last ? 1 : (to - from) / (high - low);
+        layers[i].length += part * tree.lengths[internode];
+        layers[i].surface += part * tree.lengths[internode] * surface;
+    }
+}
+
+}  // namespace
+
+std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double thickness) {
+    const double foot = tree.size() > 0 ? tree.bases[0].y : leaves.leaves.empty() ? 0 : leaves.leaves[0].position.y;
+    const Range range = range_of(tree, leaves, foot);
+    if (!(range.low <= range.high)) return {};
+    if (!(thickness > 0)) thickness = convenient_thickness(range.high - range.low);
+    const double first = std::floor(range.low / thickness);
+    const double count = std::max(std::ceil(range.high / thickness) - first, 1.0);
+    if (!(count <= 100000)) {
+        throw UserError(fmt::format("--layer {}: a plant {} m high would have more than 100,000 layers", thickness,
+                                    range.high - range.low));
+    }
+    std::vector<Layer> result(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i].from = (first + static_cast<double>(i)) * thickness;
+        result[i].to = (first + static_cast<double>(i + 1)) * thickness;
+    }
+    for (std::size_t i = 0; i < tree.size(); ++i) share(tree, i, foot, thickness, result);
+    for (const Leaf& leaf : leaves.leaves) {
+        const double at = std::floor((leaf.position.y - foot) / thickness) - first;
+        result[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))].leaf_area += leaf.area;
+    }
+    const double shadow = shadow_of(tree);
+    for (Layer& layer : result) {
+        layer.density = shadow > 0 ? layer.length / (thickness * shadow) : std::numeric_limits<double>::quiet_NaN();
+    }
+    return result;
+}
+
+LengthDistribution length_distribution(const BranchTree& tree) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (tree.size() == 0) return {nan, nan, nan, nan, nan, {}};
+    std::vector<double> sorted = tree.lengths;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t n = sorted.size();
+    LengthDistribution result{sorted.front(), (sorted[(n - 1) / 2] + sorted[n / 2]) / 2, sorted.back(), 0, 0, {}};
+    for (const double length : sorted) result.mean += length / static_cast<double>(n);
+    for (const double length : sorted) result.deviation += std::pow(length - result.mean, 2) / static_cast<double>(n);
+    result.deviation = std::sqrt(result.deviation);
+    constexpr std::size_t bins = 16;
+    for (std::size_t i = 0; i < bins; ++i) {
+        result.bins.push_back(
+            {result.greatest * static_cast<double>(i) / bins, result.greatest * static_cast<double>(i + 1) / bins, 0});
+    }
+    for (const double length : sorted) {
+        const double at = std::floor(length / result.greatest * bins);
+        ++result.bins[static_cast<std::size_t>(std::clamp(at, 0.0, bins - 1.0))].internodes;
+    }
+    return result;
+}
+
+}  // namespace espalier

@@ -1,0 +1,219 @@
+#include "espalier/analysis/run_analysis.h"
+
+#include "espalier/base/csv_file.h"
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+
+#include "analysis/plant_analysis.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+
+struct RunAnalysis::Frame {
+    int step = 0;
+    std::vector<PlantAnalysis> plants;
+    std::vector<std::string> symbols;  ///< that the frame knows
+};
+
+const std::vector<MeasureDescription>& measure_descriptions() {
+    static const std::vector<MeasureDescription> all = [] {
+        std::vector<MeasureDescription> descriptions;
+        for (const Measure& measure : measures()) descriptions.push_back(measure.description);
+        return descriptions;
+    }();
+    return all;
+}
+
+RunAnalysis::~RunAnalysis() = default;
+
+RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* const> frames,
+                         std::span<const std::uint32_t> plants, const AnalysisOptions& options)
+    : scene_(run.scene()), frames_(frames.size()) {
+    for (const RecordedPlant& plant : run.plants()) {
+        if (std::find(plants.begin(), plants.end(), plant.number) != plants.end()) plants_.push_back(plant);
+    }
+    tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+        RecordedGeometry geometry = run.geometry(*frames[i]);
+        frames_[i] = {frames[i]->step, analyse(geometry, plants, options), std::move(geometry.symbol_names)};
+    });
+    std::vector<std::string> known;
+    for (const Frame& frame : frames_) known.insert(known.end(), frame.symbols.begin(), frame.symbols.end());
+    for (const std::string& symbol : options.leaf_symbols) {
+        if (std::find(known.begin(), known.end(), symbol) == known.end()) {
+            throw UserError(
+                fmt::format("{} has no symbol '{}'{}", run.folder().string(), symbol, did_you_mean(symbol, known)));
+        }
+    }
+}
+
+RecordedTable RunAnalysis::table() const {
+    RecordedTable table{{"step", "plant"}, {}};
+    for (const Measure& measure : measures()) table.columns.push_back(measure.description.name);
+    for (const Frame& frame : frames_) {
+        for (const PlantAnalysis& plant : frame.plants) {
+            std::vector<double>& row = table.rows.emplace_back();
+            row = {static_cast<double>(frame.step), static_cast<double>(plant.plant)};
+            for (const Measure& measure : measures()) row.push_back(measure.value(plant));
+        }
+    }
+    return table;
+}
+
+RecordedTable RunAnalysis::last_layers() const {
+    RecordedTable table{{"step", "plant", "height", "length", "surface", "leaf_area", "density"}, {}};
+    if (frames_.empty()) return table;
+    for (const PlantAnalysis& plant : frames_.back().plants) {
+        for (const Layer& layer : plant.layers) {
+            table.rows.push_back({static_cast<double>(frames_.back().step), static_cast<double>(plant.plant),
+                                  (layer.from + layer.to) / 2, layer.length, layer.surface, layer.leaf_area,
+                                  layer.density});
+        }
+    }
+    return table;
+}
+
+namespace {
+
+/// Lines of comma-separated values; NaN is an empty cell.
+class CsvText {
+public:
+    explicit CsvText(std::string header) : text_(std::move(header) + "\n") {}
+
+    template <class... Values>
+    void add(Values... values) {
+        std::string line;
+        ((line += csv_number(static_cast<double>(values)) + ","), ...);
+        line.back() = '\n';
+        text_ += line;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+    if (!std::isfinite(value)) return nullptr;
+    return value == std::floor(value) && std::abs(value) < 1e15 ? Json(static_cast<std::int64_t>(value)) : Json(value);
+}
+
+Json orders_json(const PlantAnalysis& plant) {
+    Json orders = Json::array();
+    for (std::size_t i = 0; i < plant.streams.size(); ++i) {
+        const StreamOrder& of = plant.streams[i];
+        orders.push_back({{"order", i + 1},
+                          {"streams", of.streams},
+                          {"internodes", of.internodes},
+                          {"mean_length", number(of.mean_length)},
+                          {"mean_diameter", number(of.mean_diameter)}});
+    }
+    return orders;
+}
+
+Json ramification_json(const PlantAnalysis& plant) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < plant.ramification.rows.size(); ++i) {
+        Json parts = Json::array();
+        for (const double part : plant.ramification.rows[i]) parts.push_back(number(part));
+        rows.push_back({{"order", i + 2}, {"forks", plant.ramification.forks[i]}, {"parts", std::move(parts)}});
+    }
+    return rows;
+}
+
+Json layers_json(const PlantAnalysis& plant) {
+    Json layers = Json::array();
+    for (const Layer& layer : plant.layers) {
+        layers.push_back({{"from", number(layer.from)},
+                          {"to", number(layer.to)},
+                          {"length", number(layer.length)},
+                          {"surface", number(layer.surface)},
+                          {"leaf_area", number(layer.leaf_area)},
+                          {"density", number(layer.density)}});
+    }
+    return layers;
+}
+
+Json lengths_json(const PlantAnalysis& plant) {
+    Json bins = Json::array();
+    for (const LengthBin& bin : plant.lengths.bins) {
+        bins.push_back({{"from", number(bin.from)}, {"to", number(bin.to)}, {"internodes", bin.internodes}});
+    }
+    return bins;
+}
+
+}  // namespace
+
+void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
+    const RecordedTable measured = table();
+    std::string text;
+    for (const std::string& column : measured.columns) text.append(csv_text(column)).append(",");
+    text.back() = '\n';
+    for (const std::vector<double>& row : measured.rows) {
+        for (const double value : row) text.append(csv_number(value)).append(",");
+        text.back() = '\n';
+    }
+    CsvText orders("step,plant,order,streams,internodes,mean_length,mean_diameter");
+    CsvText ramification("step,plant,order,forks,column,part");
+    CsvText layers("step,plant,from,to,length,surface,leaf_area,density");
+    CsvText internodes("step,plant,from,to,internodes");
+    for (const Frame& frame : frames_) {
+        for (const PlantAnalysis& of : frame.plants) {
+            for (std::size_t i = 0; i < of.streams.size(); ++i) {
+                const StreamOrder& order = of.streams[i];
+                orders.add(frame.step, of.plant, i + 1, order.streams, order.internodes, order.mean_length,
+                           order.mean_diameter);
+            }
+            for (std::size_t i = 0; i < of.ramification.rows.size(); ++i) {
+                for (std::size_t j = 0; j < of.ramification.rows[i].size(); ++j) {
+                    ramification.add(frame.step, of.plant, i + 2, of.ramification.forks[i], j + 1,
+                                     of.ramification.rows[i][j]);
+                }
+            }
+            for (const Layer& layer : of.layers) {
+                layers.add(frame.step, of.plant, layer.from, layer.to, layer.length, layer.surface, layer.leaf_area,
+                           layer.density);
+            }
+            for (const LengthBin& bin : of.lengths.bins) {
+                internodes.add(frame.step, of.plant, bin.from, bin.to, bin.internodes);
+            }
+        }
+    }
+    write_text(folder / "analysis.csv", text);
+    write_text(folder / "orders.csv", orders.text());
+    write_text(folder / "ramification.csv", ramification.text());
+    write_text(folder / "layers.csv", layers.text());
+    write_text(folder / "internodes.csv", internodes.text());
+}
+
+void RunAnalysis::write_json(const std::filesystem::path& folder) const {
+    Json plants = Json::array(), frames = Json::array();
+    for (const RecordedPlant& plant : plants_) {
+        plants.push_back({{"plant", plant.number}, {"name", plant.name}, {"model", plant.model}});
+    }
+    for (const Frame& frame : frames_) {
+        Json measured = Json::array();
+        for (const PlantAnalysis& plant : frame.plants) {
+            Json of = {{"plant", plant.plant}};
+            for (const Measure& measure : measures()) of[measure.description.name] = number(measure.value(plant));
+            of["orders"] = orders_json(plant);
+            of["ramification"] = ramification_json(plant);
+            of["layers"] = layers_json(plant);
+            of["internode_lengths"] = lengths_json(plant);
+            measured.push_back(std::move(of));
+        }
+        frames.push_back({{"step", frame.step}, {"plants", std::move(measured)}});
+    }
+    const Json json = {{"scene", scene_}, {"plants", std::move(plants)}, {"frames", std::move(frames)}};
+    write_text(folder / "analysis.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace espalier

@@ -1,0 +1,128 @@
+#include "espalier/base/error.h"
+#include "espalier/base/text.h"
+#include "espalier/formats/exporter.h"
+
+#include "app/command.h"
+#include "frame_option.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace espalier {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> known_formats() {
+    std::vector<std::string> names;
+    for (const auto& [name, entry] : ExporterRegistry::entries()) names.push_back(name);
+    return names;
+}
+
+void print_file(const ExportedFile& file) {
+    std::string line = file.path.string();
+    if (file.vertices > 0) line += fmt::format(": {} vertices, {} triangles", file.vertices, file.triangles);
+    if (!file.noun.empty()) line += fmt::format("{} {} {}", file.vertices > 0 ? "," : ":", file.elements, file.noun);
+    fmt::print("{}\n", line);
+}
+
+Json json_of(const ExportedFile& file) {
+    Json json = {{"path", file.path.string()}, {"vertices", file.vertices}, {"triangles", file.triangles}};
+    if (!file.noun.empty()) json[file.noun] = file.elements;
+    return json;
+}
+
+class ExportCommand final : public Command {
+public:
+    explicit ExportCommand(CLI::App& program)
+        : Command(program, "export", "write a recorded run as another program's files") {
+        app().add_option("run", folder_, "the folder of a run")->required();
+        app()
+            .add_option("--format", formats_, fmt::format("one or several of {}", fmt::join(known_formats(), ", ")))
+            ->delimiter(',')
+            ->allow_extra_args(false);  // or it would take the run's folder for a format
+        app().add_option("--step", step_, frame_option_help)->capture_default_str();
+        app().add_option("--output", output_,
+                         "a folder, or a file of the format that its name ends with; default: RUN/export");
+        app().add_option("--plant", plant_, "this plant alone, by its name in the scene");
+        app()
+            .add_option("--sides", options_.sides, "corners of the rings of tubes")
+            ->check(CLI::Range(3, 256))
+            ->capture_default_str();
+        app()
+            .add_option("--simplify", options_.simplify,
+                        "leave out nodes of axes as long as middle line and radius stray no more than so many metres")
+            ->check(CLI::Range(0.0, 1e6))
+            ->capture_default_str();
+        app()
+            .add_option("--up", up_, "which axis points up: y or z")
+            ->check(CLI::IsMember({"y", "z"}))
+            ->capture_default_str();
+        app().add_flag("--quiet", quiet_, "print nothing but errors");
+        add_json_flag("print the files as JSON");
+        app().footer(R"(Nothing is grown again. Lengths are metres. Files appear complete or not at all.
+Examples:
+  espalier export output/two-trees --format obj                      the last frame, for any 3-D program
+  espalier export output/two-trees --output trees.obj                the same, as this file
+  espalier export output/two-trees --format gltf --step all          the growth as an animation, one file
+  espalier export output/two-trees --format usd --step 0:274:8       every eighth step
+  espalier export output/two-trees --format stl --plant left --sides 16 --up z
+  espalier export output/two-roots --format rsml,mtg,csv
+  espalier export output/forest --format ply --simplify 0.002        fewer triangles; their number is printed
+`espalier list exporters` says what each format carries and what is lost.)");
+    }
+
+    int run() override {
+        const RecordedRun recorded(folder_);
+        if (!plant_.empty()) options_.plant = recorded.plant(plant_);
+        options_.up = up_[0];
+        const std::vector<const RecordedFrame*> frames = chosen_frames(recorded, step_);
+        const Target target = this->target();
+        Json files = Json::array();
+        const auto report = [&](const ExportedFile& file) {
+            if (wants_json()) {
+                files.push_back(json_of(file));
+            } else if (!quiet_) {
+                print_file(file);
+            }
+        };
+        export_run({recorded, frames, options_, target.folder, report, target.name}, target.formats);
+        if (wants_json()) {
+            fmt::print("{}\n", Json{{"files", files}}.dump(2, ' ', false, Json::error_handler_t::replace));
+        }
+        return exit_code::done;
+    }
+
+private:
+    struct Target {
+        std::filesystem::path folder;
+        std::string name;
+        std::vector<std::string> formats;
+    };
+
+    Target target() const {
+        const std::string told = format_of_extension(output_.extension().string());
+        const bool is_file = !told.empty() && !std::filesystem::is_directory(output_) &&
+                             (formats_.empty() || formats_ == std::vector{told});
+        if (is_file) return {output_.parent_path(), output_.stem().string(), {told}};
+        if (formats_.empty()) {
+            throw UserError(fmt::format("which format? --format {}, or an --output that ends with one, as plant.obj",
+                                        fmt::join(known_formats(), ", ")));
+        }
+        return {output_.empty() ? folder_ / "export" : output_, "", formats_};
+    }
+
+    std::filesystem::path folder_, output_;
+    std::vector<std::string> formats_;
+    std::string step_ = "last", plant_, up_ = "y";
+    bool quiet_ = false;
+    ExportOptions options_;
+};
+
+const RegisteredCommand<ExportCommand> entry{42};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,218 @@
+#include "espalier/archive/recorded_run.h"
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+
+#include "app/command.h"
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+    std::filesystem::path folder;
+    bool json = false;
+};
+
+/// What statistics.csv says of the last step.
+struct LastStep {
+    std::vector<std::string> columns;
+    std::vector<std::vector<double>> rows;  ///< one a plant
+};
+
+LastStep last_step_of(const fs::path& run) {
+    const fs::path file = run / "statistics.csv";
+    if (!fs::exists(file)) return {};
+    const RecordedTable table = read_table(file);
+    return {table.columns, table.last_rows()};
+}
+
+// One object per plant; what a plant has not is null.
+Json json_of(const LastStep& last) {
+    Json rows = Json::array();
+    for (const std::vector<double>& values : last.rows) {
+        Json row;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double whole = std::trunc(values[i]);
+            const bool counts = whole == values[i] && std::abs(whole) < 0x1p53;
+            row[last.columns[i]] = counts ? Json(static_cast<std::int64_t>(whole)) : Json(values[i]);
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::uintmax_t bytes_in(const fs::path& folder) {
+    std::uintmax_t bytes = 0;
+    std::error_code gone;  // a run that goes on renames its files meanwhile
+    for (fs::recursive_directory_iterator entry(folder, gone), end; entry != end; entry.increment(gone)) {
+        const std::uintmax_t size = entry->is_regular_file(gone) ? entry->file_size(gone) : 0;
+        if (!gone) bytes += size;
+    }
+    return bytes;
+}
+
+std::size_t count_files(const fs::path& folder, const std::string& extension) {
+    if (!fs::is_directory(folder)) return 0;
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) count += entry.path().extension() == extension;
+    return count;
+}
+
+Json fields_of(const fs::path& folder) {
+    Json fields = Json::object();
+    if (!fs::is_directory(folder)) return fields;
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.is_directory()) paths.push_back(entry.path());
+    }
+    std::sort(paths.begin(), paths.end());
+    for (const fs::path& path : paths) fields[path.filename().string()] = count_files(path, ".vti");
+    return fields;
+}
+
+Json read_run(const fs::path& folder) {
+    const fs::path file = folder / "run.json";
+    if (!fs::exists(file)) {
+        throw UserError(fmt::format("{} holds no run: there is no run.json in it", folder.string()));
+    }
+    Json run = Json::parse(read_text(file), nullptr, false);
+    if (!run.is_object() || !run.contains("exit")) {
+        throw UserError(fmt::format("{} is not what a run writes", file.string()));
+    }
+    return run;
+}
+
+Json summary_of(const fs::path& folder, const Json& run, const LastStep& last) {
+    Json summary;
+    for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
+        summary[key] = run.value(key, Json());
+    }
+    summary["exit"] = exit_of_run(folder);
+    summary["scene"] = run.value("scene", Json::object()).value("name", "");
+    summary["seconds"] = run.value("timings", Json::object()).value("total", 0.0);
+    summary["memory"] = run.value("memory", Json());
+    summary["peak_memory"] = run.value("peak_memory", Json());
+    summary["frames"] = count_files(folder / "plants", ".vtp");
+    summary["fields"] = fields_of(folder / "fields");
+    summary["plants"] = run.value("plants", Json::array());
+    summary["bytes"] = bytes_in(folder);
+    summary["last_step"] = json_of(last);
+    return summary;
+}
+
+/// Columns of a printed table, each below its heading.
+using Headed = std::vector<std::pair<std::string, std::vector<double>>>;
+
+Headed one_each(const LastStep& last, const Json& plants) {
+    Headed columns;
+    for (std::size_t i = 0; i < last.rows.size(); ++i) {
+        columns.emplace_back(i < plants.size() ? plants[i].value("name", "") : "", last.rows[i]);
+    }
+    return columns;
+}
+
+/// The least, the mean and the most of those plants that have a value.
+Headed of_all(const LastStep& last) {
+    const std::size_t count = last.columns.size();
+    const std::vector<double> none(count, std::numeric_limits<double>::quiet_NaN());
+    Headed columns{{"least", none}, {"mean", none}, {"most", none}};
+    for (std::size_t i = 0; i < count; ++i) {
+        std::vector<double> values;
+        for (const std::vector<double>& row : last.rows) {
+            if (std::isfinite(row[i])) values.push_back(row[i]);
+        }
+        if (values.empty()) continue;
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+        const double figures[] = {*least, sum / static_cast<double>(values.size()), *most};
+        for (std::size_t k = 0; k < columns.size(); ++k) columns[k].second[i] = figures[k];
+    }
+    return columns;
+}
+
+/// A column for every plant of a few.
+void print_statistics(const LastStep& last, const Json& plants) {
+    if (last.rows.empty()) return;
+    constexpr std::size_t most_columns = 6;
+    const bool few = last.rows.size() <= most_columns;
+    const Headed columns = few ? one_each(last, plants) : of_all(last);
+    fmt::print("{:26}", few ? "last step" : fmt::format("last step, {} plants", last.rows.size()));
+    for (const auto& column : columns) fmt::print(" {:>12}", column.first);
+    fmt::print("\n");
+    for (std::size_t i = 0; i < last.columns.size(); ++i) {
+        if (last.columns[i] == "step" || last.columns[i] == "plant") continue;
+        fmt::print("  {:24}", last.columns[i]);
+        for (const auto& column : columns) {
+            fmt::print(" {:>12}", std::isfinite(column.second[i]) ? format_general(column.second[i]) : "");
+        }
+        fmt::print("\n");
+    }
+}
+
+void print_summary(const fs::path& folder, const Json& summary) {
+    const auto text = [&](const char* key) {
+        const Json& value = summary[key];
+        return value.is_string() ? value.get<std::string>() : value.dump();
+    };
+    fmt::print("{}: scene {}, seed {}, espalier {}\n", folder.string(), text("scene"), text("seed"), text("version"));
+    fmt::print("ended: {}; {} of {} steps in {} on {} threads, begun {}\n", text("exit"), text("steps_done"),
+               text("steps"), duration_text(summary["seconds"].get<double>()), text("threads"), text("started"));
+    if (summary["peak_memory"].is_number() && summary["memory"].is_number()) {
+        fmt::print("memory: at most {} MiB of {} MiB\n", summary["peak_memory"].get<std::uint64_t>() >> 20,
+                   summary["memory"].get<std::uint64_t>() >> 20);
+    }
+    fmt::print("frames: {} of plants", text("frames"));
+    for (const auto& [name, count] : summary["fields"].items()) fmt::print(", {} of field {}", count.dump(), name);
+    fmt::print("\nsize: {:.1f} MB\n", static_cast<double>(summary["bytes"].get<std::uint64_t>()) / 1e6);
+}
+
+int info(const InfoArguments& arguments) {
+    try {
+        const Json run = read_run(arguments.folder);
+        const LastStep last = last_step_of(arguments.folder);
+        const Json summary = summary_of(arguments.folder, run, last);
+        if (arguments.json) {
+            fmt::print("{}\n", summary.dump(2, ' ', false, Json::error_handler_t::replace));
+        } else {
+            print_summary(arguments.folder, summary);
+            print_statistics(last, summary["plants"]);
+        }
+    } catch (const Json::exception& error) {
+        throw UserError(
+            fmt::format("{} is not what a run writes: {}", (arguments.folder / "run.json").string(), error.what()));
+    }
+    return exit_code::done;
+}
+
+class Info final : public Command {
+public:
+    explicit Info(CLI::App& program) : Command(program, "info", "summarise what a run left in a folder") {
+        app().add_option("folder", folder_, "an output folder")->required();
+        add_json_flag("print it as JSON");
+        app().footer("Example:\n  espalier info output/two-trees-20260101-120000");
+    }
+
+    int run() override { return info({folder_, wants_json()}); }
+
+private:
+    std::filesystem::path folder_;
+};
+
+const RegisteredCommand<Info> entry{40};
+
+}  // namespace
+}  // namespace espalier

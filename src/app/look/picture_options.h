@@ -1,0 +1,40 @@
+// Options of commands that draw, and what their words mean.
+#pragma once
+
+#include "espalier/picture/chart_page.h"
+#include "espalier/picture/picture_style.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace espalier {
+
+/// --size and --dark.
+class PictureOptions {
+public:
+    explicit PictureOptions(CLI::App& command);
+
+    bool dark() const { return dark_; }
+    /// As asked for, or the one given. Throws UserError if --size is not WIDTHxHEIGHT.
+    PictureSize size(const PictureSize& otherwise) const;
+
+private:
+    std::string size_;
+    bool dark_ = false;
+};
+
+// What these words mean; each throws UserError saying what is expected.
+
+/// "1200x800", of an option.
+PictureSize picture_size(const std::string& option, const std::string& text);
+/// "light", "dark", "transparent" or "#rrggbb".
+PictureBackground picture_background(const std::string& text);
+/// "water", "water:volume", "water:slice", "water:slice=z0.5", "water:iso", "water:iso=0.3".
+FieldLook field_look(const std::string& text);
+
+/// The whole text as a finite number.
+std::optional<double> finite_number(const std::string& text);
+
+}  // namespace espalier

@@ -1,0 +1,315 @@
+// render: pictures, films and contact sheets of a run, or of a scene that is grown first.
+#include "espalier/base/error.h"
+#include "espalier/base/text.h"
+#include "espalier/picture/render.h"
+#include "espalier/simulation/scene.h"
+
+#include "app/command.h"
+#include "app/end_signals.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "app/run_command.h"
+#include "frame_option.h"
+#include "picture_options.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <unistd.h>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t pictures_of_a_turn = 72;
+
+std::atomic<bool> interrupt{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+/// Thrown between two pictures, so that what was begun is removed.
+struct Interrupted {};
+
+/// One living line on a terminal, nothing in a pipe.
+class PictureProgress {
+public:
+    explicit PictureProgress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+    ~PictureProgress() {
+        if (drawn_) fmt::print(stderr, "\n");
+    }
+    PictureProgress(const PictureProgress&) = delete;
+    PictureProgress& operator=(const PictureProgress&) = delete;
+
+    void operator()(std::size_t done, std::size_t all) {
+        if (!shown_ || all < 2) return;
+        drawn_ = true;
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+        const double left = passed.count() / static_cast<double>(done) * static_cast<double>(all - done);
+        const std::size_t bars = 30 * done / all;
+        fmt::print(stderr, "\r[{:#<{}}{:.<{}}] picture {}/{}, {} left\033[K", "", bars, "", 30 - bars, done, all,
+                   duration_text(left));
+    }
+
+private:
+    bool shown_, drawn_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+class Render final : public Command {
+public:
+    explicit Render(CLI::App& program)
+        : Command(program, "render", "draw a run: pictures, a film, or a contact sheet"),
+          model_(app(), "what", "the folder of a run; or a scene, a model or an object, which is grown first",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()),
+          growth_(app()),
+          picture_(app()) {
+        add_output_options();
+        add_look_options();
+        add_camera_options();
+        app()
+            .add_option("--run-output", run_.output, "where a scene's run goes; default: output/<scene>-<time>")
+            ->group("Growing a scene");
+        app().add_flag("--overwrite", run_.overwrite, "replace the timeline in that folder")->group("Growing a scene");
+        app().add_flag("--quiet", run_.quiet, "print nothing but errors");
+        add_json_flag("print the files as JSON");
+        app().footer(R"(Examples:
+  espalier render output/two-trees                                        the last frame, as a picture
+  espalier render environments/two-trees.toml --output trees.png          grown first
+  espalier render output/two-trees --output growth.mp4 --orbit 90         a film, the camera goes round
+  espalier render output/two-trees --sheet 4x2 --output sheet.png         eight stages of growth on one page
+  espalier render output/two-trees --colour-by birth --scale-bar --dark
+  espalier render output/two-trees --field light:slice=z --colour-by light
+  espalier render output/two-roots --field water:volume --elevation 5
+  espalier render output/two-roots --field water:iso=0.28 --step 0:200:10 --output roots.png
+Nothing is grown again for a run. A field must have been recorded ([timeline] fields). `espalier info RUN` says what a run
+holds; docs/render.md shows what all this looks like.)");
+    }
+
+    int run() override {
+        run_.model = model_.arguments();
+        const bool is_run = fs::exists(run_.model.file / "run.json");
+        if (!is_run) {
+            check_before_growing();
+            const int code = grow();
+            if (code != exit_code::done) return code;
+        }
+        const RecordedRun recorded(is_run ? run_.model.file : run_.output);
+        RenderJob job{recorded, {}, style_of(recorded), camera_, orbit_, ground(), follow_, {}, {}};
+        job.camera.front_if_flat = app().count("--azimuth") == 0 && app().count("--elevation") == 0;
+        job.style.sun_azimuth = camera_.azimuth - 50;
+        PictureProgress progress(run_.quiet || wants_json());
+        job.progress = [&](std::size_t done, std::size_t all) {
+            progress(done, all);
+            if (interrupt) throw Interrupted();
+        };
+        const fs::path output = output_.empty() ? recorded.folder() / "render.png" : output_;
+        const EndSignals signals([](int) { interrupt = true; }, true);
+        try {
+            print_files(draw(job, output));
+        } catch (const Interrupted&) {
+            return exit_code::interrupted;
+        }
+        return exit_code::done;
+    }
+
+private:
+    void add_output_options() {
+        app().add_option("--output", output_,
+                         "a .png; or a film: .ogv, and with ffmpeg .mp4, .webm, .gif; default: RUN/render.png");
+        app().add_option("--step", step_,
+                         std::string(frame_option_help) + "; default: last for a picture, all for a film or a sheet");
+        app().add_option("--sheet", sheet_, "COLUMNSxROWS frames on one page, evenly from those of --step");
+        app()
+            .add_option("--frames", frames_, "so many pictures in a film, evenly from those of --step")
+            ->check(CLI::Range(1, 100000));
+        app()
+            .add_option("--rate", rate_, "pictures of a film per second; default: so that it lasts about 10 s")
+            ->check(CLI::Range(0.1, 120.0));
+    }
+
+    void add_look_options() {
+        app()
+            .add_option("--colour-by", colour_by_,
+                        "natural, birth, age, order, plant, symbol, kind, colour, radius, "
+                        "height, a recorded parameter or field")
+            ->capture_default_str();
+        app().add_option("--range", range_, "LOW:HIGH of the colours; default: what the frames hold");
+        app()
+            .add_option("--field", fields_,
+                        "NAME:volume, NAME:slice[=AXIS[METRES]], NAME:iso[=VALUE]; may be given several times")
+            ->allow_extra_args(false);
+        app().add_option("--plant", plant_, "this plant alone, by its name in the scene");
+        app().add_option("--background", background_, "light, dark, transparent or #rrggbb; default: light");
+        ground_option_ = app().add_flag("--ground,!--no-ground", ground_,
+                                        "with or without a ground; default: where nothing grows beneath it");
+        app().add_flag("--no-shade", no_shade_, "no shadows: quicker");
+        app().add_flag("--no-legend", no_legend_, "no colour bars");
+        app().add_flag("--scale-bar", scale_bar_, "a length to compare with");
+        app().add_flag("--time", time_, "write the step or the time");
+        app().add_option("--title", title_, "a heading");
+    }
+
+    void add_camera_options() {
+        app()
+            .add_option("--azimuth", camera_.azimuth, "degrees round the vertical; 0: from the front (against z)")
+            ->check(CLI::Range(-36000.0, 36000.0))
+            ->capture_default_str();
+        app()
+            .add_option("--elevation", camera_.elevation, "degrees above the horizon; 90: from above")
+            ->check(CLI::Range(-90.0, 90.0))
+            ->capture_default_str();
+        app()
+            .add_option("--zoom", camera_.zoom, "1: everything fits")
+            ->check(CLI::Range(0.01, 1000.0))
+            ->capture_default_str();
+        app()
+            .add_option("--orbit", orbit_, "degrees that the camera goes round during a film")
+            ->check(CLI::Range(-36000.0, 36000.0));
+        app().add_flag("--follow", follow_, "frame each step's plants anew, instead of those of all steps");
+    }
+
+    /// A mistake that can be known from the words and the scene should not cost the growing.
+    void check_before_growing() const {
+        (void)range();
+        if (!background_.empty()) (void)picture_background(background_);
+        if (!step_.empty()) require_frame_option(step_);
+        if (!sheet_.empty()) (void)sheet_cells();
+        if (!output_.empty()) {
+            sheet_.empty() && is_film(output_) ? require_film_writer(output_) : require_png(output_);
+        }
+        std::vector<std::string> looks;
+        for (const std::string& field : fields_) looks.push_back(field_look(field).name);
+        if (!is_scene(run_.model.file)) return;
+        const Scene scene = read_scene(run_.model.file, {sets_.overrides(), growth_.steps(), growth_.seed()});
+        const std::vector<std::string> fields = scene.timeline.texts_or("fields", {});
+        std::vector<std::string> colours = colours_of_every_run(), plants;
+        for (const std::string& name : scene.timeline.table("parameters").keys()) colours.push_back(name);
+        for (const std::string& name : fields) colours.insert(colours.end(), {name, "field." + name});
+        for (const PlantDescription& plant : scene.plants) plants.push_back(plant.name);
+        const bool has_all_fields = fields == std::vector<std::string>{"all"};
+        for (const std::string& look : looks) {
+            if (!has_all_fields)
+                require("--field", look, fields, "`fields = [...]` under [timeline] names what is recorded");
+        }
+        if (!has_all_fields) {
+            require("--colour-by", colour_by_, colours,
+                    "`parameters` and `fields` under [timeline] say what more there is");
+        }
+        if (!plant_.empty()) require("--plant", plant_, plants, "the plants of the scene have other names");
+    }
+
+    void require(const char* option, const std::string& name, const std::vector<std::string>& known,
+                 const char* hint) const {
+        if (std::find(known.begin(), known.end(), name) != known.end()) return;
+        throw UserError(fmt::format("{} {}: {} will have nothing of that name{}; {}", option, name,
+                                    run_.model.file.string(), did_you_mean(name, known), hint));
+    }
+
+    int grow() {
+        run_.overrides = sets_.overrides();
+        run_.steps = growth_.steps();
+        run_.seed = growth_.seed();
+        run_.memory = growth_.memory();
+        if (run_.output.empty()) run_.output = default_output(run_.model.file.stem().string());
+        RunArguments silent = run_;
+        silent.quiet = silent.quiet || wants_json();
+        return run_command(silent);
+    }
+
+    PictureStyle style_of(const RecordedRun& run) const {
+        PictureStyle style;
+        style.colour_by = colour_by_;
+        style.range = range();
+        if (!plant_.empty()) style.plant = run.plant(plant_);
+        for (const std::string& field : fields_) style.fields.push_back(field_look(field));
+        if (!background_.empty() || picture_.dark()) {
+            style.background = picture_background(background_.empty() ? "dark" : background_);
+        }
+        style.shading = !no_shade_;
+        style.legend = !no_legend_;
+        style.scale_bar = scale_bar_;
+        style.time_label = time_;
+        style.title = title_;
+        return style;
+    }
+
+    std::optional<bool> ground() const { return ground_option_->count() == 0 ? std::nullopt : std::optional(ground_); }
+
+    std::optional<std::array<double, 2>> range() const {
+        if (range_.empty()) return std::nullopt;
+        const std::size_t colon = range_.find(':');
+        if (colon != std::string::npos) {
+            const auto low = finite_number(range_.substr(0, colon)), high = finite_number(range_.substr(colon + 1));
+            if (low && high && *low < *high) return std::array{*low, *high};
+        }
+        throw UserError(fmt::format("--range {}: LOW:HIGH is expected, as 0:0.5", range_));
+    }
+
+    /// Columns and rows.
+    PictureSize sheet_cells() const {
+        const PictureSize cells = picture_size("--sheet", sheet_);
+        if (std::int64_t{cells.width} * cells.height > 10000) {
+            throw UserError(fmt::format("--sheet {}: more than 10,000 frames on one page", sheet_));
+        }
+        return cells;
+    }
+
+    std::vector<fs::path> draw(RenderJob& job, const fs::path& output) const {
+        const bool many = is_film(output) || !sheet_.empty();
+        job.frames = chosen_frames(job.run, !step_.empty() ? step_ : many ? "all" : "last");
+        if (!sheet_.empty()) {
+            const PictureSize cells = sheet_cells();
+            const std::size_t count = static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
+            if (count < job.frames.size()) job.frames = evenly(job.frames, count);
+            job.size = picture_.size({400, 300});
+            render_sheet(job, cells.width, output);
+            return {output};
+        }
+        if (!is_film(output)) {
+            job.size = picture_.size({1200, 900});
+            return render_pictures(job, output);
+        }
+        job.size = picture_.size({800, 600});
+        const bool turns_only = job.frames.size() == 1 && orbit_ != 0;
+        const std::size_t count = frames_ > 0 ? static_cast<std::size_t>(frames_) : turns_only ? pictures_of_a_turn : 0;
+        if (count > 0) job.frames = evenly(job.frames, count);
+        const double rate = rate_ > 0 ? rate_ : std::clamp(static_cast<double>(job.frames.size()) / 10, 5.0, 30.0);
+        render_film(job, rate, output);
+        return {output};
+    }
+
+    void print_files(const std::vector<fs::path>& files) const {
+        if (wants_json()) {
+            nlohmann::ordered_json json = nlohmann::ordered_json::array();
+            for (const fs::path& file : files) json.push_back(file.string());
+            fmt::print("{}\n", nlohmann::ordered_json{{"files", json}}.dump(2));
+            return;
+        }
+        if (run_.quiet) return;
+        for (const fs::path& file : files) fmt::print("{}\n", file.string());
+    }
+
+    ModelOptions model_;
+    SetOptions sets_;
+    GrowthOptions growth_;
+    PictureOptions picture_;
+    RunArguments run_;
+    CameraPlace camera_;
+    fs::path output_;
+    std::string step_, sheet_, colour_by_ = "natural", range_, plant_, background_, title_;
+    std::vector<std::string> fields_;
+    CLI::Option* ground_option_ = nullptr;
+    bool ground_ = false;
+    int frames_ = 0;
+    double rate_ = 0, orbit_ = 0;
+    bool follow_ = false, no_shade_ = false, no_legend_ = false, scale_bar_ = false, time_ = false;
+};
+
+const RegisteredCommand<Render> entry{32};
+
+}  // namespace
+}  // namespace espalier

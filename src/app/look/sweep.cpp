@@ -1,0 +1,216 @@
+#include "sweep.h"
+
+#include "espalier/archive/recorded_run.h"
+#include "espalier/base/csv_file.h"
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/simulation/recorded_command.h"
+
+#include "app/child.h"
+#include "app/command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <sys/wait.h>
+#include <thread>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a run that failed said first, warnings and excerpts of files aside; "" if nothing.
+std::string complaint(const fs::path& log) {
+    std::ifstream in(log);
+    for (std::string line; std::getline(in, line);) {
+        if (!line.empty() && line[0] != ' ' && line.find("warning:") == std::string::npos) return line;
+    }
+    return "";
+}
+
+// Ended by itself, told the same at the same place, and everything it read is still what it was.
+bool is_done(const SweepRun& run) {
+    try {
+        const RecordedCommand command = read_command(run.folder);
+        return command.exit == "done" && command.arguments == run.words && command.folder == fs::current_path() &&
+               std::all_of(command.inputs.begin(), command.inputs.end(),
+                           [](const auto& input) { return is_unchanged(input.first, input.second); });
+    } catch (const UserError&) {
+        return false;  // no run, or half of one
+    }
+}
+
+/// The runs that go on at the moment, by their process numbers.
+class Crew {
+public:
+    Crew(const Sweep& sweep, std::size_t total, bool quiet) : sweep_(sweep), total_(total), quiet_(quiet) {}
+
+    std::size_t size() const { return running_.size(); }
+    std::size_t failed() const { return failed_; }
+
+    void start(const SweepRun& run) {
+        std::error_code error;
+        fs::create_directories(run.folder, error);
+        if (error) throw RunError(fmt::format("cannot make the folder {}: {}", run.folder.string(), error.message()));
+        const std::vector<std::string> command = sweep_.command(run);
+        running_[start_run({command.begin() + 2, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
+    }
+    /// None is left behind, even where the next cannot be started.
+    ~Crew() {
+        pass_on(SIGTERM);
+        for (const auto& entry : running_) ::waitpid(entry.first, nullptr, 0);
+    }
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+
+    /// Tells of those that have ended.
+    void reap() {
+        for (int child = 0, code = 0; poll_program(child, code);) {
+            const auto place = running_.find(child);
+            if (place == running_.end()) continue;
+            tell(*place->second, code);
+            running_.erase(place);
+        }
+    }
+    void pass_on(int signal) const {
+        for (const auto& entry : running_) ::kill(entry.first, signal);
+    }
+
+private:
+    void tell(const SweepRun& run, int code) {
+        ++ended_;
+        std::error_code ignored;
+        if (code == 0 && fs::is_empty(sweep_.log(run), ignored)) fs::remove(sweep_.log(run), ignored);
+        if (code != 0 && code != exit_code::interrupted) ++failed_;
+        if (code != 0) {
+            const std::string reason = complaint(sweep_.log(run));
+            fmt::print(stderr, "{} of {}: {}: ended with code {}{}{}, see {}\n", ended_, total_, run.variant.name, code,
+                       reason.empty() ? "" : ": ", reason, sweep_.log(run).string());
+        } else if (!quiet_) {
+            fmt::print(stderr, "{} of {}: {}\n", ended_, total_, run.variant.name);
+        }
+    }
+
+    const Sweep& sweep_;
+    std::map<int, const SweepRun*> running_;
+    std::size_t total_, ended_ = 0, failed_ = 0;
+    bool quiet_;
+};
+
+// A row's cell for each of `columns`; empty where the table has none of that name.
+std::string cells(const RecordedTable& table, const std::vector<double>& row, const std::vector<std::string>& columns) {
+    std::string text;
+    for (const std::string& column : columns) {
+        const auto found = std::find(table.columns.begin(), table.columns.end(), column);
+        text += ",";
+        if (found != table.columns.end())
+            text += csv_number(row[static_cast<std::size_t>(found - table.columns.begin())]);
+    }
+    return text;
+}
+
+}  // namespace
+
+Sweep::Sweep(const RunArguments& base, const std::vector<Variation>& variations, const fs::path& folder)
+    : base_(base), variations_(variations), folder_(folder) {
+    const bool alone = base.model.file.extension() != ".toml";
+    for (Variant& variant : combine(variations)) {
+        RunArguments arguments = base;
+        for (const auto& pair : variant.values) {
+            const bool defines = alone && pair.first.find('.') == std::string::npos;
+            (defines ? arguments.model.defines : arguments.overrides).push_back(pair);
+        }
+        const fs::path place = folder_ / (variant.name.empty() ? "run" : variant.name);
+        runs_.push_back({std::move(variant), place, words_of(arguments)});
+    }
+}
+
+std::vector<const SweepRun*> Sweep::to_do() const {
+    std::vector<const SweepRun*> left;
+    for (const SweepRun& run : runs_) {
+        if (!is_done(run)) left.push_back(&run);
+    }
+    return left;
+}
+
+std::vector<std::string> Sweep::command(const SweepRun& run) const {
+    std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "run"};
+    words.insert(words.end(), run.words.begin(), run.words.end());
+    words.insert(words.end(), {"--output", run.folder.string(), "--overwrite", "--quiet"});
+    if (base_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(base_.threads)});
+    if (base_.memory > 0) words.insert(words.end(), {"--memory", std::to_string(base_.memory)});
+    return words;
+}
+
+fs::path Sweep::log(const SweepRun& run) const {
+    return run.folder.string() + ".log";
+}
+
+Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
+    const SignalCounter signals;
+    const std::vector<const SweepRun*> left = to_do();
+    if (!quiet && left.size() < runs_.size()) {
+        fmt::print(stderr, "{} of {} runs are done already\n", runs_.size() - left.size(), runs_.size());
+    }
+    Crew crew(*this, left.size(), quiet);
+    int passed_on = 0;
+    for (std::size_t next = 0; crew.size() > 0 || (next < left.size() && signals.count() == 0);) {
+        while (signals.count() == 0 && next < left.size() && crew.size() < static_cast<std::size_t>(jobs)) {
+            crew.start(*left[next++]);
+        }
+        for (; passed_on < signals.count(); ++passed_on) crew.pass_on(SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        crew.reap();
+    }
+    return {crew.failed(), signals.count() > 0};
+}
+
+std::vector<SweepResult> Sweep::results() const {
+    std::vector<SweepResult> results;
+    for (const SweepRun& run : runs_) {
+        if (!is_done(run)) continue;  // its last step is not the one asked for, or an older run's
+        RecordedTable table = RecordedRun(run.folder).statistics();
+        table.rows = table.last_rows();
+        results.push_back({&run, std::move(table)});
+    }
+    return results;
+}
+
+fs::path Sweep::write_table(const std::vector<SweepResult>& results) const {
+    std::vector<std::string> columns;  // of all: runs with other processes have other quantities
+    for (const SweepResult& result : results) {
+        for (const std::string& column : result.table.columns) {
+            if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+        }
+    }
+    std::string text = "run";
+    for (const Variation& variation : variations_) text += "," + csv_text(variation.key);
+    for (const std::string& column : columns) text += "," + csv_text(column);
+    text += "\n";
+    for (const auto& [run, table] : results) {
+        std::string values = csv_text(run->variant.name);
+        for (const auto& pair : run->variant.values) values += "," + csv_text(pair.second);
+        for (const std::vector<double>& row : table.rows) text += values + cells(table, row, columns) + "\n";
+    }
+    const fs::path path = folder_ / "sweep.csv";
+    write_text(path, text);
+    return path;
+}
+
+SweptRuns Sweep::drawn(const std::vector<SweepResult>& results) const {
+    SweptRuns drawn;
+    drawn.title = fs::absolute(folder_ / "").lexically_normal().parent_path().filename().string();
+    for (const Variation& variation : variations_) drawn.keys.push_back(variation.key);
+    for (const SweepResult& result : results) {
+        SweptRun& run = drawn.runs.emplace_back();
+        for (const auto& pair : result.run->variant.values) run.values.push_back(pair.second);
+        run.table = result.table;
+    }
+    return drawn;
+}
+
+}  // namespace espalier

@@ -1,0 +1,60 @@
+// A sweep: one run for every combination of values, each in a folder of its own, several at a time.
+#pragma once
+
+#include "espalier/picture/sweep_charts.h"
+#include "espalier/simulation/variation.h"
+
+#include "app/run_command.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+struct SweepRun {
+    Variant variant;
+    std::filesystem::path folder;
+    std::vector<std::string> words;  ///< of `espalier run`, without --output
+};
+
+struct SweepResult {
+    const SweepRun* run;
+    RecordedTable table;
+};
+
+class Sweep {
+public:
+    /// Values go to `--set`, but to `--define` where a model alone is grown and the key has no dot.
+    Sweep(const RunArguments& base, const std::vector<Variation>& variations, const std::filesystem::path& folder);
+
+    const std::vector<SweepRun>& runs() const { return runs_; }
+    /// Those that have not ended yet, or whose inputs or values have changed since.
+    std::vector<const SweepRun*> to_do() const;
+    /// The whole command line of one, to be started in the current folder.
+    std::vector<std::string> command(const SweepRun& run) const;
+    /// Where it writes what it prints.
+    std::filesystem::path log(const SweepRun& run) const;
+
+    struct Outcome {
+        std::size_t failed = 0;
+        bool interrupted = false;
+    };
+    /// Runs what is to do, so many at a time. What fails does not keep the others.
+    Outcome run(int jobs, bool quiet) const;
+
+    /// The runs that are done, with the last step of their statistics.csv.
+    std::vector<SweepResult> results() const;
+    /// sweep.csv: the rows of every result behind its values. Returns its path.
+    std::filesystem::path write_table(const std::vector<SweepResult>& results) const;
+    /// What sweep_page() draws.
+    SweptRuns drawn(const std::vector<SweepResult>& results) const;
+
+private:
+    RunArguments base_;
+    std::vector<Variation> variations_;
+    std::filesystem::path folder_;
+    std::vector<SweepRun> runs_;
+};
+
+}  // namespace espalier

@@ -1,0 +1,140 @@
+// sweep: grows a scene once for every combination of values.
+#include "espalier/base/error.h"
+
+#include "app/child.h"
+#include "app/command.h"
+#include "app/options.h"
+#include "picture_options.h"
+#include "sweep.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SweepCommand final : public Command {
+public:
+    explicit SweepCommand(CLI::App& program)
+        : Command(program, "sweep", "grow a scene for every combination of values, several at a time"),
+          model_(app(), "what", "a scene (.toml), a model (.l), or the folder of an object",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()),
+          growth_(app()),
+          picture_(app()) {
+        app()
+            .add_option("--vary", vary_, "KEY=FIRST:LAST:COUNT, KEY=FIRST..LAST or KEY=VALUE,VALUE...; may be repeated")
+            ->required()
+            ->allow_extra_args(false);
+        app().add_option("--output", output_, "folder of folders; default: output/<scene>-sweep");
+        app()
+            .add_option("--jobs", jobs_, "runs at a time; default: as many as the machine has cores")
+            ->check(CLI::Range(1, 4096));
+        app()
+            .add_option("--threads", threads_, "of each run; default: the cores shared among the jobs")
+            ->check(CLI::Range(1, 4096));
+        app()
+            .add_option("--statistic", statistics_,
+                        "draw these columns of sweep.csv over what was varied, a chart each: height,light.mean")
+            ->delimiter(',')
+            ->allow_extra_args(false);
+        app().add_option("--plot", plot_,
+                         "draw into this .png or .svg; default with --statistic: sweep.png in the folder");
+        app().add_flag("--list", list_, "print the commands that are still to do instead of running them");
+        app().add_flag("--quiet", quiet_, "print nothing but errors");
+        app().footer(
+            R"(A sweep that was stopped goes on where it was: runs that are done and whose files have not changed stay.
+At its end sweep.csv holds a row for every run and plant: the values, then the last step of statistics.csv.
+The picture shows how the runs ended: a line for every value of all keys but the one along x (or a heat map), and of runs
+that differ in simulation.seed alone the mean with its standard deviation. A sweep that is done draws at once.
+For a model alone a KEY without a dot is one of its #defines.
+Examples:
+  espalier sweep environments/two-trees.toml --vary environment.light.strength=0.2:1:5 --vary simulation.seed=1..4
+  espalier sweep models/course/03-parameters.l --vary simulation.steps=1..6 --jobs 2
+  espalier sweep scene.toml --vary environment.light.voxel=0.1:0.5:5 --statistic height,organs --plot voxel.svg
+  espalier sweep scene.toml --vary simulation.seed=1..100 --list > commands      for a cluster: docs/sweeps.md)");
+    }
+
+    int run() override {
+        std::error_code error;
+        const fs::path what = model_.arguments().file;
+        if (!fs::exists(what, error)) throw UserError(fmt::format("cannot read {}: no such file", what.string()));
+        const Sweep sweep(base(), variations(), folder());
+        if (list_) {
+            for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));
+            return exit_code::done;
+        }
+        const Sweep::Outcome outcome = sweep.run(jobs(), quiet_);
+        if (outcome.interrupted) return exit_code::interrupted;
+        const std::vector<SweepResult> results = sweep.results();
+        tell(sweep.write_table(results));
+        if (wants_plot() && !results.empty()) draw(sweep.drawn(results));
+        if (outcome.failed > 0) throw RunError(fmt::format("{} runs failed", outcome.failed));
+        return exit_code::done;
+    }
+
+private:
+    void tell(const fs::path& file) const {
+        if (!quiet_) fmt::print("{}\n", file.string());
+    }
+    bool wants_plot() const { return !plot_.empty() || !statistics_.empty(); }
+    void draw(const SweptRuns& runs) const {
+        const fs::path path = plot_.empty() ? folder() / "sweep.png" : plot_;
+        const ChartPage page = sweep_page(runs, statistics_, picture_.dark());
+        write_picture(page, picture_.size(fitting_size(page)), path);
+        tell(path);
+    }
+
+    static int cores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+    int jobs() const { return jobs_ > 0 ? jobs_ : cores(); }
+
+    RunArguments base() const {
+        RunArguments arguments;
+        arguments.model = model_.arguments();
+        arguments.overrides = sets_.overrides();
+        arguments.steps = growth_.steps();
+        arguments.seed = growth_.seed();
+        arguments.memory = growth_.memory();
+        arguments.threads = threads_ > 0 ? threads_ : list_ ? 0 : std::max(1, cores() / jobs());
+        return arguments;
+    }
+
+    std::vector<Variation> variations() const {
+        std::vector<Variation> variations;
+        for (const std::string& text : vary_) variations.push_back(parse_variation(text));
+        return variations;
+    }
+
+    fs::path folder() const {
+        if (!output_.empty()) return output_;
+        const fs::path file = model_.arguments().file;
+        const std::string name = (file.has_filename() ? file : file.parent_path()).stem().string();
+        return fs::path("output") / (name + "-sweep");
+    }
+
+    static void print(const std::vector<std::string>& command) {
+        std::vector<std::string> words;
+        for (const std::string& word : command) words.push_back(quoted(word));
+        fmt::print("{}\n", fmt::join(words, " "));
+    }
+
+    ModelOptions model_;
+    SetOptions sets_;
+    GrowthOptions growth_;
+    PictureOptions picture_;
+    std::vector<std::string> vary_;
+    fs::path output_, plot_;
+    std::vector<std::string> statistics_;
+    int jobs_ = 0, threads_ = 0;
+    bool list_ = false, quiet_ = false;
+};
+
+const RegisteredCommand<SweepCommand> entry{16};
+
+}  // namespace
+}  // namespace espalier

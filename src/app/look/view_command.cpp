@@ -1,0 +1,185 @@
+// view: a window on a run, or on a scene that is grown meanwhile.
+#include "espalier/archive/recorded_run.h"
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/view/run_view.h"
+
+#include "app/child.h"
+#include "app/command.h"
+#include "app/options.h"
+#include "app/run_command.h"
+#include "app/temporary_folder.h"
+#include "picture_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <sstream>
+#include <thread>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run of this program beside the window.
+class Simulation {
+public:
+    Simulation(const RunArguments& arguments, const fs::path& log) : output_(arguments.output), log_(log) {
+        std::vector<std::string> words = words_of(arguments);
+        const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+        add({"--quiet", "--output", fs::absolute(output_).string()});
+        if (arguments.overwrite) add({"--overwrite"});
+        if (arguments.threads > 0) add({"--threads", std::to_string(arguments.threads)});
+        if (arguments.memory > 0) add({"--memory", std::to_string(arguments.memory)});
+        if (arguments.checkpoint_every > 0) add({"--checkpoint-every", std::to_string(arguments.checkpoint_every)});
+        child_ = start_run(words, fs::current_path(), log_);
+    }
+
+    bool is_running() {
+        int child = 0;
+        if (child_ && poll_program(child, code_) && child == *child_) child_.reset();
+        return child_.has_value();
+    }
+    int code() const { return code_; }
+    /// What it printed: warnings, and why it failed.
+    std::string words() const { return fs::exists(log_) ? read_text(log_) : ""; }
+
+    SimulationState state() {
+        if (is_running()) return {true, false, "running"};
+        if (code_ == exit_code::done) return {false, false, "done: the run has ended"};
+        if (code_ == exit_code::interrupted) return {false, false, "the run was interrupted"};
+        std::istringstream lines(words());
+        std::string first, line;
+        while (std::getline(lines, line)) {
+            if (first.empty() && line.find("warning") == std::string::npos) first = line;
+        }
+        return {false, true, "the run failed: " + first};
+    }
+
+    /// Ends it after the step at hand, or waits for its end.
+    void end(const SignalCounter& signals, bool wait) {
+        if (!is_running()) return;
+        // A signal that came is passed on below; a second would kill the run.
+        if (!wait && signals.count() == 0) kill(*child_, SIGINT);
+        code_ = wait_for_program(*child_, signals);
+        child_.reset();
+    }
+
+private:
+    fs::path output_, log_;
+    std::optional<int> child_;
+    int code_ = 0;
+};
+
+bool is_run(const fs::path& path) {
+    std::error_code error;
+    return fs::exists(path / "run.json", error);
+}
+
+class View final : public Command {
+public:
+    explicit View(CLI::App& program)
+        : Command(program, "view", "look at a run, or at a scene while it grows, in a window"),
+          model_(app(), "what", "the folder of a run; or what `espalier run` takes, which is grown meanwhile",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()),
+          growth_(app()),
+          picture_(app()) {
+        app().add_option("--step", step_, "the frame to begin with: N, first or last; default: last, and live");
+        app()
+            .add_option("--colour-by", options_.style.colour_by,
+                        "what organs are coloured by, as `c` in the window does")
+            ->capture_default_str();
+        app().add_option("--field", field_, "a field as volume, slice or iso, as `f` in the window does: light:slice");
+        app().add_option("--screenshot", options_.screenshot, "write what the window shows as .png, and end");
+        app().add_option("--script", script_, "do what a file says, line by line, and end: docs/view.md");
+        app().add_option("--output", arguments_.output, "of a scene: folder; default: output/<scene>-<time>");
+        app().add_flag("--overwrite", arguments_.overwrite, "of a scene: replace the timeline in that folder");
+        app().add_option("--threads", arguments_.threads, "of a scene: default: all")->check(CLI::Range(1, 4096));
+        app().add_flag("--keep-running", keep_running_, "of a scene: when the window closes, wait for the run's end");
+        app().footer(R"(In the window h shows what keys and mouse do. Examples:
+  espalier view output/two-trees                        a run, ended or still going
+  espalier view environments/two-trees.toml             grows it and shows it grow; closing the window ends the run
+  espalier view models/course/02-branching.l --steps 6
+  espalier view output/two-trees --step 120 --screenshot tree.png
+A screenshot and a script need no display.)");
+    }
+
+    int run() override {
+        arguments_.model = model_.arguments();
+        options_.size = picture_.size(options_.size);
+        if (picture_.dark()) options_.style.background = dark_background;
+        if (!field_.empty()) options_.style.fields.push_back(field_look(field_));
+        if (!script_.empty()) options_.script = read_text(script_);
+        options_.print = [](const std::string& line) { fmt::print("{}\n", line); };
+        const bool needs_display = script_.empty() && options_.screenshot.empty();
+        if (const std::string why = why_no_window(); needs_display && !why.empty()) throw RunError(why);
+        return is_run(arguments_.model.file) ? view_recorded() : view_growing();
+    }
+
+private:
+    int view_recorded() {
+        const RecordedRun recorded(arguments_.model.file);
+        options_.step = step_of(recorded);
+        const SignalCounter signals;
+        options_.interrupted = [&] { return signals.count() > 0; };
+        view_run(arguments_.model.file, options_);
+        return exit_code::done;
+    }
+
+    std::optional<int> step_of(const RecordedRun& recorded) const {
+        if (step_.empty() || step_ == "last" || recorded.frames().empty()) return std::nullopt;
+        if (step_ == "first") return recorded.frames().front().step;
+        int step = 0;
+        const auto [end, error] = std::from_chars(step_.data(), step_.data() + step_.size(), step);
+        if (error != std::errc() || end != step_.data() + step_.size()) {
+            throw UserError(fmt::format("--step {}: a step, first or last is expected", step_));
+        }
+        return recorded.frame(step).step;
+    }
+
+    int view_growing() {
+        if (!step_.empty()) throw UserError("--step is for runs that are recorded; a scene is shown as it grows");
+        arguments_.overrides = sets_.overrides();
+        arguments_.steps = growth_.steps();
+        arguments_.seed = growth_.seed();
+        arguments_.memory = growth_.memory();
+        if (arguments_.output.empty()) arguments_.output = default_output(arguments_.model.file.stem().string());
+        const TemporaryFolder log_folder("view");
+        const SignalCounter signals;
+        Simulation simulation(arguments_, log_folder.path() / "log");
+        while (simulation.is_running() && !is_run(arguments_.output) && signals.count() == 0) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        options_.simulation = [&] { return simulation.state(); };
+        options_.interrupted = [&] { return signals.count() > 0; };
+        try {
+            if (is_run(arguments_.output) && signals.count() == 0) view_run(arguments_.output, options_);
+        } catch (...) {
+            simulation.end(signals, false);
+            throw;
+        }
+        simulation.end(signals, keep_running_);
+        fmt::print(stderr, "{}", simulation.words());
+        if (is_run(arguments_.output)) fmt::print("{}\n", (arguments_.output / "").string());
+        const bool closed_early = simulation.code() == exit_code::interrupted && signals.count() == 0;
+        return closed_early ? exit_code::done : simulation.code();
+    }
+
+    ModelOptions model_;
+    SetOptions sets_;
+    GrowthOptions growth_;
+    PictureOptions picture_;
+    RunArguments arguments_;
+    ViewOptions options_;
+    std::string step_, field_;
+    fs::path script_;
+    bool keep_running_ = false;
+};
+
+const RegisteredCommand<View> entry{36};
+
+}  // namespace
+}  // namespace espalier

@@ -1,0 +1,12 @@
+// plants/NNNN.vtp and lifespans.vtp, read back.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+
+namespace espalier {
+
+/// Throw UserError naming the file.
+RecordedGeometry read_geometry(const std::filesystem::path& path);
+RecordedLives read_lives(const std::filesystem::path& path);
+
+}  // namespace espalier

@@ -1,0 +1,92 @@
+#include "archive/meshes/axis_tree.h"
+
+#include <glm/geometric.hpp>
+
+#include <tuple>
+
+namespace espalier {
+namespace {
+
+glm::vec3 direction(const RecordedInternode& internode) {
+    const glm::vec3 along = internode.tip - internode.base;
+    const float length = glm::length(along);
+    return length > 0 ? along / length : glm::vec3(0);
+}
+
+/// The axis that goes on where another ends; none if all that begin there turn back.
+std::int32_t continuation(const AxisTree& tree, const AxisTree::Axis& axis) {
+    const RecordedInternode& last = tree.internodes[axis.end - 1];
+    std::int32_t best = RecordedInternode::none;
+    std::tuple<float, float> most{0, 0};
+    for (const std::uint32_t borne : tree.axes_borne[axis.end - 1]) {
+        const RecordedInternode& first = tree.internodes[tree.axes[borne].first];
+        const float straight = glm::dot(direction(last), direction(first));
+        if (first.base != last.tip || straight <= 0) continue;
+        const std::tuple rank{first.base_radius, straight};
+        if (best >= 0 && rank <= most) continue;
+        best = static_cast<std::int32_t>(borne);
+        most = rank;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> AxisTree::trunks() const {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < axes.size(); ++i) {
+        if (axes[i].bearer == RecordedInternode::none) result.push_back(i);
+    }
+    return result;
+}
+
+AxisTree axis_tree(const RecordedGeometry& geometry, const ExportOptions& options) {
+    AxisTree tree;
+    std::vector<std::int32_t> number(geometry.lines.connectivity.size(), RecordedInternode::none);
+    const std::vector<RecordedInternode> all = internodes_of(geometry);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        RecordedInternode internode = all[i];
+        if (options.plant && internode.plant != *options.plant) continue;
+        const auto here = static_cast<std::uint32_t>(tree.internodes.size());
+        number[i] = static_cast<std::int32_t>(here);
+        if (internode.bearer >= 0) internode.bearer = number[static_cast<std::size_t>(internode.bearer)];
+        const bool begins = tree.axes.empty() || tree.internodes.back().axis != internode.axis;
+        if (begins) {
+            tree.axes.push_back({internode.plant, here, here, internode.bearer});
+            if (internode.bearer >= 0) {
+                tree.axes_borne[static_cast<std::size_t>(internode.bearer)].push_back(
+                    static_cast<std::uint32_t>(tree.axes.size() - 1));
+            }
+        }
+        tree.axes.back().end = here + 1;
+        tree.internodes.push_back(internode);
+        tree.axes_borne.emplace_back();
+    }
+    return tree;
+}
+
+std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const ExportOptions& options) {
+    const AxisTree tree = axis_tree(geometry, options);
+    std::vector<std::int32_t> next;
+    std::vector<bool> continues(tree.axes.size(), false);
+    for (const AxisTree::Axis& axis : tree.axes) {
+        next.push_back(continuation(tree, axis));
+        if (next.back() >= 0) continues[static_cast<std::size_t>(next.back())] = true;
+    }
+    std::vector<AxisPath> paths;
+    for (std::size_t i = 0; i < tree.axes.size(); ++i) {
+        if (continues[i]) continue;
+        const RecordedInternode& first = tree.internodes[tree.axes[i].first];
+        AxisPath& path = paths.emplace_back();
+        path.plant = first.plant;
+        path.row = geometry.lines.first + first.axis;
+        path.points.push_back(first.base_point);
+        for (auto at = static_cast<std::int32_t>(i); at >= 0; at = next[static_cast<std::size_t>(at)]) {
+            const AxisTree::Axis& axis = tree.axes[static_cast<std::size_t>(at)];
+            for (std::uint32_t k = axis.first; k < axis.end; ++k) path.points.push_back(tree.internodes[k].tip_point);
+        }
+    }
+    return paths;
+}
+
+}  // namespace espalier

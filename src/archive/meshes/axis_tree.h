@@ -1,0 +1,38 @@
+// A frame's axes as trees: which internodes an axis consists of, and which axes stand on which internode.
+#pragma once
+
+#include "espalier/formats/exporter.h"
+
+#include <vector>
+
+namespace espalier {
+
+struct AxisTree {
+    struct Axis {
+        std::uint32_t plant;
+        std::uint32_t first, end;  ///< internodes
+        std::int32_t bearer;       ///< the internode it stands on, or RecordedInternode::none
+    };
+
+    std::vector<RecordedInternode> internodes;
+    std::vector<Axis> axes;                              ///< plant after plant, each after the axis it stands on
+    std::vector<std::vector<std::uint32_t>> axes_borne;  ///< by each internode
+
+    /// Axes that stand on none, in their order.
+    std::vector<std::uint32_t> trunks() const;
+};
+
+/// Points that one tube follows.
+struct AxisPath {
+    std::uint32_t plant;
+    std::size_t row;  ///< of `of_cells`: of the axis it begins with
+    std::vector<std::int32_t> points;
+};
+
+/// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
+std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const ExportOptions& options);
+
+/// Of the plants asked for.
+AxisTree axis_tree(const RecordedGeometry& geometry, const ExportOptions& options);
+
+}  // namespace espalier

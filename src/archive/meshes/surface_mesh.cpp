@@ -1,0 +1,250 @@
+#include "archive/meshes/surface_mesh.h"
+
+#include "espalier/base/error.h"
+
+#include "archive/meshes/axis_tree.h"
+#include "archive/meshes/tubes.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace espalier {
+namespace {
+
+constexpr Rgb wood{122, 92, 62}, leaf{70, 130, 50};
+constexpr std::size_t most_vertices = std::size_t{1} << 31;
+
+class MeshBuilder {
+public:
+    MeshBuilder(const RecordedGeometry& geometry, const ExportOptions& options)
+        : geometry_(geometry),
+          options_(options),
+          thinnest_(thinnest_radius(geometry)),
+          vertex_of_(geometry.points.size()),
+          part_of_(geometry.points.size(), 0) {}
+
+    void add_tubes() {
+        for (const AxisPath& path : axis_paths(geometry_, options_)) {
+            const TubeLine tube = tube_line(geometry_, path.points, options_.simplify, thinnest_);
+            if (tube.nodes.size() < 2) continue;
+            require_room(tube.nodes.size() * static_cast<std::size_t>(options_.sides + 1));
+            begin_part(path.row);
+            add_tube(tube);
+            end_part();
+        }
+    }
+
+    // Neighbouring cells of one module and kind are one organ.
+    void add_surfaces() {
+        for (std::size_t cell = 0; cell < geometry_.polygons.size(); ++cell) {
+            const std::size_t row = geometry_.polygons.first + cell;
+            if (!wanted(row)) continue;
+            if (cell == 0 || !open_ || !same_organ(row - 1, row)) {
+                end_part();
+                begin_part(row);
+            }
+            add_polygon(cell, row);
+        }
+        end_part();
+    }
+
+    ExportMesh take() {
+        const auto by_plant = [](const ExportPart& a, const ExportPart& b) { return a.plant < b.plant; };
+        std::stable_sort(mesh_.parts.begin(), mesh_.parts.end(), by_plant);
+        return std::move(mesh_);
+    }
+
+private:
+    bool wanted(std::size_t row) const { return !options_.plant || geometry_.of_cells.plants[row] == *options_.plant; }
+
+    bool same_organ(std::size_t a, std::size_t b) const {
+        const RecordedAttributes& of = geometry_.of_cells;
+        return of.identities[a] == of.identities[b] && of.kinds[a] == of.kinds[b] && of.plants[a] == of.plants[b] &&
+               wanted(a);
+    }
+
+    void require_room(std::size_t more) const {
+        if (mesh_.points.size() + more < most_vertices) return;
+        throw RunError(
+            "a mesh would have more than 2^31 vertices; fewer --sides or a larger --simplify make it smaller");
+    }
+
+    void begin_part(std::size_t row) {
+        const RecordedAttributes& of = geometry_.of_cells;
+        ExportPart& part = mesh_.parts.emplace_back();
+        part.kind = of.kinds[row];
+        part.plant = of.plants[row];
+        part.identity = of.identities[row];
+        part.symbol = geometry_.symbol_names[of.symbols[row]];
+        part.first_vertex = mesh_.points.size();
+        part.first_triangle = mesh_.triangles.size();
+        open_ = true;
+    }
+
+    void end_part() {
+        if (!std::exchange(open_, false)) return;
+        ExportPart& part = mesh_.parts.back();
+        part.vertices = mesh_.points.size() - part.first_vertex;
+        part.triangles = mesh_.triangles.size() - part.first_triangle;
+    }
+
+    std::uint32_t material(const ExportMaterial& wanted_material) {
+        const auto [at, is_new] =
+            material_number_.emplace(wanted_material, static_cast<std::uint32_t>(mesh_.materials.size()));
+        if (is_new) mesh_.materials.push_back(wanted_material);
+        return at->second;
+    }
+
+    void add_tube(const TubeLine& line) {
+        std::vector<std::uint32_t> materials;
+        std::vector<Rgb> colours;
+        for (const TubeNode& node : line.nodes) {
+            colours.push_back(colour_of(geometry_.of_points, static_cast<std::size_t>(node.row)));
+            materials.push_back(material({colours.back(), ""}));
+        }
+        const Tube tube = sweep(line, options_.sides);
+        const auto origin = static_cast<std::uint32_t>(mesh_.points.size());
+        for (const TubeVertex& vertex : tube.vertices) {
+            mesh_.points.push_back(upright(vertex.position, options_.up));
+            mesh_.normals.push_back(upright(vertex.normal, options_.up));
+            mesh_.uvs.push_back(vertex.uv);
+            mesh_.rgb.push_back(colours[vertex.node]);
+        }
+        for (const TubeTriangle& triangle : tube.triangles) {
+            mesh_.triangles.push_back(
+                {origin + triangle.corners[0], origin + triangle.corners[1], origin + triangle.corners[2]});
+            mesh_.material_of.push_back(materials[triangle.node]);
+        }
+    }
+
+    void add_polygon(std::size_t cell, std::size_t row) {
+        const auto corners = geometry_.polygons[cell];
+        if (corners.size() < 3) return;
+        require_room(corners.size());
+        const std::uint16_t texture = geometry_.textures[row];
+        ExportMaterial worn{colour_of(geometry_.of_cells, row), ""};
+        if (texture != 0) worn.texture = geometry_.texture_files[texture];
+        // Where nobody gave a colour the picture has it.
+        if (texture != 0 && geometry_.of_cells.rgb.empty()) worn.rgb = {255, 255, 255};
+        const std::uint32_t look = material(worn);
+        const std::uint32_t first = vertex(corners[0]);
+        for (std::size_t i = 2; i < corners.size(); ++i) {
+            const std::array<std::uint32_t, 3> triangle{first, vertex(corners[i - 1]), vertex(corners[i])};
+            mesh_.triangles.push_back(triangle);
+            mesh_.material_of.push_back(look);
+        }
+    }
+
+    // Each part has vertices of its own, also where two share a ring.
+    std::uint32_t vertex(std::int32_t point) {
+        const auto row = static_cast<std::size_t>(point);
+        const auto part = static_cast<std::uint32_t>(mesh_.parts.size());
+        if (part_of_[row] == part) return vertex_of_[row];
+        part_of_[row] = part;
+        mesh_.points.push_back(upright(geometry_.points[row], options_.up));
+        const glm::vec3 normal = geometry_.normals[row];
+        mesh_.normals.push_back(upright(glm::dot(normal, normal) > 0 ? normal : glm::vec3(0, 1, 0), options_.up));
+        mesh_.uvs.push_back(geometry_.uvs[row]);
+        mesh_.rgb.push_back(colour_of(geometry_.of_points, row));
+        return vertex_of_[row] = static_cast<std::uint32_t>(mesh_.points.size() - 1);
+    }
+
+    const RecordedGeometry& geometry_;
+    const ExportOptions& options_;
+    float thinnest_;
+    ExportMesh mesh_;
+    std::map<ExportMaterial, std::uint32_t> material_number_;
+    std::vector<std::uint32_t> vertex_of_;  ///< of a point, within the part that `part_of_` counts (from 1)
+    std::vector<std::uint32_t> part_of_;
+    bool open_ = false;
+};
+
+std::string_view name_of(Kind kind) {
+    switch (kind) {
+        case Kind::axis:
+            return "axis";
+        case Kind::polygon:
+            return "polygon";
+        case Kind::cylinder:
+            return "cylinder";
+        case Kind::patch:
+            return "patch";
+        default:
+            return "organ";
+    }
+}
+
+}  // namespace
+
+Rgb colour_of(const RecordedAttributes& attributes, std::size_t row) {
+    if (!attributes.rgb.empty()) return attributes.rgb[row];
+    const Kind kind = attributes.kinds[row];
+    return kind == Kind::axis || kind == Kind::cylinder ? wood : leaf;
+}
+
+float thinnest_radius(const RecordedGeometry& geometry) {
+    if (geometry.points.empty()) return 0.001f;
+    glm::vec3 lower = geometry.points.front(), upper = lower;
+    for (const glm::vec3& point : geometry.points) {
+        lower = glm::min(lower, point);
+        upper = glm::max(upper, point);
+    }
+    const float diagonal = glm::distance(lower, upper);
+    return diagonal > 0 ? diagonal / 1000 : 0.001f;
+}
+
+ExportMesh mesh_of(const RecordedGeometry& geometry, const ExportOptions& options) {
+    MeshBuilder builder(geometry, options);
+    builder.add_tubes();
+    builder.add_surfaces();
+    return builder.take();
+}
+
+ExportMesh surfaces_of(const RecordedGeometry& geometry, const ExportOptions& options) {
+    MeshBuilder builder(geometry, options);
+    builder.add_surfaces();
+    return builder.take();
+}
+
+std::map<std::uint32_t, ExportMesh> by_plant(const ExportMesh& mesh) {
+    std::map<std::uint32_t, ExportMesh> plants;
+    const auto append = [](auto& to, const auto& from, std::size_t first, std::size_t count) {
+        const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
+        to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+    };
+    for (const ExportPart& part : mesh.parts) {
+        ExportMesh& own = plants[part.plant];
+        if (own.parts.empty()) own.materials = mesh.materials;
+        ExportPart& moved = own.parts.emplace_back(part);
+        moved.first_vertex = own.points.size();
+        moved.first_triangle = own.triangles.size();
+        append(own.points, mesh.points, part.first_vertex, part.vertices);
+        append(own.normals, mesh.normals, part.first_vertex, part.vertices);
+        append(own.uvs, mesh.uvs, part.first_vertex, part.vertices);
+        append(own.rgb, mesh.rgb, part.first_vertex, part.vertices);
+        append(own.material_of, mesh.material_of, part.first_triangle, part.triangles);
+        const auto shift = static_cast<std::uint32_t>(moved.first_vertex - part.first_vertex);  // modulo 2^32
+        for (std::size_t i = 0; i < part.triangles; ++i) {
+            const auto [a, b, c] = mesh.triangles[part.first_triangle + i];
+            own.triangles.push_back({a + shift, b + shift, c + shift});
+        }
+    }
+    return plants;
+}
+
+std::string part_name(const RecordedRun& run, const ExportPart& part, std::size_t number) {
+    std::string name =
+        fmt::format("{}_{}_{}_{}", run.plants()[part.plant].name, name_of(part.kind), part.symbol, number);
+    for (char& c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+        if (!plain) c = '_';
+    }
+    return name;
+}
+
+}  // namespace espalier

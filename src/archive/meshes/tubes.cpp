@@ -1,0 +1,190 @@
+#include "archive/meshes/tubes.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace espalier {
+namespace {
+
+/// How far a node lies from the straight and evenly tapering piece between two others.
+double deviation(const TubeNode& node, const TubeNode& from, const TubeNode& to) {
+    const glm::dvec3 a(from.position), along = glm::dvec3(to.position) - a, here = glm::dvec3(node.position) - a;
+    const double square = glm::dot(along, along);
+    const double share = square > 0 ? std::clamp(glm::dot(here, along) / square, 0.0, 1.0) : 0.0;
+    const double radius = from.radius + share * (to.radius - from.radius);
+    return std::max(glm::length(here - share * along), std::abs(node.radius - radius));
+}
+
+// Marks in `keep` what must stay between two nodes that stay.
+void mark(const std::vector<TubeNode>& nodes, std::size_t first, std::size_t last, double tolerance,
+          std::vector<bool>& keep) {
+    std::vector<std::pair<std::size_t, std::size_t>> pieces{{first, last}};
+    while (!pieces.empty()) {
+        const auto [from, to] = pieces.back();
+        pieces.pop_back();
+        std::size_t worst = from;
+        double most = tolerance;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double off = deviation(nodes[i], nodes[from], nodes[to]);
+            if (off <= most) continue;
+            most = off;
+            worst = i;
+        }
+        if (worst == from) continue;
+        keep[worst] = true;
+        pieces.emplace_back(from, worst);
+        pieces.emplace_back(worst, to);
+    }
+}
+
+bool same_look(const RecordedAttributes& of, std::int32_t a, std::int32_t b) {
+    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
+    return of.colours[i] == of.colours[k] && (of.rgb.empty() || of.rgb[i] == of.rgb[k]);
+}
+
+std::vector<TubeNode> simplified(const std::vector<TubeNode>& nodes, const RecordedAttributes& of, double tolerance) {
+    std::vector<bool> keep(nodes.size(), false);
+    keep.front() = keep.back() = true;
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+        const bool ends = i + 1 == nodes.size() || !same_look(of, nodes[i].row, nodes[i + 1].row);
+        if (!ends) continue;
+        keep[i] = true;
+        mark(nodes, begin, i, tolerance, keep);
+        begin = i;
+    }
+    std::vector<TubeNode> result;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (keep[i]) result.push_back(nodes[i]);
+    }
+    return result;
+}
+
+glm::dvec3 any_across(const glm::dvec3& direction) {
+    const glm::dvec3 other = std::abs(direction.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    return glm::normalize(other - direction * glm::dot(other, direction));
+}
+
+/// The directions of a tube at its nodes: the middle of those before and behind.
+std::vector<glm::dvec3> tangents_of(const std::vector<TubeNode>& nodes) {
+    std::vector<glm::dvec3> pieces, tangents;
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+        pieces.push_back(glm::normalize(glm::dvec3(nodes[i].position) - glm::dvec3(nodes[i - 1].position)));
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const glm::dvec3 before = pieces[i == 0 ? 0 : i - 1], behind = pieces[std::min(i, pieces.size() - 1)];
+        const glm::dvec3 sum = before + behind;
+        tangents.push_back(glm::length(sum) > 1e-6 ? glm::normalize(sum) : before);
+    }
+    return tangents;
+}
+
+class Sweeper {
+public:
+    Sweeper(const TubeLine& line, int sides) : nodes_(line.nodes), sides_(static_cast<std::uint32_t>(sides)) {}
+
+    Tube tube() {
+        const std::vector<glm::dvec3> tangents = tangents_of(nodes_);
+        glm::dvec3 across = any_across(tangents.front());
+        double along = 0;
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            across -= tangents[i] * glm::dot(across, tangents[i]);
+            across = glm::length(across) > 1e-6 ? glm::normalize(across) : any_across(tangents[i]);
+            if (i > 0) along += glm::distance(nodes_[i].position, nodes_[i - 1].position);
+            add_ring(static_cast<std::uint32_t>(i), tangents[i], across, along);
+            if (i > 0) join(static_cast<std::uint32_t>(i));
+        }
+        add_cap(0, -tangents.front());
+        add_cap(static_cast<std::uint32_t>(nodes_.size() - 1), tangents.back());
+        return std::move(tube_);
+    }
+
+private:
+    std::uint32_t ring(std::uint32_t node) const { return node * (sides_ + 1); }
+
+    /// How fast the radius shrinks along the axis there.
+    double taper(std::size_t node) const {
+        const TubeNode& before = nodes_[node == 0 ? 0 : node - 1];
+        const TubeNode& behind = nodes_[std::min(node + 1, nodes_.size() - 1)];
+        return (before.radius - behind.radius) / std::max(1e-12f, glm::distance(before.position, behind.position));
+    }
+
+    // The last vertex stands where the first does, at the other end of the texture.
+    void add_ring(std::uint32_t node, const glm::dvec3& tangent, const glm::dvec3& across, double along) {
+        const glm::dvec3 left = glm::cross(tangent, across);
+        const double shrinking = taper(node);
+        for (std::uint32_t side = 0; side <= sides_; ++side) {
+            const double angle = 2 * std::numbers::pi * (side % sides_) / sides_;
+            const glm::dvec3 outward = std::cos(angle) * across + std::sin(angle) * left;
+            const glm::dvec3 position = glm::dvec3(nodes_[node].position) + double(nodes_[node].radius) * outward;
+            tube_.vertices.push_back(
+                {glm::vec3(position),
+                 glm::vec3(glm::normalize(outward + shrinking * tangent)),
+                 {static_cast<float>(side) / static_cast<float>(sides_), static_cast<float>(along)},
+                 node});
+        }
+    }
+
+    void join(std::uint32_t node) {
+        for (std::uint32_t side = 0; side < sides_; ++side) {
+            const std::uint32_t a = ring(node - 1) + side, b = ring(node) + side;
+            tube_.triangles.push_back({{a, a + 1, b + 1}, node});
+            tube_.triangles.push_back({{a, b + 1, b}, node});
+        }
+    }
+
+    void add_cap(std::uint32_t node, const glm::dvec3& outward) {
+        const auto centre = static_cast<std::uint32_t>(tube_.vertices.size());
+        const glm::vec3 normal(outward);
+        tube_.vertices.push_back({nodes_[node].position, normal, {0.5f, 0.5f}, node});
+        for (std::uint32_t side = 0; side < sides_; ++side) {
+            const double angle = 2 * std::numbers::pi * side / sides_;
+            const glm::vec2 uv(0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle));
+            tube_.vertices.push_back({tube_.vertices[ring(node) + side].position, normal, uv, node});
+        }
+        const std::uint32_t owner = std::max(node, 1u);
+        for (std::uint32_t side = 0; side < sides_; ++side) {
+            std::uint32_t here = centre + 1 + side, next = centre + 1 + (side + 1) % sides_;
+            if (node == 0) std::swap(here, next);
+            tube_.triangles.push_back({{centre, here, next}, owner});
+        }
+    }
+
+    const std::vector<TubeNode>& nodes_;
+    std::uint32_t sides_;
+    Tube tube_;
+};
+
+}  // namespace
+
+TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
+                   float thinnest) {
+    std::vector<TubeNode> nodes;
+    float thickest = 0;
+    for (const std::int32_t point : points) {
+        const auto row = static_cast<std::size_t>(point);
+        const float radius = std::isfinite(geometry.radii[row]) ? std::max(0.0f, geometry.radii[row]) : 0;
+        thickest = std::max(thickest, radius);
+        const bool moved = nodes.empty() || nodes.back().position != geometry.points[row];
+        if (moved) {
+            nodes.push_back({geometry.points[row], radius, point});
+        } else {
+            nodes.back().radius = radius;
+        }
+    }
+    const float least = thickest > 0 ? thickest / 1000 : thinnest;
+    for (TubeNode& node : nodes) node.radius = std::max(node.radius, least);
+    if (nodes.size() > 2 && tolerance > 0) nodes = simplified(nodes, geometry.of_points, tolerance);
+    return {std::move(nodes)};
+}
+
+Tube sweep(const TubeLine& line, int sides) {
+    return Sweeper(line, sides).tube();
+}
+
+}  // namespace espalier

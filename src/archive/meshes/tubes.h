@@ -1,0 +1,48 @@
+// Axes swept into tubes: rings carried along without twist, closed by flat caps.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace espalier {
+
+struct TubeNode {
+    glm::vec3 position;
+    float radius;
+    std::int32_t row;  ///< the frame's point, whose attributes hold from the node before on
+};
+
+struct TubeLine {
+    std::vector<TubeNode> nodes;
+};
+
+/// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
+/// `tolerance` from them and no colour changes (Douglas and Peucker 1973). Radii of 0 become `thinnest`, tips that
+/// taper to nothing a thousandth of the axis's thickest.
+TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
+                   float thinnest);
+
+struct TubeVertex {
+    glm::vec3 position, normal;
+    glm::vec2 uv;        ///< once round, and metres along the axis
+    std::uint32_t node;  ///< of the line
+};
+
+struct TubeTriangle {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t node;  ///< whose attributes it has
+};
+
+struct Tube {
+    std::vector<TubeVertex> vertices;
+    std::vector<TubeTriangle> triangles;
+};
+
+/// Two nodes at least. Every edge belongs to two triangles once vertices in one place are taken for one.
+Tube sweep(const TubeLine& line, int sides);
+
+}  // namespace espalier

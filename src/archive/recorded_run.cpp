@@ -1,0 +1,277 @@
+#include "espalier/archive/recorded_run.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+
+#include "archive/field_reader.h"
+#include "archive/geometry_file.h"
+#include "archive/xml.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+    throw UserError(fmt::format("{} is damaged: {}", file.string(), what));
+}
+
+double number(const fs::path& file, const std::string& text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        fail(file, fmt::format("'{}' is no number", text));
+    }
+    return value;
+}
+
+struct CollectionEntry {
+    double time;
+    std::string name;
+    fs::path file;
+};
+
+std::vector<CollectionEntry> entries_of(const fs::path& path, const std::string& text) {
+    std::vector<CollectionEntry> entries;
+    const XmlElement root = parse_xml(text);
+    const XmlElement* collection = root.child("Collection");
+    if (!collection) fail(path, "it has no element 'Collection'");
+    for (const XmlElement& entry : collection->children) {
+        if (entry.name != "DataSet") continue;
+        if (entry.attribute("file").empty()) fail(path, "a data set has no file");
+        entries.push_back({number(path, entry.attribute("timestep")), entry.attribute("name"),
+                           path.parent_path() / entry.attribute("file")});
+    }
+    return entries;
+}
+
+// The entries of a .pvd in their order; none if there is no such file. A run that is going puts new ones over the
+// file's end: who reads just then finds the old end and the new one, and reads once more.
+std::vector<CollectionEntry> read_collection(const fs::path& path) {
+    if (!fs::exists(path)) return {};
+    std::string text = read_text(path);
+    for (;;) {
+        try {
+            return entries_of(path, text);
+        } catch (const XmlError& error) {
+            std::string again = read_text(path);
+            if (again == text) fail(path, error.what());
+            text = std::move(again);
+        }
+    }
+}
+
+// Plants and fields of a step are written one after the other: a run that goes on, or was killed, may have but one.
+void drop_unfinished(std::vector<RecordedFrame>& frames) {
+    const auto holds = [&](auto member) {
+        return std::any_of(frames.begin(), frames.end(),
+                           [&](const RecordedFrame& of) { return !(of.*member).empty(); });
+    };
+    const bool has_plants = holds(&RecordedFrame::plants), has_fields = holds(&RecordedFrame::fields);
+    const auto is_whole = [&](const RecordedFrame& frame) {
+        return (!has_plants || !frame.plants.empty()) && (!has_fields || !frame.fields.empty());
+    };
+    if (frames.size() > 1 && !is_whole(frames.back()) && is_whole(frames[frames.size() - 2])) frames.pop_back();
+}
+
+std::vector<RecordedFrame> read_frames(const fs::path& folder, double dt) {
+    std::map<int, RecordedFrame> frames;
+    const auto frame_at = [&](const fs::path& path, double time) -> RecordedFrame& {
+        const double step = std::round(time / dt);
+        if (step < 0 || step > std::numeric_limits<int>::max()) fail(path, fmt::format("time {} is no step's", time));
+        RecordedFrame& frame = frames[static_cast<int>(step)];
+        frame.step = static_cast<int>(step);
+        frame.time = time;
+        return frame;
+    };
+    const fs::path plants = folder / "plants.pvd", fields = folder / "fields.pvd";
+    for (const CollectionEntry& entry : read_collection(plants)) frame_at(plants, entry.time).plants = entry.file;
+    for (const CollectionEntry& entry : read_collection(fields)) {
+        frame_at(fields, entry.time).fields[entry.name] = entry.file;
+    }
+    std::vector<RecordedFrame> sorted;
+    for (auto& [step, frame] : frames) sorted.push_back(std::move(frame));
+    drop_unfinished(sorted);
+    return sorted;
+}
+
+Json read_run_json(const fs::path& folder) {
+    const fs::path file = folder / "run.json";
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+        throw UserError(fmt::format("{} holds no run: there is no run.json in it", folder.string()));
+    }
+    Json run = Json::parse(read_text(file), nullptr, false);
+    if (!run.is_object() || !run.contains("exit")) {
+        throw UserError(fmt::format("{} is not what a run writes", file.string()));
+    }
+    return run;
+}
+
+std::string written_exit(const fs::path& folder) {
+    const Json run = read_run_json(folder);
+    if (!run["exit"].is_string()) {
+        throw UserError(fmt::format("{} is not what a run writes", (folder / "run.json").string()));
+    }
+    return run["exit"].get<std::string>();
+}
+
+// Cells between commas; in quotes commas are text.
+std::vector<std::string> cells_of(std::string_view line) {
+    std::vector<std::string> cells(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            cells.emplace_back();
+        } else {
+            cells.back() += c;
+        }
+    }
+    return cells;
+}
+
+double cell_value(const fs::path& file, const std::string& text) {
+    if (text.empty() || text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
+    if (text == "inf" || text == "-inf") return std::numeric_limits<double>::infinity() * (text[0] == '-' ? -1 : 1);
+    return number(file, text);
+}
+
+}  // namespace
+
+RecordedRun::RecordedRun(fs::path folder) : folder_(std::move(folder)) {
+    const Json run = read_run_json(folder_);
+    try {
+        scene_ = run.at("scene").at("name").get<std::string>();
+        time_unit_ = run.at("time_unit").get<std::string>();
+        dt_ = run.at("dt").get<double>();
+        for (const Json& plant : run.at("plants")) {
+            plants_.push_back({static_cast<std::uint32_t>(plants_.size()), plant.at("name").get<std::string>(),
+                               plant.at("model").get<std::string>()});
+        }
+    } catch (const Json::exception& error) {
+        throw UserError(fmt::format("{} is not what a run writes: {}", (folder_ / "run.json").string(), error.what()));
+    }
+    if (!(dt_ > 0) || !std::isfinite(dt_)) fail(folder_ / "run.json", fmt::format("a step cannot last {}", dt_));
+    exit_ = exit_of_run(folder_);
+    frames_ = read_frames(folder_, dt_);
+}
+
+// Who is killed cannot say so, but holds no lock any more.
+std::string exit_of_run(const fs::path& folder) {
+    const std::string exit = written_exit(folder);
+    if (exit != "running" || is_locked(folder)) return exit;
+    const std::string again = written_exit(folder);  // it may have ended just then
+    return again == "running" ? "killed" : again;
+}
+
+std::uint32_t RecordedRun::plant(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const RecordedPlant& plant : plants_) {
+        if (plant.name == name) return plant.number;
+        names.push_back(plant.name);
+    }
+    constexpr std::size_t most_shown = 20;
+    const std::size_t shown = std::min(names.size(), most_shown);
+    throw UserError(fmt::format("{} has no plant '{}'{}; its plants are {}{}", folder_.string(), name,
+                                did_you_mean(name, names), fmt::join(names.begin(), names.begin() + shown, ", "),
+                                names.size() > shown ? ", ..." : ""));
+}
+
+const RecordedFrame& RecordedRun::frame(int step) const {
+    const auto after = std::lower_bound(frames_.begin(), frames_.end(), step,
+                                        [](const RecordedFrame& frame, int wanted) { return frame.step < wanted; });
+    if (after != frames_.end() && after->step == step) return *after;
+    if (frames_.empty()) throw UserError(fmt::format("{} has no frames", folder_.string()));
+    std::string nearest;
+    if (after != frames_.begin()) nearest += fmt::format(" {}", std::prev(after)->step);
+    if (after != frames_.end()) nearest += fmt::format("{} {}", nearest.empty() ? "" : " and", after->step);
+    throw UserError(fmt::format("{} has no frame of step {}; the nearest:{}", folder_.string(), step, nearest));
+}
+
+std::vector<std::string> RecordedRun::field_names() const {
+    std::vector<std::string> names;
+    if (frames_.empty()) return names;
+    for (const auto& [name, file] : frames_.back().fields) names.push_back(name);
+    return names;
+}
+
+RecordedGeometry RecordedRun::geometry(const RecordedFrame& frame) const {
+    if (frame.plants.empty()) {
+        throw UserError(fmt::format("{} holds no plants of step {}: its recorder 'skeleton' was off", folder_.string(),
+                                    frame.step));
+    }
+    RecordedGeometry geometry = read_geometry(frame.plants);
+    for (const RecordedAttributes* attributes : {&geometry.of_points, &geometry.of_cells}) {
+        for (const std::uint32_t plant : attributes->plants) {
+            if (plant >= plants_.size()) fail(frame.plants, fmt::format("the run has no plant {}", plant));
+        }
+    }
+    return geometry;
+}
+
+RecordedField RecordedRun::field(const RecordedFrame& frame, const std::string& name) const {
+    const auto found = frame.fields.find(name);
+    if (found != frame.fields.end()) return read_field(found->second, name);
+    std::vector<std::string> names = field_names();
+    throw UserError(fmt::format("{} has no field '{}' of step {}{}; recorded: {}", folder_.string(), name, frame.step,
+                                did_you_mean(name, names),
+                                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+RecordedTable RecordedRun::statistics() const {
+    return read_table(folder_ / "statistics.csv");
+}
+
+RecordedTable read_table(const fs::path& file) {
+    const std::string text = read_text(file);
+    RecordedTable table;
+    for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
+        const std::vector<std::string> cells = cells_of(std::string_view(text).substr(at, end - at));
+        if (at == 0) {
+            table.columns = cells;
+            continue;
+        }
+        if (cells.size() != table.columns.size()) {
+            fail(file,
+                 fmt::format("row {} has {} cells, not {}", table.rows.size() + 1, cells.size(), table.columns.size()));
+        }
+        std::vector<double>& row = table.rows.emplace_back();
+        for (const std::string& cell : cells) row.push_back(cell_value(file, cell));
+    }
+    if (table.columns.empty()) fail(file, "it has no header");
+    return table;
+}
+
+RecordedLives RecordedRun::lifespans() const {
+    return read_lives(folder_ / "lifespans.vtp");
+}
+
+std::size_t RecordedTable::column(const std::string& name) const {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+    throw UserError(fmt::format("statistics.csv has no column '{}'{}; it has {}", name, did_you_mean(name, columns),
+                                fmt::join(columns, ", ")));
+}
+
+std::vector<std::vector<double>> RecordedTable::last_rows() const {
+    std::vector<std::vector<double>> last = rows;
+    if (rows.empty()) return last;
+    const std::size_t step = column("step");
+    std::erase_if(last, [&](const std::vector<double>& row) { return row[step] != rows.back()[step]; });
+    return last;
+}
+
+}  // namespace espalier

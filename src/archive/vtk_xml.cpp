@@ -1,0 +1,214 @@
+#include "archive/vtk_xml.h"
+
+#include "espalier/base/file.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkDataCompressor.h>
+#include <vtkLZ4DataCompressor.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkZLibDataCompressor.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <span>
+
+namespace espalier {
+namespace {
+
+constexpr std::size_t most_ratio = 1100;   // zlib packs 1032 bytes into one at most
+constexpr std::uint64_t header_words = 3;  // number of blocks, size of a block, size of the last if it is a smaller one
+
+std::array<std::int8_t, 256> base64_values() {
+    std::array<std::int8_t, 256> values;
+    values.fill(-1);
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < alphabet.size(); ++i) {
+        values[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
+    }
+    return values;
+}
+
+/// Returns false if `text` is not base64, whole quadruples with padding at the end only.
+bool decode_base64(std::string_view text, std::vector<char>& bytes) {
+    static const std::array<std::int8_t, 256> value_of = base64_values();
+    if (text.size() % 4 != 0) return false;
+    const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with("=") ? 1 : 0;
+    bytes.clear();
+    bytes.reserve(text.size() / 4 * 3);
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const int value = i >= text.size() - padding ? 0 : value_of[static_cast<unsigned char>(text[i])];
+        if (value < 0) return false;
+        bits = bits << 6 | static_cast<std::uint32_t>(value);
+        if (i % 4 != 3) continue;
+        for (const int shift : {16, 8, 0}) bytes.push_back(static_cast<char>(bits >> shift & 0xff));
+    }
+    bytes.resize(bytes.size() - padding);
+    return true;
+}
+
+std::size_t base64_length(std::uint64_t bytes) {
+    return (bytes + 2) / 3 * 4;
+}
+
+std::vector<std::uint64_t> words(const std::vector<char>& bytes) {
+    std::vector<std::uint64_t> result(bytes.size() / sizeof(std::uint64_t));
+    if (!result.empty()) std::memcpy(result.data(), bytes.data(), result.size() * sizeof(std::uint64_t));
+    return result;
+}
+
+/// VTK's inline data: the header in base64, then all blocks in base64. Returns false if it is damaged.
+class CompressedBlocks {
+public:
+    explicit CompressedBlocks(vtkDataCompressor& compressor) : compressor_(compressor) {}
+
+    bool read(std::string_view text, std::vector<char>& result) {
+        return read_header(text) && decode_base64(text.substr(base64_length(header_.size() * 8)), packed_) &&
+               unpack(result);
+    }
+
+private:
+    bool read_header(std::string_view text) {
+        std::vector<char> bytes;
+        if (!decode_base64(text.substr(0, base64_length(header_words * 8)), bytes)) return false;
+        header_ = words(bytes);
+        if (header_.size() < header_words || header_[0] > text.size()) return false;
+        const std::uint64_t all = header_words + header_[0];
+        if (!decode_base64(text.substr(0, base64_length(all * 8)), bytes)) return false;
+        header_ = words(bytes);
+        return header_.size() == all;
+    }
+
+    bool unpack(std::vector<char>& result) {
+        const std::uint64_t blocks = header_[0], partial = header_[2];
+        result.clear();
+        std::size_t at = 0;
+        for (std::uint64_t block = 0; block < blocks; ++block) {
+            const std::uint64_t packed = header_[header_words + block];
+            const std::uint64_t plain = block + 1 == blocks && partial > 0 ? partial : header_[1];
+            if (packed == 0 || packed > packed_.size() - at || plain / most_ratio > packed) return false;
+            if (!unpack(at, packed, plain, result)) return false;
+            at += packed;
+        }
+        return at == packed_.size();
+    }
+
+    bool unpack(std::size_t at, std::size_t packed, std::size_t plain, std::vector<char>& result) {
+        const std::size_t before = result.size();
+        result.resize(before + plain);
+        const auto* from = reinterpret_cast<const unsigned char*>(packed_.data() + at);
+        auto* to = reinterpret_cast<unsigned char*>(result.data() + before);
+        return compressor_.Uncompress(from, packed, to, plain) == plain;
+    }
+
+    vtkDataCompressor& compressor_;
+    std::vector<std::uint64_t> header_;
+    std::vector<char> packed_;
+};
+
+/// Null for a name that the timeline does not write. VTK prints errors unless somebody listens.
+vtkSmartPointer<vtkDataCompressor> compressor_of(std::string_view name) {
+    vtkSmartPointer<vtkDataCompressor> compressor;
+    if (name == "vtkLZ4DataCompressor") compressor = vtkSmartPointer<vtkLZ4DataCompressor>::New();
+    if (name == "vtkZLibDataCompressor") compressor = vtkSmartPointer<vtkZLibDataCompressor>::New();
+    if (!compressor) return compressor;
+    vtkNew<vtkCallbackCommand> silence;
+    silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    compressor->AddObserver(vtkCommand::ErrorEvent, silence);
+    compressor->AddObserver(vtkCommand::WarningEvent, silence);
+    return compressor;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\n";
+    const std::size_t begin = text.find_first_not_of(blanks);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+}  // namespace
+
+VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const std::string& type)
+    : path_(path), text_(read_text(path)) {
+    try {
+        root_ = parse_xml(text_);
+    } catch (const XmlError& error) {
+        fail(error.what());
+    }
+    data_set_ = root_.child(type);
+    if (root_.attribute("type") != type || !data_set_ || root_.attribute("header_type") != "UInt64" ||
+        root_.attribute("byte_order") != "LittleEndian" || !compressor_of(root_.attribute("compressor"))) {
+        fail(fmt::format("it is no {} as a run writes it", type));
+    }
+}
+
+const XmlElement& VtkXmlFile::piece() const {
+    return child(*data_set_, "Piece");
+}
+
+const XmlElement& VtkXmlFile::child(const XmlElement& parent, std::string_view name) const {
+    const XmlElement* found = parent.child(name);
+    if (!found) fail(fmt::format("it has no element '{}'", name));
+    return *found;
+}
+
+std::size_t VtkXmlFile::count(const XmlElement& element, std::string_view attribute) const {
+    const std::string& text = element.attribute(attribute);
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value > text_.size() * most_ratio) {
+        fail(fmt::format("{} is no number that can be right: '{}'", attribute, text));
+    }
+    return value;
+}
+
+const XmlElement* VtkXmlFile::find(const XmlElement& section, std::string_view name) {
+    const auto found = std::find_if(section.children.begin(), section.children.end(),
+                                    [&](const XmlElement& array) { return array.attribute("Name") == name; });
+    return found == section.children.end() ? nullptr : &*found;
+}
+
+const XmlElement& VtkXmlFile::needed(const XmlElement& section, std::string_view name) const {
+    const XmlElement* found = find(section, name);
+    if (!found) fail(fmt::format("it has no array '{}'", name));
+    return *found;
+}
+
+VtkArray VtkXmlFile::array(const XmlElement& element) const {
+    VtkArray result;
+    result.type = element.attribute("type");
+    if (!element.attribute("NumberOfComponents").empty()) {
+        result.components = std::max<std::size_t>(1, count(element, "NumberOfComponents"));
+    }
+    const auto compressor = compressor_of(root_.attribute("compressor"));
+    const bool binary = element.attribute("format") == "binary";
+    if (!binary || !CompressedBlocks(*compressor).read(trimmed(element.text), result.bytes)) {
+        fail(fmt::format("the data of array '{}' are damaged", element.attribute("Name")));
+    }
+    return result;
+}
+
+std::vector<std::string> VtkXmlFile::texts(std::string_view name) const {
+    const XmlElement* section = data_set_->child("FieldData");
+    const XmlElement* element = section ? find(*section, name) : nullptr;
+    std::vector<std::string> result;
+    if (!element) return result;
+    const VtkArray raw = array(*element);
+    if (raw.type != "String") fail(fmt::format("array '{}' is of another type than a run writes", name));
+    auto begin = raw.bytes.begin();
+    for (auto end = std::find(begin, raw.bytes.end(), '\0'); end != raw.bytes.end();
+         end = std::find(begin, raw.bytes.end(), '\0')) {
+        result.emplace_back(begin, end);
+        begin = end + 1;
+    }
+    return result;
+}
+
+void VtkXmlFile::fail(const std::string& what) const {
+    throw UserError(fmt::format("{} is damaged: {}", path_.string(), what));
+}
+
+}  // namespace espalier

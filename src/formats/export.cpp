@@ -1,0 +1,55 @@
+#include "espalier/base/error.h"
+#include "espalier/base/text.h"
+#include "espalier/formats/exporter.h"
+
+#include "base/folder.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace espalier {
+namespace {
+
+std::string file_name(const RecordedRun& run) {
+    std::string name = run.scene().empty() ? "run" : run.scene();
+    std::replace(name.begin(), name.end(), '/', '-');
+    return name;
+}
+
+}  // namespace
+
+std::filesystem::path ExportJob::path(const std::string& extension) const {
+    return folder / fmt::format("{}.{}", name.empty() ? file_name(run) : name, extension);
+}
+
+std::filesystem::path ExportJob::path(const RecordedFrame& frame, const std::string& extension) const {
+    if (!name.empty() && frames.size() == 1) return path(extension);
+    return folder / fmt::format("{}-{:04}.{}", name.empty() ? file_name(run) : name, frame.step, extension);
+}
+
+std::string format_of_extension(const std::string& extension) {
+    for (const auto& [name, entry] : ExporterRegistry::entries()) {
+        if (extension == "." + entry.make()->extension()) return name;
+    }
+    return "";
+}
+
+void export_run(const ExportJob& job, std::span<const std::string> formats) {
+    std::vector<std::string> known;
+    for (const auto& [name, entry] : ExporterRegistry::entries()) known.push_back(name);
+    std::vector<std::unique_ptr<Exporter>> exporters;
+    for (const std::string& format : formats) {
+        const auto entry = ExporterRegistry::entries().find(format);
+        if (entry == ExporterRegistry::entries().end()) {
+            throw UserError(fmt::format("'{}' is none of the formats {}{}", format, fmt::join(known, ", "),
+                                        did_you_mean(format, known)));
+        }
+        exporters.push_back(entry->second.make());
+    }
+    if (!job.folder.empty()) make_folder(job.folder);
+    for (const auto& exporter : exporters) exporter->write(job);
+}
+
+}  // namespace espalier

@@ -1,0 +1,152 @@
+// Root System Markup Language (Lobet et al. 2015): axes as polylines with diameters, laterals inside what bears them.
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+
+#include "archive/meshes/axis_tree.h"
+#include "archive/meshes/surface_mesh.h"
+#include "base/xml_text.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <iterator>
+
+namespace espalier {
+namespace {
+
+class RsmlText {
+public:
+    RsmlText(const ExportJob& job, const RecordedFrame& frame, const AxisTree& tree)
+        : job_(job), frame_(frame), tree_(tree) {}
+
+    std::string text() {
+        add_head();
+        const std::vector<std::uint32_t> trunks = tree_.trunks();
+        for (std::size_t i = 0; i < trunks.size(); ++i) {
+            const std::uint32_t plant = tree_.axes[trunks[i]].plant;
+            if (i == 0 || tree_.axes[trunks[i - 1]].plant != plant) {
+                if (i > 0) put("    </plant>\n");
+                put("    <plant ID=\"{}\" label=\"{}\">\n", plant, xml_text(job_.run.plants()[plant].name));
+            }
+            add_with_laterals(trunks[i]);
+        }
+        if (!trunks.empty()) put("    </plant>\n");
+        put("  </scene>\n</rsml>\n");
+        return std::move(text_);
+    }
+
+private:
+    template <class... Values>
+    void put(fmt::format_string<Values...> format, Values&&... values) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+    }
+
+    void add_head() {
+        put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<rsml xmlns:po=\"http://www.plantontology.org/xml-dtd/po.dtd\">\n"
+            "  <metadata>\n    <version>1</version>\n    <unit>m</unit>\n    <resolution>1</resolution>\n"
+            "    <software>espalier</software>\n    <file-key>{}</file-key>\n"
+            "    <time-sequence>\n      <label>{}</label>\n      <index>{}</index>\n      <unified>true</unified>\n"
+            "    </time-sequence>\n    <property-definitions>\n",
+            xml_text(job_.run.scene()), xml_text(job_.run.scene()), frame_.step);
+        for (const auto& [label, type, unit] : {std::tuple{"length", "float", "m"},
+                                                {"birth", "integer", "step"},
+                                                {"order", "integer", "1"},
+                                                {"identity", "string", "1"}}) {
+            put("      <property-definition>\n        <label>{}</label>\n        <type>{}</type>\n"
+                "        <unit>{}</unit>\n      </property-definition>\n",
+                label, type, unit);
+        }
+        put("    </property-definitions>\n  </metadata>\n  <scene>\n");
+    }
+
+    // Laterals of laterals without recursion: there may be any number of orders.
+    void add_with_laterals(std::uint32_t trunk) {
+        struct Open {
+            std::uint32_t axis, internode;
+            std::size_t lateral;
+        };
+        std::vector<Open> open;
+        const auto begin = [&](std::uint32_t axis) {
+            begin_axis(axis, open.size());
+            open.push_back({axis, tree_.axes[axis].first, 0});
+        };
+        begin(trunk);
+        while (!open.empty()) {
+            Open& top = open.back();
+            if (top.internode == tree_.axes[top.axis].end) {
+                open.pop_back();
+                put("      </root>\n");
+            } else if (top.lateral == tree_.axes_borne[top.internode].size()) {
+                ++top.internode;
+                top.lateral = 0;
+            } else {
+                begin(tree_.axes_borne[top.internode][top.lateral++]);
+            }
+        }
+    }
+
+    void begin_axis(std::uint32_t number, std::size_t depth) {
+        const AxisTree::Axis& axis = tree_.axes[number];
+        const RecordedInternode& first = tree_.internodes[axis.first];
+        double length = 0;
+        for (std::uint32_t i = axis.first; i < axis.end; ++i) {
+            length += glm::distance(tree_.internodes[i].base, tree_.internodes[i].tip);
+        }
+        // Plant Ontology: primary root, lateral root.
+        put("      <root ID=\"{}\" label=\"axis {}\" po:accession=\"{}\">\n", number, number,
+            depth == 0 ? "PO:0020127" : "PO:0020121");
+        put("        <properties>\n          <length value=\"{}\"/>\n          <birth value=\"{}\"/>\n"
+            "          <order value=\"{}\"/>\n          <identity value=\"{}\"/>\n        </properties>\n",
+            format_exact(length), first.birth, first.order, first.identity);
+        add_geometry(axis);
+    }
+
+    void add_geometry(const AxisTree::Axis& axis) {
+        const RecordedInternode& first = tree_.internodes[axis.first];
+        put("        <geometry>\n          <polyline>\n");
+        add_point(first.base);
+        for (std::uint32_t i = axis.first; i < axis.end; ++i) add_point(tree_.internodes[i].tip);
+        put("          </polyline>\n        </geometry>\n        <functions>\n"
+            "          <function name=\"diameter\" domain=\"polyline\">\n");
+        put("            <sample>{}</sample>\n", 2 * first.base_radius);
+        for (std::uint32_t i = axis.first; i < axis.end; ++i) {
+            put("            <sample>{}</sample>\n", 2 * tree_.internodes[i].tip_radius);
+        }
+        put("          </function>\n        </functions>\n");
+    }
+
+    void add_point(const glm::vec3& position) {
+        const glm::vec3 v = upright(position, job_.options.up);
+        put("            <point x=\"{}\" y=\"{}\" z=\"{}\"/>\n", v.x, v.y, v.z);
+    }
+
+    const ExportJob& job_;
+    const RecordedFrame& frame_;
+    const AxisTree& tree_;
+    std::string text_;
+};
+
+class Rsml final : public Exporter {
+public:
+    std::string extension() const override { return "rsml"; }
+
+    void write(const ExportJob& job) const override {
+        for (const RecordedFrame* frame : job.frames) {
+            const AxisTree tree = axis_tree(job.run.geometry(*frame), job.options);
+            const auto path = job.path(*frame, extension());
+            write_text(path, RsmlText(job, *frame, tree).text());
+            job.report({path, 0, 0, tree.axes.size(), "axes"});
+        }
+    }
+};
+
+const RegisteredExporter entry{
+    {"rsml", "Root System Markup Language, a file per frame: for root software",
+     "Plants, axes as polylines in metres with a diameter at every node, laterals nested in the axis that bears them;\n"
+     "length, birth, order and identity as properties.\n"
+     "Lost: organs and surfaces, parameters"},
+    [] { return std::make_unique<Rsml>(); }};
+
+}  // namespace
+}  // namespace espalier

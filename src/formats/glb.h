@@ -1,0 +1,60 @@
+// A glTF 2.0 file in its binary form: a JSON chunk that describes, a binary chunk that holds the numbers.
+#pragma once
+
+#include "archive/meshes/surface_mesh.h"
+
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace espalier {
+
+class Glb {
+public:
+    using Json = nlohmann::ordered_json;
+
+    /// Textures are looked for as `texture_image` does.
+    explicit Glb(std::filesystem::path run) : run_(std::move(run)) {}
+
+    /// Vertices and triangles of one mesh; returns the mesh's number. `material_of` counts in `materials`.
+    std::size_t add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
+                         const std::vector<glm::vec2>& uvs, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                         const std::vector<std::uint32_t>& material_of, const std::vector<ExportMaterial>& materials);
+    /// Returns the node's number.
+    std::size_t add_node(Json node);
+    /// Samples of `path` ("translation", "rotation", "scale") of a node, linear between `times` in seconds.
+    void animate(std::size_t node, const char* path, const std::vector<float>& times,
+                 const std::vector<glm::vec4>& values);
+
+    Json& nodes() { return nodes_; }
+    /// The whole file; `roots` are the nodes of the scene. Throws RunError beyond 4 GiB.
+    std::string bytes(const std::vector<std::size_t>& roots) const;
+
+private:
+    template <class T>
+    std::size_t add_accessor(const T* values, std::size_t count, int component_type, const char* type, int target,
+                             Json bounds);
+    std::size_t add_view(const void* bytes, std::size_t size, int target);
+    std::size_t material(const ExportMaterial& look);
+    /// Embedded as PNG; nothing if it is no picture.
+    std::optional<std::size_t> texture(const std::string& file);
+    std::size_t times_accessor(const std::vector<float>& times);
+
+    Json accessors_ = Json::array(), views_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array(),
+         nodes_ = Json::array(), samplers_ = Json::array(), channels_ = Json::array();
+    Json images_ = Json::array(), textures_ = Json::array();
+    std::filesystem::path run_;
+    std::map<ExportMaterial, std::size_t> material_number_;
+    std::map<std::string, std::optional<std::size_t>> texture_number_;
+    std::set<std::size_t> cut_out_;  ///< textures whose pictures are partly transparent
+    std::map<std::vector<float>, std::size_t> times_;
+    std::string binary_;
+};
+
+}  // namespace espalier

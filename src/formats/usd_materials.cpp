@@ -1,0 +1,63 @@
+#include "formats/usd_materials.h"
+
+#include "formats/colour.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace espalier {
+
+const std::string& UsdMaterials::name(const ExportMaterial& look) {
+    const auto [at, is_new] = names_.emplace(look, "");
+    if (!is_new) return at->second;
+    const std::string& copy = copies_.name(look.texture);
+    if (copy.empty()) return at->second;
+    at->second = fmt::format("texture_{}", looks_.size());
+    looks_.emplace_back(&at->first, copy);
+    return at->second;
+}
+
+void UsdMaterials::append_to(std::string& text) const {
+    if (looks_.empty()) return;
+    text += "    def Scope \"materials\"\n    {\n";
+    for (const auto& [look, copy] : looks_) {
+        const glm::vec3 colour = linear_light(look->rgb);
+        fmt::format_to(std::back_inserter(text),
+                       R"(        def Material "{0}"
+        {{
+            token outputs:surface.connect = </world/materials/{0}/surface.outputs:surface>
+            def Shader "surface"
+            {{
+                uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor.connect = </world/materials/{0}/picture.outputs:rgb>
+                float inputs:opacity.connect = </world/materials/{0}/picture.outputs:a>
+                float inputs:opacityThreshold = 0.5
+                float inputs:roughness = 0.9
+                token outputs:surface
+            }}
+            def Shader "picture"
+            {{
+                uniform token info:id = "UsdUVTexture"
+                asset inputs:file = @./{1}@
+                float4 inputs:scale = ({2}, {3}, {4}, 1)
+                float2 inputs:st.connect = </world/materials/{0}/st.outputs:result>
+                token inputs:wrapS = "repeat"
+                token inputs:wrapT = "repeat"
+                float outputs:a
+                float3 outputs:rgb
+            }}
+            def Shader "st"
+            {{
+                uniform token info:id = "UsdPrimvarReader_float2"
+                string inputs:varname = "st"
+                float2 outputs:result
+            }}
+        }}
+)",
+                       names_.at(*look), copy, colour.x, colour.y, colour.z);
+    }
+    text += "    }\n";
+}
+
+}  // namespace espalier

@@ -1,0 +1,20 @@
+#include "espalier/geometry/openvdb_grid.h"
+
+namespace espalier {
+
+void initialize_openvdb() {
+    static const bool once = [] {
+        openvdb::initialize();
+        return true;
+    }();
+    static_cast<void>(once);
+}
+
+openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dvec3& origin) {
+    openvdb::math::Transform::Ptr transform = openvdb::math::Transform::createLinearTransform(voxel);
+    const glm::dvec3 centre = origin + 0.5 * voxel;
+    transform->postTranslate(openvdb::Vec3d(centre.x, centre.y, centre.z));
+    return transform;
+}
+
+}  // namespace espalier

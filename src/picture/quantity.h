@@ -1,0 +1,36 @@
+// Quantities of statistics.csv: their titles, and what several plants' values are in one.
+#pragma once
+
+#include "espalier/picture/table_charts.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace espalier {
+
+/// With its unit.
+std::string quantity_title(const std::string& column);
+
+/// Throws UserError for a quantity that no table has, naming the nearest.
+void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity);
+
+/// Several plants' values of one step in one, as `chart_page` says.
+class Merged {
+public:
+    explicit Merged(const std::string& quantity) : way_(way_of(quantity)) {}
+
+    void add(double value);
+    double value() const;  ///< NaN of none
+
+private:
+    enum class Way { sum, mean, greatest, least };
+
+    static Way way_of(const std::string& quantity);
+
+    Way way_;
+    double value_ = 0;
+    std::size_t count_ = 0;
+};
+
+}  // namespace espalier

@@ -1,0 +1,179 @@
+// Growth in one file: glTF's animation and USD's time samples, read as their standards say.
+#include "catch.h"
+#include "formats/exporting.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace {
+
+using namespace espalier;
+using Json = nlohmann::json;
+
+std::uint32_t word(const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+/// The chunks of a .glb.
+struct GlbFile {
+    Json json;
+    std::string binary;
+
+    explicit GlbFile(const std::string& bytes) {
+        REQUIRE(bytes.size() > 20);
+        CHECK(bytes.substr(0, 4) == "glTF");
+        CHECK(word(bytes, 4) == 2);
+        CHECK(word(bytes, 8) == bytes.size());
+        const std::uint32_t length = word(bytes, 12);
+        CHECK(bytes.substr(16, 4) == "JSON");
+        CHECK(length % 4 == 0);
+        json = Json::parse(bytes.substr(20, length));
+        const std::size_t next = 20 + length;
+        CHECK(bytes.substr(next + 4, 4) == std::string("BIN\0", 4));
+        binary = bytes.substr(next + 8, word(bytes, next));
+        CHECK(json["buffers"][0]["byteLength"].get<std::size_t>() <= binary.size());
+    }
+
+    std::vector<float> numbers(std::size_t accessor) const {
+        const Json& of = json["accessors"][accessor];
+        REQUIRE(of["componentType"] == 5126);
+        const Json& view = json["bufferViews"][of["bufferView"].get<std::size_t>()];
+        const std::size_t width = of["type"] == "SCALAR" ? 1 : of["type"] == "VEC3" ? 3 : 4;
+        std::vector<float> values(of["count"].get<std::size_t>() * width);
+        REQUIRE(view["byteLength"].get<std::size_t>() == values.size() * 4);
+        std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(), values.size() * 4);
+        return values;
+    }
+
+    std::size_t node_of(const std::string& plant, const std::string& identity) const {
+        for (std::size_t i = 0; i < json["nodes"].size(); ++i) {
+            const Json& node = json["nodes"][i];
+            if (!node.contains("extras") || node["extras"]["identity"] != identity) continue;
+            if (node["name"].get<std::string>().starts_with(plant)) return i;
+        }
+        FAIL("no node of " << plant << " " << identity);
+        return 0;
+    }
+
+    /// Times and values of a channel; empty if the node has none.
+    std::pair<std::vector<float>, std::vector<float>> channel(std::size_t node, const std::string& path) const {
+        const Json& animation = json["animations"][0];
+        for (const Json& known : animation["channels"]) {
+            if (known["target"]["node"] != node || known["target"]["path"] != path) continue;
+            const Json& sampler = animation["samplers"][known["sampler"].get<std::size_t>()];
+            return {numbers(sampler["input"]), numbers(sampler["output"])};
+        }
+        return {};
+    }
+};
+
+/// What stands behind an attribute of a prim within a plant: "STEP: VALUE" by step, or under -1 if it never changes.
+std::map<int, std::string> samples(const std::string& text, const std::string& plant, const std::string& prim,
+                                   const std::string& attribute) {
+    const std::size_t begin = text.find("\"" + prim + "\"", text.find("displayName = \"" + plant + "\""));
+    REQUIRE(begin != std::string::npos);
+    const std::string body = text.substr(begin, text.find("\n        }\n", begin) - begin);
+    const std::size_t plain = body.find(attribute + " = "), timed = body.find(attribute + ".timeSamples = {\n");
+    if (timed == std::string::npos) {
+        REQUIRE(plain != std::string::npos);
+        const std::size_t value = plain + attribute.size() + 3;
+        return {{-1, body.substr(value, body.find('\n', value) - value)}};
+    }
+    std::map<int, std::string> result;
+    std::istringstream lines(body.substr(body.find('\n', timed) + 1));
+    for (std::string line; std::getline(lines, line) && line.find('}') == std::string::npos;) {
+        const std::size_t colon = line.find(':');
+        result[std::stoi(line)] = line.substr(colon + 2, line.rfind(',') - colon - 2);
+    }
+    return result;
+}
+
+std::vector<double> numbers_in(const std::string& list) {
+    std::string plain = list;
+    std::replace_if(
+        plain.begin(), plain.end(), [](char c) { return std::strchr("[](),", c) != nullptr; }, ' ');
+    std::istringstream in(plain);
+    std::vector<double> values;
+    for (double value = 0; in >> value;) values.push_back(value);
+    return values;
+}
+
+}  // namespace
+
+TEST_CASE("in a glTF's animation an internode appears at its birth", "[export]") {
+    const Exported exported("gltf", {}, {0, 4});
+    const GlbFile file(exported.text());
+    const std::size_t branch = file.node_of("left", "2");
+    const auto [times, scales] = file.channel(branch, "scale");
+    REQUIRE(times.size() == 2);
+    CHECK(times[0] == 0);
+    CHECK(times[1] == Approx(4 / 24.0));
+    CHECK(std::vector<float>(scales.begin(), scales.begin() + 3) == std::vector<float>{0, 0, 0});
+    CHECK(scales[3] == Approx(0.1));
+    CHECK(scales[4] == Approx(std::sqrt(1.25)));
+    // What was there from the beginning and did not change has no channel at all.
+    CHECK(file.channel(file.node_of("left", "1"), "scale").first.empty());
+    CHECK(file.channel(file.node_of("right", "50"), "scale").first.empty());
+    CHECK(file.json["animations"][0]["channels"].size() == 2);  // of the left plant's two new internodes
+
+    const Json& node = file.json["nodes"][branch];
+    CHECK(node["translation"] == Json({0, 1, 0}));
+    // The turn takes the internode's own y to where it points.
+    const Json& q = node["rotation"];
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    CHECK(2 * (x * y - w * z) == Approx(1 / std::sqrt(1.25)));
+    CHECK(1 - 2 * (x * x + z * z) == Approx(0.5 / std::sqrt(1.25)));
+    CHECK(2 * (y * z + w * x) == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("things that look alike share a mesh, and each plant is a node", "[export]") {
+    const Exported exported("gltf", {}, {0, 4});
+    const GlbFile file(exported.text());
+    // Frusta that taper by half, one cylinder, and a triangle.
+    CHECK(file.json["meshes"].size() == 3);
+    CHECK(file.json["nodes"].size() == 7 + 2);
+    const Json& roots = file.json["scenes"][0]["nodes"];
+    REQUIRE(roots.size() == 2);
+    CHECK(file.json["nodes"][roots[0].get<std::size_t>()]["name"] == "left");
+    CHECK(file.json["nodes"][roots[0].get<std::size_t>()]["children"].size() == 3);
+}
+
+TEST_CASE("USD's curves grow with time, and its meshes say when they are seen", "[export]") {
+    const Exported exported("usd", {}, {0, 4});
+    const std::string text = exported.text();
+    CHECK(text.starts_with("#usda 1.0\n"));
+    CHECK(text.find("upAxis = \"Y\"") != std::string::npos);
+    CHECK(text.find("endTimeCode = 4\n") != std::string::npos);
+    for (const auto& [open, close] : {std::pair{'{', '}'}, {'(', ')'}, {'[', ']'}}) {
+        CHECK(std::count(text.begin(), text.end(), open) == std::count(text.begin(), text.end(), close));
+    }
+    CHECK(std::count(text.begin(), text.end(), '"') % 2 == 0);
+
+    const auto counts = samples(text, "left", "axes", "curveVertexCounts");
+    const auto points = samples(text, "left", "axes", "points");
+    const auto widths = samples(text, "left", "axes", "widths");
+    CHECK(numbers_in(counts.at(0)) == std::vector<double>{2});
+    CHECK(numbers_in(counts.at(4)) == std::vector<double>{3, 2});
+    CHECK(numbers_in(points.at(0)).size() == 3 * 2);
+    CHECK(numbers_in(points.at(4)).size() == 3 * 5);
+    REQUIRE(numbers_in(widths.at(4)).size() == 5);
+    CHECK(numbers_in(widths.at(4))[0] == Approx(0.2));
+    CHECK(samples(text, "left", "surfaces", "visibility").at(4) == "\"invisible\"");
+    CHECK(samples(text, "right", "surfaces", "visibility").at(0) == "\"inherited\"");
+    CHECK(numbers_in(samples(text, "right", "surfaces", "faceVertexIndices").at(4)) == std::vector<double>{0, 1, 2});
+}
+
+TEST_CASE("a USD of one frame has values without times", "[export]") {
+    ExportOptions options;
+    options.up = 'z';
+    const std::string text = Exported("usd", options).text();
+    CHECK(text.find("timeSamples") == std::string::npos);
+    CHECK(text.find("upAxis = \"Z\"") != std::string::npos);
+    const auto points = numbers_in(samples(text, "left", "axes", "points").at(-1));
+    REQUIRE(points.size() == 15);
+    CHECK(points[8] == 3);  // the stem's tip, upright
+}

@@ -1,0 +1,215 @@
+// OBJ, PLY, STL and glTF as VTK's own readers find them.
+#include "espalier/base/error.h"
+
+#include "catch.h"
+#include "formats/exporting.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <vtkCell.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkFloatArray.h>
+#include <vtkGLTFReader.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+
+#include <algorithm>
+#include <set>
+
+namespace {
+
+using namespace espalier;
+
+template <class Reader>
+vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& path) {
+    vtkNew<Reader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    return vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
+}
+
+glm::dvec3 point(vtkPolyData& data, vtkIdType i) {
+    double p[3];
+    data.GetPoint(i, p);
+    return {p[0], p[1], p[2]};
+}
+
+/// By the divergence theorem.
+double volume(vtkPolyData& data) {
+    double six = 0;
+    for (vtkIdType i = 0; i < data.GetNumberOfCells(); ++i) {
+        vtkCell& cell = *data.GetCell(i);
+        six += glm::dot(point(data, cell.GetPointId(0)),
+                        glm::cross(point(data, cell.GetPointId(1)), point(data, cell.GetPointId(2))));
+    }
+    return six / 6;
+}
+
+/// How often each edge is walked in each direction.
+std::map<std::pair<vtkIdType, vtkIdType>, int> edges(vtkPolyData& data) {
+    std::map<std::pair<vtkIdType, vtkIdType>, int> count;
+    for (vtkIdType i = 0; i < data.GetNumberOfCells(); ++i) {
+        vtkCell& cell = *data.GetCell(i);
+        for (int k = 0; k < 3; ++k) ++count[{cell.GetPointId(k), cell.GetPointId((k + 1) % 3)}];
+    }
+    return count;
+}
+
+bool is_closed(vtkPolyData& data) {
+    const auto count = edges(data);
+    return std::all_of(count.begin(), count.end(), [&](const auto& edge) {
+        const auto back = count.find({edge.first.second, edge.first.first});
+        return edge.second == 1 && back != count.end() && back->second == 1;
+    });
+}
+
+ExportOptions of_plant(std::uint32_t plant, int sides = 8) {
+    ExportOptions options;
+    options.plant = plant;
+    options.sides = sides;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("tubes of an STL are closed and hold what their rings hold", "[export]") {
+    for (const int sides : {3, 8, 64}) {
+        const Exported exported("stl", of_plant(0, sides));
+        const auto data = read<vtkSTLReader>(exported.path());
+        INFO(sides);
+        CHECK(is_closed(*data));
+        CHECK(volume(*data) == Approx(branched_volume(sides)).epsilon(0.01));
+        // Two tubes of 2 and 1 pieces: two triangles a side and piece, and two caps each.
+        CHECK(data->GetNumberOfCells() == sides * (2 * 3 + 2 * 2));
+        CHECK(exported.files[0].triangles == static_cast<std::size_t>(data->GetNumberOfCells()));
+    }
+    const Exported round("stl", of_plant(0, 256));
+    CHECK(volume(*read<vtkSTLReader>(round.path())) == Approx(branched_volume(256)).epsilon(0.01));
+    CHECK(ring_area(256) == Approx(std::numbers::pi).epsilon(0.001));
+}
+
+TEST_CASE("where an axis ends and others begin, its tube goes on along the straightest of equals", "[export]") {
+    HandmadePlant fork;
+    fork.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, {0, 1, 0}, 0);
+    fork.add_internode(2, 1, 1, 1, 1, {0, 1, 0}, {-1, 1.2, 0}, 0);
+    fork.add_internode(3, 1, 1, 2, 1, {0, 1, 0}, {0.2, 2, 0}, 0);
+    const ExportedPlant exported(fork, "stl");
+    const auto data = read<vtkSTLReader>(exported.files.at(0).path);
+    CHECK(data->GetNumberOfCells() == 8 * (2 * 3 + 2 * 2));  // three pieces, two tubes
+    CHECK(is_closed(*data));
+    const std::string obj = bytes_of(ExportedPlant(fork, "obj").files.at(0).path);
+    std::size_t groups = 0;
+    for (std::size_t at = obj.find("\ng "); at != std::string::npos; at = obj.find("\ng ", at + 1)) ++groups;
+    CHECK(groups == 2);
+}
+
+TEST_CASE("a mesh stands on y, or on z if asked for", "[export]") {
+    ExportOptions options = of_plant(0);
+    double bounds[6], turned[6];
+    read<vtkSTLReader>(Exported("stl", options).path())->GetBounds(bounds);
+    CHECK(bounds[2] == Approx(0).margin(1e-6));
+    CHECK(bounds[3] == Approx(3));
+    options.up = 'z';
+    const Exported upright("stl", options);
+    const auto data = read<vtkSTLReader>(upright.path());
+    data->GetBounds(turned);
+    CHECK(turned[4] == Approx(0).margin(1e-6));
+    CHECK(turned[5] == Approx(3));
+    CHECK(turned[1] == Approx(bounds[1]));
+    CHECK(volume(*data) > 0);  // not mirrored
+}
+
+TEST_CASE("simplification leaves out nodes in line, and no others", "[export]") {
+    // branched_plant's stem narrows in its first metre only.
+    ExportOptions options = of_plant(0);
+    options.simplify = 0.001;
+    CHECK(Exported("stl", options).files[0].triangles == 8 * (2 * 3 + 2 * 2));
+    options.simplify = 0.05;
+    CHECK(Exported("stl", options).files[0].triangles == 8 * (2 * 2 + 2 * 2));
+}
+
+TEST_CASE("an OBJ has normals, texture coordinates, a group per axis and organ, and materials by colour", "[export]") {
+    const Exported exported("obj");
+    const auto data = read<vtkOBJReader>(exported.path());
+    const ExportedFile& file = exported.files[0];
+    CHECK(data->GetNumberOfPoints() == static_cast<vtkIdType>(file.vertices));
+    CHECK(data->GetNumberOfCells() == static_cast<vtkIdType>(file.triangles));
+    REQUIRE(data->GetPointData()->GetNormals());
+    REQUIRE(data->GetPointData()->GetTCoords());
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        const double* n = data->GetPointData()->GetNormals()->GetTuple3(i);
+        CHECK(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] == Approx(1));
+    }
+    const std::string text = exported.text();
+    std::set<std::string> groups, objects, used;
+    std::istringstream lines(text);
+    for (std::string key, value; lines >> key && std::getline(lines >> std::ws, value);) {
+        if (key == "g") CHECK(groups.insert(value).second);
+        if (key == "o") CHECK(objects.insert(value).second);
+        if (key == "usemtl") used.insert(value);
+        if (key == "mtllib") CHECK(std::filesystem::exists(exported.path().parent_path() / value));
+    }
+    CHECK(groups.size() == 5);  // two axes a plant and a triangle
+    CHECK(objects == std::set<std::string>{"left", "right"});
+    const std::string library = bytes_of(std::filesystem::path(exported.path()).replace_extension("mtl"));
+    for (const std::string& material : used) CHECK(library.find("newmtl " + material + "\n") != std::string::npos);
+}
+
+TEST_CASE("a PLY has normals, colours and the same triangles", "[export]") {
+    const Exported exported("ply");
+    const auto data = read<vtkPLYReader>(exported.path());
+    CHECK(data->GetNumberOfPoints() == static_cast<vtkIdType>(exported.files[0].vertices));
+    CHECK(data->GetNumberOfCells() == static_cast<vtkIdType>(exported.files[0].triangles));
+    CHECK(data->GetPointData()->GetNormals());
+    REQUIRE(data->GetPointData()->GetArray("RGB"));
+    double bounds[6];
+    data->GetBounds(bounds);
+    CHECK(bounds[1] == Approx(6).margin(0.06));
+    CHECK(bounds[3] == Approx(3));
+}
+
+TEST_CASE("a glTF of one frame reads back with its plants and bounds", "[export]") {
+    const Exported exported("gltf");
+    vtkNew<vtkGLTFReader> reader;
+    reader->SetFileName(exported.path().c_str());
+    reader->Update();
+    vtkIdType triangles = 0;
+    double lowest = 1e9, highest = -1e9;
+    const auto all = vtkSmartPointer<vtkCompositeDataIterator>::Take(reader->GetOutput()->NewIterator());
+    for (all->InitTraversal(); !all->IsDoneWithTraversal(); all->GoToNextItem()) {
+        auto* data = vtkPolyData::SafeDownCast(all->GetCurrentDataObject());
+        REQUIRE(data);
+        triangles += data->GetNumberOfPolys();
+        double bounds[6];
+        data->GetBounds(bounds);
+        lowest = std::min(lowest, bounds[2]);
+        highest = std::max(highest, bounds[3]);
+    }
+    CHECK(triangles == static_cast<vtkIdType>(exported.files[0].triangles));
+    CHECK(lowest == Approx(0).margin(1e-6));
+    CHECK(highest == Approx(3));
+}
+
+TEST_CASE("equal runs give equal bytes, and no file is left half written", "[export]") {
+    for (const auto& [format, entry] : ExporterRegistry::entries()) {
+        INFO(format);
+        const Exported one(format, {}, {0, 4}), other(format, {}, {0, 4});
+        REQUIRE(one.files.size() == other.files.size());
+        for (std::size_t i = 0; i < one.files.size(); ++i) {
+            CHECK(one.files[i].path.filename() == other.files[i].path.filename());
+            CHECK(bytes_of(one.files[i].path) == bytes_of(other.files[i].path));
+        }
+        for (const auto& file : std::filesystem::directory_iterator(one.recorded.folder.path / "export")) {
+            CHECK(file.path().filename().string().front() != '.');
+        }
+    }
+}
+
+TEST_CASE("a format that is none is refused with the nearest", "[export]") {
+    CHECK_THROWS_WITH(Exported("gtlf"), Catch::Contains("did you mean 'gltf'"));
+}

@@ -1,0 +1,158 @@
+// Pictures, films and sheets of a run as files.
+#include "espalier/picture/render.h"
+
+#include "espalier/base/error.h"
+
+#include "picture/film.h"
+#include "picture/pictures.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+using namespace espalier;
+using Catch::Matchers::Contains;
+
+namespace {
+
+struct Rendered {
+    RecordedFolder recorded;
+    RecordedRun run{recorded.folder.path};
+
+    RenderJob job() const { return {run, {&run.frames()[0], &run.frames()[1]}, {}, {}, 0, {}, false, {96, 72}, {}}; }
+    std::filesystem::path path(const std::string& name) const { return recorded.folder.path / name; }
+};
+
+bool has_ffmpeg() {
+    return std::system("ffmpeg -version >/dev/null 2>&1") == 0;
+}
+
+}  // namespace
+
+TEST_CASE("render: a picture has its size, several are numbered by their steps", "[pictures]") {
+    if (!can_draw()) return;
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    std::vector<std::size_t> told;
+    job.progress = [&](std::size_t drawn, std::size_t all) { told.insert(told.end(), {drawn, all}); };
+    const auto files = render_pictures(job, rendered.path("plant.png"));
+    REQUIRE(files.size() == 2);
+    CHECK(files[0].filename() == "plant-0000.png");
+    CHECK(files[1].filename() == "plant-0004.png");
+    CHECK(told == std::vector<std::size_t>{1, 2, 2, 2});
+    const auto image = read_png(files[1]);
+    CHECK(image->GetDimensions()[0] == 96);
+    CHECK(image->GetDimensions()[1] == 72);
+    CHECK((bytes_of(files[0]) != bytes_of(files[1])));
+
+    job.frames = {job.frames[1]};
+    CHECK(render_pictures(job, rendered.path("one.png")) == std::vector{rendered.path("one.png")});
+}
+
+TEST_CASE("render: the camera stays where it is while plants grow, and follows if it is told to", "[pictures]") {
+    if (!can_draw()) return;
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    job.style = Pictured::plain();
+    job.ground = false;
+    // The plant on the right is the same in both frames: so are its pixels.
+    const auto same_pixels = [&](const std::string& name) {
+        const auto files = render_pictures(job, rendered.path(name));
+        const auto first = read_png(files[0]), last = read_png(files[1]);
+        int different = 0, drawn = 0;
+        for (int y = 0; y < 72; ++y) {
+            for (int x = 60; x < 96; ++x) {
+                different += pixel_at(*first, x, y) != pixel_at(*last, x, y);
+                drawn += !is_white(pixel_at(*last, x, y));
+            }
+        }
+        CHECK(drawn > 5);
+        return different == 0;
+    };
+    CHECK(same_pixels("still.png"));
+    job.orbit = 40;
+    CHECK_FALSE(same_pixels("orbit.png"));
+}
+
+TEST_CASE("render: a sheet has its frames side by side, and the keys at its right", "[pictures]") {
+    if (!can_draw()) return;
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    render_sheet(job, 2, rendered.path("row.png"));
+    const auto row = read_png(rendered.path("row.png"));
+    CHECK(row->GetDimensions()[0] == 192);
+    CHECK(row->GetDimensions()[1] == 72);
+    job.frames.push_back(job.frames[0]);
+    render_sheet(job, 2, rendered.path("two-rows.png"));
+    CHECK(read_png(rendered.path("two-rows.png"))->GetDimensions()[1] == 144);
+    job.style.colour_by = "birth";
+    render_sheet(job, 2, rendered.path("keys.png"));
+    CHECK(read_png(rendered.path("keys.png"))->GetDimensions()[0] > 220);
+}
+
+TEST_CASE("render: a film is written without ffmpeg", "[pictures]") {
+    if (!can_draw()) return;
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    job.frames = evenly(job.frames, 5);
+    render_film(job, 10, rendered.path("growth.ogv"));
+    const std::string bytes = bytes_of(rendered.path("growth.ogv"));
+    CHECK(bytes.starts_with("OggS"));
+    CHECK(bytes.find("theora") != std::string::npos);
+    CHECK_THROWS_AS(render_film(job, 10, rendered.path("no/growth.ogv")), RunError);
+}
+
+TEST_CASE("render: ffmpeg writes the other films, odd sizes too", "[pictures]") {
+    if (!can_draw()) return;
+    if (!has_ffmpeg()) {
+        WARN("skipped: no ffmpeg here");
+        return;
+    }
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    job.size = {95, 71};
+    render_film(job, 10, rendered.path("growth.GIF"));
+    CHECK(bytes_of(rendered.path("growth.GIF")).starts_with("GIF89a"));
+    CHECK_THROWS_AS(render_film(job, 10, rendered.path("no/growth.gif")), RunError);
+}
+
+TEST_CASE("render: where ffmpeg is missing or fails, that is said and no file is left", "[pictures]") {
+    if (!can_draw()) return;
+    const Rendered rendered;
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", "/nowhere", 1);
+    CHECK_THROWS_WITH(render_film(rendered.job(), 10, rendered.path("growth.mp4")), Contains("apt-get install ffmpeg"));
+    setenv("PATH", path.c_str(), 1);
+    CHECK_FALSE(std::filesystem::exists(rendered.path("growth.mp4")));
+    // Something called ffmpeg that reads nothing and says why.
+    const std::filesystem::path folder = rendered.path("bin");
+    std::filesystem::create_directory(folder);
+    std::ofstream(folder / "ffmpeg") << "#!/bin/sh\necho no such encoder >&2\nexit 1\n";
+    std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms::owner_all);
+    setenv("PATH", (folder.string() + ":" + path).c_str(), 1);
+    CHECK_THROWS_WITH(render_film(rendered.job(), 10, rendered.path("growth.mp4")), Contains("no such encoder"));
+    setenv("PATH", path.c_str(), 1);
+    CHECK_FALSE(std::filesystem::exists(rendered.path("growth.mp4")));
+}
+
+TEST_CASE("render: other kinds and absurd sizes are refused", "[pictures]") {
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    CHECK_THROWS_WITH(render_pictures(job, rendered.path("plant.jpg")), Contains(".png"));
+    CHECK_THROWS_AS(render_film(job, 10, rendered.path("plant.avi")), UserError);
+    CHECK(is_film("a.GIF"));
+    CHECK_FALSE(is_film("a.png"));
+    job.size = {0, 10};
+    CHECK_THROWS_AS(render_pictures(job, rendered.path("plant.png")), UserError);
+    job.size = {100000, 10};
+    CHECK_THROWS_AS(render_pictures(job, rendered.path("plant.png")), UserError);
+}
+
+TEST_CASE("render: frames are chosen evenly, first and last among them", "[pictures]") {
+    const std::vector<RecordedFrame> frames(10);
+    std::vector<const RecordedFrame*> all;
+    for (const RecordedFrame& frame : frames) all.push_back(&frame);
+    CHECK(evenly(all, 4) == std::vector{all[0], all[3], all[6], all[9]});
+    CHECK(evenly(all, 1) == std::vector{all[9]});
+    CHECK(evenly({all[2]}, 3) == std::vector{all[2], all[2], all[2]});
+    CHECK(evenly({}, 3).empty());
+}
