@@ -6,6 +6,7 @@
 #include "espalier/turtle/symbol.h"
 
 #include "command.h"
+#include "looking_half.h"
 #include "model_library.h"
 
 #include <fmt/format.h>
@@ -66,7 +67,11 @@ const std::vector<Kind>& kinds() {
          parts_of<ProcessRegistry>},
         {"symbols", "what the turtle does with a module", symbol_parts},
         {"recorders", "what a run writes: [timeline]", parts_of<RecorderRegistry>},
-        {"exporters", "formats of `espalier export`", parts_of<ExporterRegistry>},
+        {"exporters", "formats of `espalier export`",
+         [] {
+             open_looking_half();
+             return parts_of<ExporterRegistry>();
+         }},
         {"models", "the library of models, folder by folder", nullptr},
         {"scenes", "scenes below ./environments", scene_parts},
         {"scene", "what a scene file may say",

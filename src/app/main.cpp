@@ -3,6 +3,7 @@
 #include "espalier/base/text.h"
 
 #include "command.h"
+#include "looking_half.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,8 @@
 #include <string_view>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace espalier {
 namespace {
@@ -77,24 +80,54 @@ int fail(const std::string& message, int code, bool json) {
     return code;
 }
 
-int parse_and_run(int argc, char** argv) {
-    CLI::App program("Espalier grows plants from L-systems in environments they shape, and records their growth.",
-                     "espalier");
-    program.set_version_flag("--version", ESPALIER_VERSION);
-    program.require_subcommand(1);
-    program.footer("`espalier COMMAND --help` explains a command, with examples.");
+/// The program's options and the commands that have registered themselves by now.
+struct CommandLine {
+    CLI::App program{"Espalier grows plants from L-systems in environments they shape, and records their growth.",
+                     "espalier"};
     std::vector<std::unique_ptr<Command>> commands;
-    for (const auto& [place, make] : command_makers()) commands.push_back(make(program));
+
+    CommandLine() {
+        program.set_version_flag("--version", ESPALIER_VERSION);
+        program.require_subcommand(1);
+        program.footer("`espalier COMMAND --help` explains a command, with examples.");
+        for (const auto& [place, make] : command_makers()) commands.push_back(make(program));
+    }
+};
+
+bool grows(const CommandLine& line, std::string_view word) {
+    const std::vector<const CLI::App*> commands = std::as_const(line.program).get_subcommands({});
+    return word == "--version" || std::any_of(commands.begin(), commands.end(),
+                                              [&](const auto* command) { return command->get_name() == word; });
+}
+
+/// With the commands of the looking half unless the first word needs none of them.
+std::unique_ptr<CommandLine> command_line(int argc, char** argv) {
+    auto line = std::make_unique<CommandLine>();
+    if (argc > 1 && grows(*line, argv[1])) return line;
+    if (open_looking_half()) return std::make_unique<CommandLine>();
+    line->program.footer("Commands that look at runs, such as render and export, are not installed here.");
+    return line;
+}
+
+int parse_and_run(int argc, char** argv) {
+    const bool json_wanted = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+    std::unique_ptr<CommandLine> line;
+    try {
+        line = command_line(argc, argv);
+    } catch (const RunError& error) {
+        return fail(error.what(), exit_code::run_failed, json_wanted);
+    }
+    CLI::App& program = line->program;
     if (argc == 1) return fail(program.help(), exit_code::user_error, false);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
-        const bool json_wanted = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
         return fail(explain(program, error), exit_code::user_error, json_wanted);
     }
-    Command& command = **std::find_if(commands.begin(), commands.end(), [](const auto& c) { return c->asked_for(); });
+    Command& command = **std::find_if(line->commands.begin(), line->commands.end(),
+                                      [](const auto& known) { return known->asked_for(); });
     const bool json = command.wants_json();
     try {
         return run_whole(command);

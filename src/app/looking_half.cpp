@@ -1,0 +1,38 @@
+#include "looking_half.h"
+
+#include "espalier/base/error.h"
+
+#include <fmt/format.h>
+
+#include <dlfcn.h>
+#include <filesystem>
+
+namespace espalier {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beside the program in a build folder, in the folder of libraries once installed; empty if it is in neither.
+fs::path module_file() {
+    std::error_code ignored;
+    const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    for (const fs::path& place : {folder, folder / ESPALIER_MODULES}) {
+        const fs::path file = place / "libespalier_look_commands.so";
+        if (fs::exists(file, ignored)) return file;
+    }
+    return {};
+}
+
+}  // namespace
+
+bool open_looking_half() {
+    static const bool opened = [] {
+        const fs::path file = module_file();
+        if (file.empty()) return false;
+        if (!dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL)) throw RunError(fmt::format("cannot open {}", dlerror()));
+        return true;
+    }();
+    return opened;
+}
+
+}  // namespace espalier
