@@ -3,7 +3,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "archive/vtk_xml.h"
-#include "timeline/field_file.h"
+#include "geometry/grid_file.h"
 
 #include <openvdb/io/File.h>
 #include <openvdb/tools/Dense.h>
@@ -44,7 +44,7 @@ RecordedField read_vti(const std::filesystem::path& path, const std::string& nam
         const auto k = static_cast<std::size_t>(axis);
         const double size = extent[2 * k + 1] - extent[2 * k] + 1;
         voxels *= size;
-        if (size < 1 || spacing[k] <= 0 || voxels > double(most_vti_voxels)) file.fail("its extent cannot be right");
+        if (size < 1 || spacing[k] <= 0 || voxels > double(most_dense_voxels)) file.fail("its extent cannot be right");
         field.size[axis] = static_cast<int>(size);
         field.voxel[axis] = spacing[k];
         field.origin[axis] = origin[k] + extent[2 * k] * spacing[k];
@@ -81,7 +81,7 @@ RecordedField read_vdb(const std::filesystem::path& path, const std::string& nam
     openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
     if (box.empty()) box = {openvdb::Coord(0), openvdb::Coord(0)};
     const openvdb::Coord size = box.dim();
-    if (double(size.x()) * size.y() * size.z() > double(most_vti_voxels)) {
+    if (double(size.x()) * size.y() * size.z() > double(most_dense_voxels)) {
         throw UserError(fmt::format("the active voxels of {} span {} x {} x {}, too many to be read at once",
                                     path.string(), size.x(), size.y(), size.z()));
     }

@@ -72,7 +72,7 @@ std::optional<std::size_t> Glb::texture(const std::string& file) {
     return at->second = textures_.size() - 1;
 }
 
-std::size_t Glb::material(const ExportMaterial& look) {
+std::size_t Glb::material(const MeshMaterial& look) {
     const auto known = material_number_.find(look);
     if (known != material_number_.end()) return known->second;
     const glm::vec3 colour = linear_light(look.rgb);
@@ -90,7 +90,7 @@ std::size_t Glb::material(const ExportMaterial& look) {
 
 std::size_t Glb::add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
                           const std::vector<glm::vec2>& uvs, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                          const std::vector<std::uint32_t>& material_of, const std::vector<ExportMaterial>& materials) {
+                          const std::vector<std::uint32_t>& material_of, const std::vector<MeshMaterial>& materials) {
     const Json none = Json::object();
     std::vector<glm::vec2> places;  // in glTF v runs down
     for (const glm::vec2& uv : uvs) places.emplace_back(uv.x, 1 - uv.y);

@@ -25,7 +25,7 @@ public:
     /// Vertices and triangles of one mesh; returns the mesh's number. `material_of` counts in `materials`.
     std::size_t add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
                          const std::vector<glm::vec2>& uvs, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                         const std::vector<std::uint32_t>& material_of, const std::vector<ExportMaterial>& materials);
+                         const std::vector<std::uint32_t>& material_of, const std::vector<MeshMaterial>& materials);
     /// Returns the node's number.
     std::size_t add_node(Json node);
     /// Samples of `path` ("translation", "rotation", "scale") of a node, linear between `times` in seconds.
@@ -41,7 +41,7 @@ private:
     std::size_t add_accessor(const T* values, std::size_t count, int component_type, const char* type, int target,
                              Json bounds);
     std::size_t add_view(const void* bytes, std::size_t size, int target);
-    std::size_t material(const ExportMaterial& look);
+    std::size_t material(const MeshMaterial& look);
     /// Embedded as PNG; nothing if it is no picture.
     std::optional<std::size_t> texture(const std::string& file);
     std::size_t times_accessor(const std::vector<float>& times);
@@ -50,7 +50,7 @@ private:
          nodes_ = Json::array(), samplers_ = Json::array(), channels_ = Json::array();
     Json images_ = Json::array(), textures_ = Json::array();
     std::filesystem::path run_;
-    std::map<ExportMaterial, std::size_t> material_number_;
+    std::map<MeshMaterial, std::size_t> material_number_;
     std::map<std::string, std::optional<std::size_t>> texture_number_;
     std::set<std::size_t> cut_out_;  ///< textures whose pictures are partly transparent
     std::map<std::vector<float>, std::size_t> times_;

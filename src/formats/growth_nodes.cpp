@@ -122,7 +122,7 @@ void GrowthNodes::add_internode(const RecordedGeometry& geometry, const Recorded
            {internode.base, turn_from_y((internode.tip - internode.base) / length), {base, length, base}});
 }
 
-void GrowthNodes::add_organ(const ExportMesh& mesh, const ExportPart& part) {
+void GrowthNodes::add_organ(const FrameMesh& mesh, const MeshPart& part) {
     const std::span points(mesh.points.data() + part.first_vertex, part.vertices);
     if (points.empty()) return;
     GrowthNode& here = node(part.plant, part.kind, part.identity);
@@ -141,7 +141,7 @@ void GrowthNodes::add_organ(const ExportMesh& mesh, const ExportPart& part) {
     for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
         const auto [a, b, c] = mesh.triangles[i];
         here.organ.triangles.push_back({a - first, b - first, c - first});
-        const ExportMaterial& look = mesh.materials[mesh.material_of[i]];
+        const MeshMaterial& look = mesh.materials[mesh.material_of[i]];
         here.organ.rgb.push_back(look.rgb);
         here.organ.texture = look.texture;
     }
@@ -154,8 +154,8 @@ void GrowthNodes::add(const RecordedGeometry& geometry) {
     for (const RecordedInternode& internode : internodes_of(geometry)) {
         if (!options_.plant || internode.plant == *options_.plant) add_internode(geometry, internode, thinnest);
     }
-    const ExportMesh surfaces = surfaces_of(geometry, options_);
-    for (const ExportPart& part : surfaces.parts) add_organ(surfaces, part);
+    const FrameMesh surfaces = surfaces_of(geometry, options_);
+    for (const MeshPart& part : surfaces.parts) add_organ(surfaces, part);
     ++frame_;
 }
 

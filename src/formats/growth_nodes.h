@@ -37,7 +37,7 @@ private:
 
 /// An internode or an organ: shown from its first to its last pose.
 struct GrowthNode {
-    ExportPart part;
+    MeshPart part;
     NodeShape organ;                                      ///< as last seen; an internode's is made by shape_of
     float taper = 1;                                      ///< of an internode: tip radius by base radius
     Rgb rgb{};                                            ///< of an internode
@@ -51,7 +51,7 @@ NodeShape shape_of(const GrowthNode& node, int sides);
 /// Frames come in their order.
 class GrowthNodes {
 public:
-    explicit GrowthNodes(const ExportOptions& options) : options_(options) {}
+    explicit GrowthNodes(const MeshOptions& options) : options_(options) {}
 
     void add(const RecordedGeometry& geometry);
     /// In the order in which they appeared.
@@ -63,9 +63,9 @@ private:
 
     GrowthNode& node(std::uint32_t plant, Kind kind, std::uint64_t identity);
     void add_internode(const RecordedGeometry& geometry, const RecordedInternode& internode, float thinnest);
-    void add_organ(const ExportMesh& mesh, const ExportPart& part);
+    void add_organ(const FrameMesh& mesh, const MeshPart& part);
 
-    ExportOptions options_;
+    MeshOptions options_;
     std::vector<GrowthNode> nodes_;
     std::map<Key, std::size_t> number_;
     std::map<Key, std::uint32_t> seen_;  ///< how many of a module's in this frame; the last of the key is 0

@@ -8,7 +8,7 @@
 
 namespace espalier {
 
-const std::string& UsdMaterials::name(const ExportMaterial& look) {
+const std::string& UsdMaterials::name(const MeshMaterial& look) {
     const auto [at, is_new] = names_.emplace(look, "");
     if (!is_new) return at->second;
     const std::string& copy = copies_.name(look.texture);

@@ -1,6 +1,8 @@
 // Materials of a USD file for what wears a texture; all else has its displayColor.
 #pragma once
 
+#include "espalier/formats/exporter.h"
+
 #include "archive/meshes/surface_mesh.h"
 #include "formats/textures.h"
 
@@ -16,15 +18,15 @@ public:
     explicit UsdMaterials(const ExportJob& job) : copies_(job) {}
 
     /// The name of its prim below /world/materials; "" for what has no texture, or one that is no picture.
-    const std::string& name(const ExportMaterial& look);
+    const std::string& name(const MeshMaterial& look);
     /// The scope of all that were asked for: a UsdPreviewSurface each, whose picture is read by `st` and times the
     /// colour.
     void append_to(std::string& text) const;
 
 private:
     TextureCopies copies_;
-    std::map<ExportMaterial, std::string> names_;
-    std::vector<std::pair<const ExportMaterial*, std::string>> looks_;  ///< by number, with the copied picture
+    std::map<MeshMaterial, std::string> names_;
+    std::vector<std::pair<const MeshMaterial*, std::string>> looks_;  ///< by number, with the copied picture
 };
 
 }  // namespace espalier

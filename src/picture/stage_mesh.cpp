@@ -107,7 +107,7 @@ double wanted_sides(const TubeLine& line, double size) {
 }
 
 std::vector<PlacedTube> placed_tubes(const RecordedGeometry& geometry, const StageMeshOptions& options) {
-    ExportOptions wanted;
+    MeshOptions wanted;
     wanted.plant = options.plant;
     std::vector<AxisPath> paths = axis_paths(geometry, wanted);
     add_outlines(geometry, options.plant, paths);

@@ -19,7 +19,7 @@ struct Exported {
     std::vector<ExportedFile> files;
 
     /// `steps` of {0, 4}; the last by default.
-    explicit Exported(const std::string& format, ExportOptions options = {}, const std::vector<int>& steps = {4},
+    explicit Exported(const std::string& format, MeshOptions options = {}, const std::vector<int>& steps = {4},
                       const std::string& settings = "")
         : recorded(settings) {
         std::vector<const RecordedFrame*> frames;

@@ -168,7 +168,7 @@ TEST_CASE("USD's curves grow with time, and its meshes say when they are seen", 
 }
 
 TEST_CASE("a USD of one frame has values without times", "[export]") {
-    ExportOptions options;
+    MeshOptions options;
     options.up = 'z';
     const std::string text = Exported("usd", options).text();
     CHECK(text.find("timeSamples") == std::string::npos);

@@ -1,5 +1,6 @@
 // OBJ, PLY, STL and glTF as VTK's own readers find them.
 #include "espalier/base/error.h"
+#include "espalier/formats/exporter.h"
 
 #include "catch.h"
 #include "formats/exporting.h"
@@ -68,8 +69,8 @@ bool is_closed(vtkPolyData& data) {
     });
 }
 
-ExportOptions of_plant(std::uint32_t plant, int sides = 8) {
-    ExportOptions options;
+MeshOptions of_plant(std::uint32_t plant, int sides = 8) {
+    MeshOptions options;
     options.plant = plant;
     options.sides = sides;
     return options;
@@ -109,7 +110,7 @@ TEST_CASE("where an axis ends and others begin, its tube goes on along the strai
 }
 
 TEST_CASE("a mesh stands on y, or on z if asked for", "[export]") {
-    ExportOptions options = of_plant(0);
+    MeshOptions options = of_plant(0);
     double bounds[6], turned[6];
     read<vtkSTLReader>(Exported("stl", options).path())->GetBounds(bounds);
     CHECK(bounds[2] == Approx(0).margin(1e-6));
@@ -126,7 +127,7 @@ TEST_CASE("a mesh stands on y, or on z if asked for", "[export]") {
 
 TEST_CASE("simplification leaves out nodes in line, and no others", "[export]") {
     // branched_plant's stem narrows in its first metre only.
-    ExportOptions options = of_plant(0);
+    MeshOptions options = of_plant(0);
     options.simplify = 0.001;
     CHECK(Exported("stl", options).files[0].triangles == 8 * (2 * 3 + 2 * 2));
     options.simplify = 0.05;

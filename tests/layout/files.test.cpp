@@ -46,7 +46,7 @@ TEST_CASE("the command line parser stays with the commands", "[layout]") {
         for (const std::string& include : includes_of(file)) {
             if (!include.starts_with("CLI/")) continue;
             INFO(file);
-            CHECK(file.parent_path() == fs::path("src/app"));
+            CHECK(file.string().starts_with("src/app/"));
             ++files;
         }
     }

@@ -2,9 +2,10 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
+#include "geometry/grid_file.h"
 #include "timeline/collections.h"
-#include "timeline/field_file.h"
 #include "timeline/frames.h"
+#include "timeline/vti_file.h"
 
 #include <openvdb/io/File.h>
 #include <vtkFieldData.h>

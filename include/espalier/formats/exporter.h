@@ -2,6 +2,7 @@
 // format.
 #pragma once
 
+#include "espalier/archive/mesh_options.h"
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/registry.h"
 
@@ -12,13 +13,6 @@
 #include <string>
 
 namespace espalier {
-
-struct ExportOptions {
-    int sides = 8;                       ///< of tubes; 3 at least
-    double simplify = 0;                 ///< metres that a tube's middle line and radius may stray; 0: every node stays
-    char up = 'y';                       ///< or 'z'
-    std::optional<std::uint32_t> plant;  ///< its number; none: all plants
-};
 
 /// A file that was written. Counts are 0 where a format has no such thing.
 struct ExportedFile {
@@ -31,7 +25,7 @@ struct ExportedFile {
 struct ExportJob {
     const RecordedRun& run;
     std::span<const RecordedFrame* const> frames;  ///< at least one
-    ExportOptions options;
+    MeshOptions options;
     std::filesystem::path folder;  ///< is made if need be
     std::function<void(const ExportedFile&)> report;
     std::string name{};  ///< of the files; empty: the scene's, and the step of a frame that has a file of its own

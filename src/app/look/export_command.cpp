@@ -119,7 +119,7 @@ private:
     std::vector<std::string> formats_;
     std::string step_ = "last", plant_, up_ = "y";
     bool quiet_ = false;
-    ExportOptions options_;
+    MeshOptions options_;
 };
 
 const RegisteredCommand<ExportCommand> entry{42};

@@ -40,7 +40,7 @@ std::vector<std::uint32_t> AxisTree::trunks() const {
     return result;
 }
 
-AxisTree axis_tree(const RecordedGeometry& geometry, const ExportOptions& options) {
+AxisTree axis_tree(const RecordedGeometry& geometry, const MeshOptions& options) {
     AxisTree tree;
     std::vector<std::int32_t> number(geometry.lines.connectivity.size(), RecordedInternode::none);
     const std::vector<RecordedInternode> all = internodes_of(geometry);
@@ -65,7 +65,7 @@ AxisTree axis_tree(const RecordedGeometry& geometry, const ExportOptions& option
     return tree;
 }
 
-std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const ExportOptions& options) {
+std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOptions& options) {
     const AxisTree tree = axis_tree(geometry, options);
     std::vector<std::int32_t> next;
     std::vector<bool> continues(tree.axes.size(), false);

@@ -1,7 +1,8 @@
 // A frame's axes as trees: which internodes an axis consists of, and which axes stand on which internode.
 #pragma once
 
-#include "espalier/formats/exporter.h"
+#include "espalier/archive/mesh_options.h"
+#include "espalier/archive/recorded_run.h"
 
 #include <vector>
 
@@ -30,9 +31,9 @@ struct AxisPath {
 };
 
 /// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
-std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const ExportOptions& options);
+std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOptions& options);
 
 /// Of the plants asked for.
-AxisTree axis_tree(const RecordedGeometry& geometry, const ExportOptions& options);
+AxisTree axis_tree(const RecordedGeometry& geometry, const MeshOptions& options);
 
 }  // namespace espalier

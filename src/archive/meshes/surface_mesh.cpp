@@ -21,7 +21,7 @@ constexpr std::size_t most_vertices = std::size_t{1} << 31;
 
 class MeshBuilder {
 public:
-    MeshBuilder(const RecordedGeometry& geometry, const ExportOptions& options)
+    MeshBuilder(const RecordedGeometry& geometry, const MeshOptions& options)
         : geometry_(geometry),
           options_(options),
           thinnest_(thinnest_radius(geometry)),
@@ -53,8 +53,8 @@ public:
         end_part();
     }
 
-    ExportMesh take() {
-        const auto by_plant = [](const ExportPart& a, const ExportPart& b) { return a.plant < b.plant; };
+    FrameMesh take() {
+        const auto by_plant = [](const MeshPart& a, const MeshPart& b) { return a.plant < b.plant; };
         std::stable_sort(mesh_.parts.begin(), mesh_.parts.end(), by_plant);
         return std::move(mesh_);
     }
@@ -76,7 +76,7 @@ private:
 
     void begin_part(std::size_t row) {
         const RecordedAttributes& of = geometry_.of_cells;
-        ExportPart& part = mesh_.parts.emplace_back();
+        MeshPart& part = mesh_.parts.emplace_back();
         part.kind = of.kinds[row];
         part.plant = of.plants[row];
         part.identity = of.identities[row];
@@ -88,12 +88,12 @@ private:
 
     void end_part() {
         if (!std::exchange(open_, false)) return;
-        ExportPart& part = mesh_.parts.back();
+        MeshPart& part = mesh_.parts.back();
         part.vertices = mesh_.points.size() - part.first_vertex;
         part.triangles = mesh_.triangles.size() - part.first_triangle;
     }
 
-    std::uint32_t material(const ExportMaterial& wanted_material) {
+    std::uint32_t material(const MeshMaterial& wanted_material) {
         const auto [at, is_new] =
             material_number_.emplace(wanted_material, static_cast<std::uint32_t>(mesh_.materials.size()));
         if (is_new) mesh_.materials.push_back(wanted_material);
@@ -127,7 +127,7 @@ private:
         if (corners.size() < 3) return;
         require_room(corners.size());
         const std::uint16_t texture = geometry_.textures[row];
-        ExportMaterial worn{colour_of(geometry_.of_cells, row), ""};
+        MeshMaterial worn{colour_of(geometry_.of_cells, row), ""};
         if (texture != 0) worn.texture = geometry_.texture_files[texture];
         // Where nobody gave a colour the picture has it.
         if (texture != 0 && geometry_.of_cells.rgb.empty()) worn.rgb = {255, 255, 255};
@@ -155,10 +155,10 @@ private:
     }
 
     const RecordedGeometry& geometry_;
-    const ExportOptions& options_;
+    const MeshOptions& options_;
     float thinnest_;
-    ExportMesh mesh_;
-    std::map<ExportMaterial, std::uint32_t> material_number_;
+    FrameMesh mesh_;
+    std::map<MeshMaterial, std::uint32_t> material_number_;
     std::vector<std::uint32_t> vertex_of_;  ///< of a point, within the part that `part_of_` counts (from 1)
     std::vector<std::uint32_t> part_of_;
     bool open_ = false;
@@ -198,29 +198,29 @@ float thinnest_radius(const RecordedGeometry& geometry) {
     return diagonal > 0 ? diagonal / 1000 : 0.001f;
 }
 
-ExportMesh mesh_of(const RecordedGeometry& geometry, const ExportOptions& options) {
+FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
     builder.add_tubes();
     builder.add_surfaces();
     return builder.take();
 }
 
-ExportMesh surfaces_of(const RecordedGeometry& geometry, const ExportOptions& options) {
+FrameMesh surfaces_of(const RecordedGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
     builder.add_surfaces();
     return builder.take();
 }
 
-std::map<std::uint32_t, ExportMesh> by_plant(const ExportMesh& mesh) {
-    std::map<std::uint32_t, ExportMesh> plants;
+std::map<std::uint32_t, FrameMesh> by_plant(const FrameMesh& mesh) {
+    std::map<std::uint32_t, FrameMesh> plants;
     const auto append = [](auto& to, const auto& from, std::size_t first, std::size_t count) {
         const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
         to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
     };
-    for (const ExportPart& part : mesh.parts) {
-        ExportMesh& own = plants[part.plant];
+    for (const MeshPart& part : mesh.parts) {
+        FrameMesh& own = plants[part.plant];
         if (own.parts.empty()) own.materials = mesh.materials;
-        ExportPart& moved = own.parts.emplace_back(part);
+        MeshPart& moved = own.parts.emplace_back(part);
         moved.first_vertex = own.points.size();
         moved.first_triangle = own.triangles.size();
         append(own.points, mesh.points, part.first_vertex, part.vertices);
@@ -237,7 +237,7 @@ std::map<std::uint32_t, ExportMesh> by_plant(const ExportMesh& mesh) {
     return plants;
 }
 
-std::string part_name(const RecordedRun& run, const ExportPart& part, std::size_t number) {
+std::string part_name(const RecordedRun& run, const MeshPart& part, std::size_t number) {
     std::string name =
         fmt::format("{}_{}_{}_{}", run.plants()[part.plant].name, name_of(part.kind), part.symbol, number);
     for (char& c : name) {

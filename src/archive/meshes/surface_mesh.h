@@ -1,7 +1,8 @@
 // A frame as triangles: axes swept into closed tubes, and the surfaces as they were recorded.
 #pragma once
 
-#include "espalier/formats/exporter.h"
+#include "espalier/archive/mesh_options.h"
+#include "espalier/archive/recorded_run.h"
 
 #include <array>
 #include <cstdint>
@@ -13,15 +14,15 @@ namespace espalier {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-struct ExportMaterial {
+struct MeshMaterial {
     Rgb rgb{255, 255, 255};
     std::string texture;  ///< a file, or ""
 
-    auto operator<=>(const ExportMaterial&) const = default;
+    auto operator<=>(const MeshMaterial&) const = default;
 };
 
 /// An axis or an organ: triangles that follow each other, with vertices of their own.
-struct ExportPart {
+struct MeshPart {
     Kind kind;
     std::uint32_t plant;
     std::uint64_t identity;
@@ -30,14 +31,14 @@ struct ExportPart {
     std::size_t first_triangle = 0, triangles = 0;
 };
 
-struct ExportMesh {
+struct FrameMesh {
     std::vector<glm::vec3> points, normals;
     std::vector<glm::vec2> uvs;
     std::vector<Rgb> rgb;  ///< of vertices
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint32_t> material_of;  ///< of triangles
-    std::vector<ExportMaterial> materials;
-    std::vector<ExportPart> parts;  ///< plant after plant
+    std::vector<MeshMaterial> materials;
+    std::vector<MeshPart> parts;  ///< plant after plant
 };
 
 /// A vector of the timeline, whose vertical is y, in the axes that were asked for.
@@ -49,17 +50,17 @@ inline glm::vec3 upright(const glm::vec3& v, char up) {
 Rgb colour_of(const RecordedAttributes& attributes, std::size_t row);
 
 /// Tubes and surfaces of the plants asked for. Throws RunError beyond 2^31 vertices.
-ExportMesh mesh_of(const RecordedGeometry& geometry, const ExportOptions& options);
+FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options);
 /// The surfaces alone.
-ExportMesh surfaces_of(const RecordedGeometry& geometry, const ExportOptions& options);
+FrameMesh surfaces_of(const RecordedGeometry& geometry, const MeshOptions& options);
 
 /// Each plant's parts with vertices of their own; materials keep their numbers.
-std::map<std::uint32_t, ExportMesh> by_plant(const ExportMesh& mesh);
+std::map<std::uint32_t, FrameMesh> by_plant(const FrameMesh& mesh);
 
 /// The radius given to lines that have none: a thousandth of the diagonal of the frame.
 float thinnest_radius(const RecordedGeometry& geometry);
 
 /// "left_axis_12": the plant's name, what it is and a number; letters that formats take for something else become '_'.
-std::string part_name(const RecordedRun& run, const ExportPart& part, std::size_t number);
+std::string part_name(const RecordedRun& run, const MeshPart& part, std::size_t number);
 
 }  // namespace espalier

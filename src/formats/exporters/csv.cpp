@@ -2,6 +2,7 @@
 #include "espalier/base/csv_file.h"
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
+#include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
 

@@ -1,5 +1,6 @@
 // glTF 2.0 (.glb): one frame as smooth tubes and surfaces, or several as growth, each internode and organ moving.
 #include "espalier/base/file.h"
+#include "espalier/formats/exporter.h"
 
 #include "formats/glb.h"
 #include "formats/growth_nodes.h"
@@ -13,14 +14,14 @@ namespace {
 constexpr float steps_per_second = 24;
 
 // glTF's vertical is y.
-ExportOptions standing(ExportOptions options) {
+MeshOptions standing(MeshOptions options) {
     options.up = 'y';
     return options;
 }
 
 /// Every plant a node with a mesh.
 ExportedFile write_frame(const ExportJob& job, const RecordedFrame& frame) {
-    const ExportMesh mesh = mesh_of(job.run.geometry(frame), standing(job.options));
+    const FrameMesh mesh = mesh_of(job.run.geometry(frame), standing(job.options));
     Glb glb(job.run.folder());
     std::vector<std::size_t> roots;
     for (const auto& [plant, own] : by_plant(mesh)) {
@@ -97,10 +98,10 @@ private:
         rounded.round();
         const auto known = shapes_.find(rounded);
         if (known != shapes_.end()) return known->second;
-        std::vector<ExportMaterial> materials;
+        std::vector<MeshMaterial> materials;
         std::vector<std::uint32_t> material_of;
         for (const Rgb& rgb : shape.rgb) {
-            const ExportMaterial look{rgb, shape.texture};
+            const MeshMaterial look{rgb, shape.texture};
             const auto at = std::find(materials.begin(), materials.end(), look);
             material_of.push_back(static_cast<std::uint32_t>(at - materials.begin()));
             if (at == materials.end()) materials.push_back(look);

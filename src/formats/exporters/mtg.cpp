@@ -1,6 +1,7 @@
 // Multiscale tree graphs (Godin and Caraglio 1998) as OpenAlea reads them: plants P, axes A, internodes I.
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
+#include "espalier/formats/exporter.h"
 
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"

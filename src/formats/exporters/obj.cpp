@@ -1,5 +1,6 @@
 // Wavefront OBJ with its MTL: an object per plant, a group per axis and organ, materials by colour and texture.
 #include "espalier/base/file.h"
+#include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
 #include "formats/textures.h"
@@ -12,16 +13,16 @@ namespace espalier {
 namespace {
 
 // Many groups share a material; its name says what it looks like.
-std::string material_name(const ExportMaterial& material, std::size_t number) {
+std::string material_name(const MeshMaterial& material, std::size_t number) {
     const auto [red, green, blue] = material.rgb;
     const std::string colour = fmt::format("rgb_{:02x}{:02x}{:02x}", red, green, blue);
     return material.texture.empty() ? colour : fmt::format("{}_texture_{}", colour, number);
 }
 
-std::string mtl(const ExportMesh& mesh, TextureCopies& textures) {
+std::string mtl(const FrameMesh& mesh, TextureCopies& textures) {
     std::string text = "# made by espalier\n";
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-        const ExportMaterial& material = mesh.materials[i];
+        const MeshMaterial& material = mesh.materials[i];
         const auto [red, green, blue] = material.rgb;
         fmt::format_to(std::back_inserter(text),
                        "newmtl {}\nKa 0 0 0\nKd {:.6f} {:.6f} {:.6f}\nKs 0 0 0\nd 1\nillum 1\n",
@@ -34,7 +35,7 @@ std::string mtl(const ExportMesh& mesh, TextureCopies& textures) {
 
 class ObjText {
 public:
-    ObjText(const RecordedRun& run, const ExportMesh& mesh) : run_(run), mesh_(mesh) {}
+    ObjText(const RecordedRun& run, const FrameMesh& mesh) : run_(run), mesh_(mesh) {}
 
     std::string text(const std::string& library) {
         text_ = fmt::format("# made by espalier; metres\nmtllib {}\n", library);
@@ -52,7 +53,7 @@ private:
     }
 
     void add_part(std::size_t number) {
-        const ExportPart& part = mesh_.parts[number];
+        const MeshPart& part = mesh_.parts[number];
         if (number == 0 || part.plant != mesh_.parts[number - 1].plant) {
             add("o {}\n", run_.plants()[part.plant].name);
         }
@@ -70,7 +71,7 @@ private:
     }
 
     const RecordedRun& run_;
-    const ExportMesh& mesh_;
+    const FrameMesh& mesh_;
     std::string text_;
 };
 
@@ -81,7 +82,7 @@ public:
     void write(const ExportJob& job) const override {
         TextureCopies textures(job);
         for (const RecordedFrame* frame : job.frames) {
-            const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
+            const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
             const auto path = job.path(*frame, extension()), library = job.path(*frame, "mtl");
             write_text(library, mtl(mesh, textures));
             write_text(path, ObjText(job.run, mesh).text(library.filename().string()));

@@ -1,5 +1,6 @@
 // Binary PLY: vertices with normal, texture coordinates and colour; triangles with plant and part.
 #include "espalier/base/file.h"
+#include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
 #include "formats/bytes.h"
@@ -9,7 +10,7 @@
 namespace espalier {
 namespace {
 
-std::string header(const ExportMesh& mesh) {
+std::string header(const FrameMesh& mesh) {
     return fmt::format(
         "ply\nformat binary_little_endian 1.0\ncomment made by espalier; metres\nelement vertex {}\n"
         "property float x\nproperty float y\nproperty float z\n"
@@ -20,7 +21,7 @@ std::string header(const ExportMesh& mesh) {
         mesh.points.size(), mesh.triangles.size());
 }
 
-std::string ply(const ExportMesh& mesh) {
+std::string ply(const FrameMesh& mesh) {
     std::string bytes = header(mesh);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         append_bytes(bytes, mesh.points[i]);
@@ -29,7 +30,7 @@ std::string ply(const ExportMesh& mesh) {
         append_bytes(bytes, mesh.rgb[i]);
     }
     for (std::size_t number = 0; number < mesh.parts.size(); ++number) {
-        const ExportPart& part = mesh.parts[number];
+        const MeshPart& part = mesh.parts[number];
         for (std::size_t i = 0; i < part.triangles; ++i) {
             append_bytes(bytes, std::uint8_t{3});
             append_bytes(bytes, mesh.triangles[part.first_triangle + i]);
@@ -46,7 +47,7 @@ public:
 
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
-            const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
+            const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
             const auto path = job.path(*frame, extension());
             write_text(path, ply(mesh));
             job.report({path, mesh.points.size(), mesh.triangles.size(), 0, ""});

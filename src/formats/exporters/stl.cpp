@@ -1,6 +1,7 @@
 // Binary STL: the triangles alone. Tubes are closed; leaves are as thin as they were recorded.
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
 #include "formats/bytes.h"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::size_t header_size = 80, triangle_size = 50;
 
-std::string stl(const ExportMesh& mesh) {
+std::string stl(const FrameMesh& mesh) {
     if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
         throw RunError(
             "an STL holds no more than 2^32 triangles; fewer --sides or a larger --simplify make it smaller");
@@ -41,7 +42,7 @@ public:
 
     void write(const ExportJob& job) const override {
         for (const RecordedFrame* frame : job.frames) {
-            const ExportMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
+            const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
             const auto path = job.path(*frame, extension());
             write_text(path, stl(mesh));
             job.report({path, 3 * mesh.triangles.size(), mesh.triangles.size(), 0, ""});

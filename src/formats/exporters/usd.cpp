@@ -1,5 +1,6 @@
 // USD as text: growth as time samples. A plant has curves with widths for its axes and a mesh for its surfaces.
 #include "espalier/base/file.h"
+#include "espalier/formats/exporter.h"
 
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"
@@ -117,10 +118,10 @@ public:
         vertices_ += curves.points.size();
     }
 
-    void add(int step, const ExportMesh& mesh, UsdMaterials& materials) {
+    void add(int step, const FrameMesh& mesh, UsdMaterials& materials) {
         std::vector<Rgb> rgb;
         for (std::size_t i = 0; i < mesh.material_of.size(); ++i) {
-            const ExportMaterial& look = mesh.materials[mesh.material_of[i]];
+            const MeshMaterial& look = mesh.materials[mesh.material_of[i]];
             rgb.push_back(look.rgb);
             const std::string& name = materials.name(look);
             if (!name.empty()) faces_[name][step].push_back(i);
@@ -238,7 +239,7 @@ public:
         for (const RecordedFrame* frame : job.frames) {
             const RecordedGeometry geometry = job.run.geometry(*frame);
             const std::vector<Curves> curves = curves_of(geometry, job);
-            std::map<std::uint32_t, ExportMesh> surfaces = by_plant(surfaces_of(geometry, job.options));
+            std::map<std::uint32_t, FrameMesh> surfaces = by_plant(surfaces_of(geometry, job.options));
             for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
                 if (!wanted(plant)) continue;
                 plants[plant].add(frame->step, curves[plant]);

@@ -8,8 +8,9 @@
 #include "espalier/timeline/recorder.h"
 
 #include "base/folder.h"
+#include "geometry/grid_file.h"
 #include "timeline/collection_file.h"
-#include "timeline/field_file.h"
+#include "timeline/vti_file.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,16 @@
+// How a recorded frame becomes triangles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace espalier {
+
+struct MeshOptions {
+    int sides = 8;                       ///< of tubes; 3 at least
+    double simplify = 0;                 ///< metres that a tube's middle line and radius may stray; 0: every node stays
+    char up = 'y';                       ///< or 'z'
+    std::optional<std::uint32_t> plant;  ///< its number; none: all plants
+};
+
+}  // namespace espalier

@@ -1,0 +1,26 @@
+// Grids on disk and in comparison: .vdb files with the same bytes for the same grid.
+#pragma once
+
+#include "espalier/geometry/field.h"
+
+#include <cstdint>
+#include <filesystem>
+
+namespace espalier {
+
+/// An array over a field's box has at most this many voxels.
+inline constexpr std::uint64_t most_dense_voxels = std::uint64_t{1} << 28;
+
+/// The field's grid. Throws RunError if it has none.
+const FieldGrid& grid_of(const Field& field);
+
+/// True if both give the same files but for the time.
+bool same_field(const FieldGrid& a, const FieldGrid& b);
+
+/// The same for grids that are the same_field, and hardly ever for others.
+std::uint64_t digest_of(const FieldGrid& grid);
+
+/// Active values only, compressed by Blosc if there are many. The file appears complete or not at all. Throws RunError.
+void write_vdb(const std::filesystem::path& path, const Field& field);
+
+}  // namespace espalier
