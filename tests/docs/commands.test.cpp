@@ -35,7 +35,8 @@ fs::path log_of(const fs::path& logs, const Command& command) {
 }
 
 // The commands of a page one after the other in one shell. `espalier` is a function that adds what the page says that
-// tests add; what each command prints goes to a file named after its line.
+// tests add; what each command prints goes to a file named after its line. A command whose output the page shows may
+// fail.
 std::string script_of(const fs::path& page, const fs::path& logs) {
     std::ostringstream script;
     script << "set -eo pipefail\n"
@@ -49,7 +50,7 @@ std::string script_of(const fs::path& page, const fs::path& logs) {
             if (!is_run(page, command)) continue;
             script << "echo " << command.line << " >'" << (logs / "at").string() << "'\n"
                    << "exec >'" << log_of(logs, command).string() << "' 2>&1\n"
-                   << command.text << '\n';
+                   << (command.shows_output ? "set +e\n" + command.text + "\nset -e\n" : command.text + "\n");
         }
     }
     return std::move(script).str();
