@@ -40,9 +40,9 @@ void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings
         "{}: {} production{}, {} of decomposition, {} of homomorphism; derivation length {}; {}{}", model.path.string(),
         system.productions.size(), system.productions.size() == 1 ? "" : "s", system.decomposition.productions.size(),
         system.homomorphism.productions.size(), Derivation(compiled).length(),
-        has_order(*compiled) ? "derived in order, because its productions assign globals, print or read files"
+        has_order(*compiled) ? "derived by one thread, because its productions assign variables, print or read files"
                              : "derived in parallel",
-        draws_random_numbers(*compiled) ? "; draws random numbers" : ""));
+        draws_random_numbers(*compiled) ? "; uses random numbers" : ""));
 }
 
 void review_notes(const SceneNotes& notes, Findings& findings) {
@@ -50,7 +50,8 @@ void review_notes(const SceneNotes& notes, Findings& findings) {
     std::vector<std::string> files;
     for (const fs::path& file : notes.files) files.push_back(file.string());
     if (!files.empty()) findings.facts.push_back(fmt::format("side files: {}", fmt::join(files, ", ")));
-    for (const std::string& settings : notes.unused) findings.facts.push_back(settings + " (read; no meaning here)");
+    for (const std::string& settings : notes.unused)
+        findings.facts.push_back(settings + " (read, but they only affect a window)");
 }
 
 // Makes everything a run would make, except steps.
@@ -81,7 +82,7 @@ void review_object(const CheckArguments& arguments, Findings& findings) {
     }
     review_scene(scene_of_object(object, {arguments.overrides, {}, {}}), findings);
     for (const std::string& name : unused_files(object)) {
-        findings.facts.push_back(name + " is listed, and no file that is used names it");
+        findings.facts.push_back(name + " is listed, but nothing uses it");
     }
 }
 
@@ -147,18 +148,18 @@ int check(const CheckArguments& arguments) {
 class Check final : public Command {
 public:
     explicit Check(CLI::App& program)
-        : Command(program, "check", "read a model or a scene and explain what is wrong"),
+        : Command(program, "check", "find mistakes in a model, a scene or a side file"),
           model_(app(), "what",
                  "a scene (.toml), a model (.l), the folder of an object, or a side file (.v, .a, .e, ...)",
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()) {
         add_json_flag("print the findings as JSON");
-        app().footer(R"(Mistakes make the exit code 1; what only looks wrong is a warning.
+        app().footer(R"(Mistakes are errors, and the exit code is 1. Warnings report what is legal but looks wrong.
 Examples:
   espalier check models/course/02-branching.l
-  espalier check plant.l --view plant.v
-  espalier check plant.v
-  espalier check objects/lilac          every file of the object, and which of them it does not use)");
+  espalier check models/organs/shoot.l --view models/organs/shoot.v
+  espalier check models/organs/shoot.v
+  espalier check models/language/shoot     every file of the object, and the files that nothing uses)");
     }
 
     int run() override { return check({model_.arguments(), sets_.overrides(), wants_json()}); }

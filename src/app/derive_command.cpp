@@ -138,7 +138,7 @@ std::string json_text(const ModuleString& string, const Alphabet& alphabet) {
 
 int derive(const DeriveArguments& arguments) {
     if (is_scene(arguments.model.file)) {
-        throw UserError("derive takes a model or the folder of an object; `espalier run` grows a scene");
+        throw UserError("derive accepts a model or the folder of an object; use `espalier run` for a scene");
     }
     ObjectFiles object = object_of(arguments.model);
     object.animation.clear();  // the derivation length decides
@@ -164,23 +164,24 @@ int derive(const DeriveArguments& arguments) {
 class Derive final : public Command {
 public:
     explicit Derive(CLI::App& program)
-        : Command(program, "derive", "print the string of a model after its steps"),
+        : Command(program, "derive", "print the string of a model after a number of steps"),
           model_(app(), "model", "a model (.l), or the folder of an object", ModelOptions::Files::reading_and_drawing),
           growth_(app()) {
         app()
             .add_option("--format", format_, "text (cpfg's notation), counts (per symbol) or json")
             ->check(CLI::IsMember({"text", "counts", "json"}));
-        app().add_flag("--before-exchange", before_exchange_, "leave the last step's queries unanswered, as cpfg does");
-        app().add_option("--files", files_, "folder for files the model writes; default: they are forgotten");
+        app().add_flag("--before-exchange", before_exchange_,
+                       "print the string before the queries of the last step are answered, like cpfg");
+        app().add_option("--files", files_, "folder for files that the model writes; default: they are discarded");
         app().add_flag("--quiet", quiet_, "print no warnings");
         app().footer(
-            R"(The derivation length decides how far, not an animation. ?P ?H ?L ?U ?Q are answered by the turtle as the view
-file starts it; ?E and named queries keep their parameters unless an environment file says who answers.
+            R"(The default number of steps is the derivation length, not that of an animation. The turtle answers ?P ?H ?L ?U ?Q, with the
+settings of the view file. ?E and named queries keep their parameters, unless an environment file names a process.
 Examples:
   espalier derive models/course/02-branching.l --steps 3
   espalier derive models/course/03-parameters.l --format counts
-  espalier derive plant.l --view plant.v --environment plant.e
-  espalier derive objects/lilac --before-exchange)");
+  espalier derive models/organs/shoot.l --view models/organs/shoot.v
+  espalier derive models/language/shoot --before-exchange)");
     }
 
     int run() override {

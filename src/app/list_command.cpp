@@ -63,24 +63,24 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all{
-        {"processes", "what may surround the plants: [environment.<name>] process = \"...\"",
+        {"processes", "the environment of the plants: [environment.<name>] process = \"...\"",
          parts_of<ProcessRegistry>},
-        {"symbols", "what the turtle does with a module", symbol_parts},
-        {"recorders", "what a run writes: [timeline]", parts_of<RecorderRegistry>},
+        {"symbols", "the symbols of the turtle and what they do", symbol_parts},
+        {"recorders", "the files of a run: [timeline]", parts_of<RecorderRegistry>},
         {"exporters", "formats of `espalier export`",
          [] {
              open_looking_half();
              return parts_of<ExporterRegistry>();
          }},
         {"models", "the library of models, folder by folder", nullptr},
-        {"scenes", "scenes below ./environments", scene_parts},
-        {"scene", "what a scene file may say",
+        {"scenes", "the scenes in ./environments", scene_parts},
+        {"scene", "the keys of a scene file",
          [] {
              return Parts{{"scene", "the tables of a scene file", scene_help()}};
          }},
-        {"shapes", "solids of process `shape`",
+        {"shapes", "the solids of the process `shape`",
          [] {
-             return Parts{{"shapes", "how a solid is written", shape_help()}};
+             return Parts{{"shapes", "how to describe a solid", shape_help()}};
          }},
     };
     return all;
@@ -104,7 +104,7 @@ Parts only(const Parts& parts, const std::string& name, const std::string& kind)
         names.push_back(path.stem().string());
     }
     if (!found.empty()) return found;
-    throw UserError(fmt::format("'{}' is none of the {}{}", name, kind, did_you_mean(name, names)));
+    throw UserError(fmt::format("there is no '{}' among the {}{}", name, kind, did_you_mean(name, names)));
 }
 
 // The library as a newcomer browses it: a heading for each folder, and what its models are about.
@@ -151,8 +151,8 @@ int list(const ListArguments& arguments) {
     }
     const Kind* kind = find_kind(arguments.kind);
     if (!kind) {
-        throw UserError(fmt::format("'{}' is none of {}{}", arguments.kind, fmt::join(list_kinds(), ", "),
-                                    did_you_mean(arguments.kind, list_kinds())));
+        throw UserError(fmt::format("there is no kind '{}'; the kinds are {}{}", arguments.kind,
+                                    fmt::join(list_kinds(), ", "), did_you_mean(arguments.kind, list_kinds())));
     }
     if (!kind->parts) return list_models(arguments);
     Parts parts = kind->parts();
@@ -170,11 +170,11 @@ int list(const ListArguments& arguments) {
 class List final : public Command {
 public:
     explicit List(CLI::App& program)
-        : Command(program, "list", "document processes, symbols, recorders, models, scenes") {
+        : Command(program, "list", "print the documentation of processes, symbols, recorders, models and scenes") {
         app().add_option("kind", kind_, fmt::format("{}", fmt::join(list_kinds(), ", ")));
-        app().add_option("name", name_, "one of them, in full");
-        app().add_option("--models", models_, "the library of models; default: ./models, or the one installed");
-        add_json_flag("print it as JSON");
+        app().add_option("name", name_, "one of them; prints its complete documentation");
+        app().add_option("--models", models_, "the library of models; default: ./models, or the installed library");
+        add_json_flag("print as JSON");
         app().footer(
             "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene\n"
             "  espalier list models\n  espalier list models koch");

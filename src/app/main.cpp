@@ -46,10 +46,10 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     if (word.starts_with('-')) {
         message = fmt::format("{} has no option '{}'{}", name, word, did_you_mean(word, options));
     } else if (!word.empty() && command == &program) {
-        message = fmt::format("'{}' is none of the commands {}{}", word, fmt::join(commands, ", "),
+        message = fmt::format("there is no command '{}'; the commands are {}{}", word, fmt::join(commands, ", "),
                               did_you_mean(word, commands));
     } else if (!word.empty()) {
-        message = fmt::format("{} does not expect '{}'", name, word);
+        message = fmt::format("{} does not accept '{}'", name, word);
     }
     return fmt::format("{}\n`{} --help` explains the options", message, name);
 }
@@ -82,7 +82,7 @@ int fail(const std::string& message, int code, bool json) {
 
 /// The program's options and the commands that have registered themselves by now.
 struct CommandLine {
-    CLI::App program{"Espalier grows plants from L-systems in environments they shape, and records their growth.",
+    CLI::App program{"Espalier grows plants from L-systems in a simulated environment, and records their growth.",
                      "espalier"};
     std::vector<std::unique_ptr<Command>> commands;
 
@@ -105,7 +105,7 @@ std::unique_ptr<CommandLine> command_line(int argc, char** argv) {
     auto line = std::make_unique<CommandLine>();
     if (argc > 1 && grows(*line, argv[1])) return line;
     if (open_looking_half()) return std::make_unique<CommandLine>();
-    line->program.footer("Commands that look at runs, such as render and export, are not installed here.");
+    line->program.footer("Commands that read runs, such as render and export, are not installed.");
     return line;
 }
 
@@ -140,7 +140,7 @@ int parse_and_run(int argc, char** argv) {
         return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()),
                     disk ? exit_code::run_failed : exit_code::user_error, json);
     } catch (const std::bad_alloc&) {
-        return fail("the machine has no memory left; --memory sets a limit below that", exit_code::run_failed, json);
+        return fail("the machine has no memory left; set a limit with --memory", exit_code::run_failed, json);
     } catch (const std::exception& error) {
         return fail(error.what(), exit_code::run_failed, json);
     }

@@ -20,7 +20,7 @@ void add_sets(const std::vector<std::string>& files, const char* option, std::ma
             !number.empty() && number.size() <= 3 && number.find_first_not_of("0123456789") == std::string::npos;
         const fs::path file = numbered ? text.substr(equals + 1) : text;
         if (!fs::is_regular_file(file)) {
-            throw UserError(fmt::format("{} {}: there is no file {}", option, text, file.string()));
+            throw UserError(fmt::format("{} {}: the file {} does not exist", option, text, file.string()));
         }
         sets[numbered ? std::stoi(number) : 1] = file;
     }
@@ -66,8 +66,8 @@ void reject_side_files(const ModelArguments& arguments) {
                                                           {arguments.quirks, "--cpfg-quirks"}};
     for (const auto& [is_given, option] : given) {
         if (is_given) {
-            throw UserError(
-                fmt::format("{} is for a model alone; a scene names its files itself (espalier list scene)", option));
+            throw UserError(fmt::format(
+                "{} applies to a model; in a scene, the scene file names the files (espalier list scene)", option));
         }
     }
 }

@@ -48,7 +48,7 @@ fs::path beside_program() {
 fs::path model_library(const fs::path& given) {
     if (!given.empty()) {
         if (fs::is_directory(given)) return given;
-        throw UserError(fmt::format("--models {}: there is no such folder", given.string()));
+        throw UserError(fmt::format("--models {}: the folder does not exist", given.string()));
     }
     if (fs::is_directory("models")) return "models";
     std::error_code ignored;
@@ -58,7 +58,7 @@ fs::path model_library(const fs::path& given) {
     for (const fs::path& folder : {fs::path(ESPALIER_SOURCE_MODELS), beside_program()}) {
         if (!folder.empty() && fs::is_directory(folder)) return folder;
     }
-    throw UserError("no library of models is found; --models FOLDER says where it is");
+    throw UserError("no library of models found; name its folder with --models FOLDER");
 }
 
 PartDescription describe_file(const fs::path& file) {

@@ -25,7 +25,7 @@ std::size_t memory_size(const std::string& text) {
     const bool known = power <= 4 && (rest.empty() || rest == "B" || rest == "iB");
     const double bytes = number * std::pow(1024.0, static_cast<double>(known ? power : 0));
     if (!known || used == 0 || !(bytes >= 1) || bytes > 1e18) {
-        throw UserError(fmt::format("--memory {}: a size such as 512M or 4G is expected", text));
+        throw UserError(fmt::format("--memory {}: expected a size such as 512M or 4G", text));
     }
     return static_cast<std::size_t>(bytes);
 }
@@ -41,7 +41,7 @@ KeyValues split(const std::vector<std::string>& texts, const std::string& option
 std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-        throw UserError(fmt::format("{} {}: KEY=VALUE is expected", option, text));
+        throw UserError(fmt::format("{} {}: expected KEY=VALUE", option, text));
     }
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
@@ -51,23 +51,24 @@ CLI::Validator above_zero() {
         double value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-        return is_number && value > 0 ? std::string() : fmt::format("a number above 0 is expected, not {}", text);
+        return is_number && value > 0 ? std::string() : fmt::format("expected a number above 0, found {}", text);
     };
     return {check, "ABOVE 0"};
 }
 
 ModelOptions::ModelOptions(CLI::App& command, const std::string& name, const std::string& help, Files files) {
     command.add_option(name, model_.file, help)->required();
-    command.add_option("--view", model_.view, "a view file (.v): turtle, surfaces, contours, functions");
-    command.add_option("--environment", model_.environment, "an environment file (.e): who answers ?E");
+    command.add_option("--view", model_.view, "view file (.v): settings of the turtle, surfaces, contours, functions");
+    command.add_option("--environment", model_.environment, "environment file (.e): the process that answers ?E");
     command.add_flag("--without-environment", model_.without_environment,
-                     "nobody answers: queries keep their parameters");
-    command.add_option("--define", defines_, "NAME=VALUE overrides a #define of the model; may be repeated")
+                     "do not answer queries; they keep their parameters");
+    command.add_option("--define", defines_, "NAME=VALUE replaces a #define of the model; may be repeated")
         ->allow_extra_args(false);
-    command.add_flag("--cpfg-quirks", model_.quirks, "trunc rounds, x/0 = x, subscripts are clamped");
+    command.add_flag("--cpfg-quirks", model_.quirks,
+                     "compute like cpfg: trunc rounds, x/0 = x, subscripts are clamped");
     if (files == Files::reading) return;
-    command.add_option("--animate", model_.animation, "an animation file (.a): which steps are frames");
-    command.add_option("--colour-map", model_.colour_maps, "a colour map (.map), or N=FILE for set N; may be repeated")
+    command.add_option("--animate", model_.animation, "animation file (.a): the steps that become frames");
+    command.add_option("--colour-map", model_.colour_maps, "colour map (.map), or N=FILE for set N; may be repeated")
         ->allow_extra_args(false);
     command.add_option("--materials", model_.materials, "materials (.mat), or N=FILE for set N; may be repeated")
         ->allow_extra_args(false);
@@ -80,7 +81,7 @@ ModelArguments ModelOptions::arguments() const {
 }
 
 SetOptions::SetOptions(CLI::App& command) {
-    command.add_option("--set", sets_, "KEY=VALUE overrides one value of the scene; may be repeated")
+    command.add_option("--set", sets_, "KEY=VALUE replaces one value of the scene; may be repeated")
         ->allow_extra_args(false);
 }
 
@@ -89,11 +90,11 @@ KeyValues SetOptions::overrides() const {
 }
 
 GrowthOptions::GrowthOptions(CLI::App& command) {
-    command.add_option("--steps", steps_, "derivations; default: what the scene or the model says")
+    command.add_option("--steps", steps_, "number of derivation steps; default: that of the scene or the model")
         ->check(CLI::Range(0, 1000000000));
-    command.add_option("--seed", seed_, "of all random numbers; the same seed gives the same bytes")
+    command.add_option("--seed", seed_, "of all random numbers; the same seed gives the same result")
         ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
-    command.add_option("--memory", memory_, "what it may take, such as 4G; default: half of the machine");
+    command.add_option("--memory", memory_, "memory that the run may use, such as 4G; default: half of the machine");
 }
 
 std::size_t GrowthOptions::memory() const {

@@ -20,20 +20,20 @@ constexpr std::size_t most_listed = 20;
 
 class Rerun final : public Command {
 public:
-    explicit Rerun(CLI::App& program)
-        : Command(program, "rerun", "do a recorded run again and report any byte that differs") {
-        app().add_option("folder", run_, "the output folder of a run that ended")->required();
-        app().add_option("--output", output_, "keep the new timeline in this folder; default: it is thrown away");
+    explicit Rerun(CLI::App& program) : Command(program, "rerun", "repeat a run and report every byte that differs") {
+        app().add_option("folder", run_, "the folder of a complete run")->required();
+        app().add_option("--output", output_, "keep the new timeline in this folder; default: it is deleted");
         app()
-            .add_option("--threads", threads_, "default: all; the result is the same with any number")
+            .add_option("--threads", threads_,
+                        "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
-        app().add_flag("--quiet", quiet_, "print nothing but differences and errors");
+        app().add_flag("--quiet", quiet_, "print differences and errors only");
         app().footer(
-            R"(Everything the run read is in its run.json: scene, models, side files, meshes. Files that were too large for it
-must still be where they were, unchanged. Exit code 2 if a file differs.
+            R"(run.json contains everything that the run read: scene, models, side files, meshes. Files that were too large for it must still
+exist, unchanged. The exit code is 2 if a file differs.
 Examples:
-  espalier rerun output/two-trees-20260101-120000
-  espalier rerun output/two-trees-20260101-120000 --threads 1 --output output/again)");
+  espalier rerun output/two-trees
+  espalier rerun output/two-trees --threads 1 --output output/again)");
     }
 
     int run() override {
@@ -54,7 +54,7 @@ Examples:
 private:
     void require_ended(const RecordedCommand& command) const {
         if (command.exit == "done") return;
-        throw UserError(fmt::format("the run in {} did not end by itself (\"{}\"), so there is nothing to compare with",
+        throw UserError(fmt::format("the run in {} is not complete (\"{}\"), so there is nothing to compare with",
                                     run_.string(), command.exit));
     }
 
@@ -66,7 +66,7 @@ private:
         };
         const std::string before = folder(run_), after = folder(output_);
         if (before.starts_with(after) || after.starts_with(before)) {
-            throw UserError(fmt::format("--output {}: the new timeline must lie outside the run's own folder {}",
+            throw UserError(fmt::format("--output {}: the new timeline must be outside the folder of the run, {}",
                                         output_.string(), run_.string()));
         }
     }
@@ -91,7 +91,7 @@ private:
             fmt::print("{}\n", differences[i]);
         }
         if (differences.size() > most_listed) fmt::print("... and {} more\n", differences.size() - most_listed);
-        if (differences.empty() && !quiet_) fmt::print("the same bytes in every file\n");
+        if (differences.empty() && !quiet_) fmt::print("all files have the same bytes\n");
         return differences.empty() ? exit_code::done : exit_code::run_failed;
     }
 

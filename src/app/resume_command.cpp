@@ -19,19 +19,21 @@ namespace fs = std::filesystem;
 class Resume final : public Command {
 public:
     explicit Resume(CLI::App& program)
-        : Command(program, "resume", "go on with a run that was interrupted, from its last checkpoint") {
-        app().add_option("folder", run_, "the output folder of the run")->required();
+        : Command(program, "resume", "continue an interrupted run from its last checkpoint") {
+        app().add_option("folder", run_, "the folder of the run")->required();
         app()
-            .add_option("--checkpoint-every", checkpoint_every_, "N steps; default: as the run did")
+            .add_option("--checkpoint-every", checkpoint_every_,
+                        "write a checkpoint every N steps; default: like the run")
             ->check(CLI::Range(1, 1000000000));
         app()
-            .add_option("--threads", threads_, "default: all; the result is the same with any number")
+            .add_option("--threads", threads_,
+                        "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
-        app().add_flag("--quiet", quiet_, "print nothing but errors");
+        app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the result as JSON");
         app().footer(
-            R"(What comes out is the same, byte for byte, as if the run had never stopped. Ctrl-C leaves a checkpoint; so does
-`espalier run --checkpoint-every N`, also for runs that are killed or fail. The run's files must not have changed.
+            R"(The result is the same, byte for byte, as without the interruption. Ctrl-C leaves a checkpoint. So does
+`espalier run --checkpoint-every N`, also for runs that are killed or fail. The files that the run read must be unchanged.
 Examples:
   espalier run environments/two-trees.toml --checkpoint-every 20 --output output/trees
   espalier resume output/trees)");
@@ -39,17 +41,18 @@ Examples:
 
     int run() override {
         const RecordedCommand command = read_command(run_);
-        if (command.exit == "done") throw UserError(fmt::format("the run in {} has ended", run_.string()));
+        if (command.exit == "done")
+            throw UserError(fmt::format("the run in {} is complete; there is nothing to continue", run_.string()));
         if (!fs::exists(checkpoint_of(run_))) {
             throw UserError(
-                fmt::format("{} holds no checkpoint: the run stopped before its first; `espalier run` "
-                            "with --overwrite begins it anew",
+                fmt::format("{} has no checkpoint: the run stopped before it wrote one. Start it again with "
+                            "`espalier run --overwrite`",
                             run_.string()));
         }
         for (const auto& [path, file] : command.inputs) {
             if (!is_unchanged(path, file)) {
                 throw UserError(
-                    fmt::format("{} has changed since the run began, so it cannot go on as it was", path.string()));
+                    fmt::format("{} has changed since the run began, so the run cannot be continued", path.string()));
             }
         }
         start(command);

@@ -31,7 +31,7 @@ std::atomic<bool> silent{false};
 void request_interrupt(int) {
     interrupt = true;
     if (silent) return;
-    static const char message[] = "\nfinishing this step (once more to stop at once)\n";
+    static const char message[] = "\nfinishing this step (press Ctrl-C again to stop at once)\n";
     [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, sizeof message - 1);
 }
 
@@ -143,34 +143,35 @@ namespace {
 class RunCommand final : public Command {
 public:
     explicit RunCommand(CLI::App& program)
-        : Command(program, "run", "grow a scene, a model or an object, and record it"),
+        : Command(program, "run", "grow a scene, a model or an object, and record the growth"),
           model_(app(), "what", "a scene (.toml), a model (.l), or the folder of an object",
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()) {
         app()
-            .add_option("--threads", arguments_.threads, "default: all; the result is the same with any number")
+            .add_option("--threads", arguments_.threads,
+                        "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
-        app().add_option("--output", arguments_.output, "folder; default: output/<scene>-<time>");
-        app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in that folder");
+        app().add_option("--output", arguments_.output, "output folder; default: output/<scene>-<time>");
+        app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in the output folder");
         app()
-            .add_option("--every", every_, "N steps from frame to frame; default: what the scene says, else 1")
+            .add_option("--every", every_, "record a frame every N steps; default: as the scene says, or 1")
             ->check(CLI::Range(1, 1000000000));
         app()
             .add_option("--checkpoint-every", arguments_.checkpoint_every,
-                        "N steps; `espalier resume` goes on from the last; default: only when interrupted")
+                        "write a checkpoint every N steps for `espalier resume`; default: only when interrupted")
             ->check(CLI::Range(1, 1000000000));
         app().add_flag("--resume", arguments_.resume)->group("");  // what `resume` starts
         app().add_flag(child_flag, is_child_)->group("");
-        app().add_flag("--quiet", arguments_.quiet, "print nothing but errors");
+        app().add_flag("--quiet", arguments_.quiet, "print errors only");
         add_json_flag("print the result as JSON");
         app().footer(R"(Examples:
   espalier run environments/two-trees.toml
   espalier run environments/two-trees.toml --set environment.light.voxel=0.5 --output output/coarse
   espalier run models/course/02-branching.l --steps 5
-  espalier run plant.l --view plant.v --animate plant.a --colour-map plant.map
-  espalier run objects/lilac            the model that the folder's file 'specifications' starts
-Ctrl-C ends the run after the step at hand and keeps what was recorded; once more stops at once.)");
+  espalier run models/organs/shoot.l --view models/organs/shoot.v
+  espalier run models/language/shoot          a folder; its file 'specifications' names the files
+Ctrl-C ends the run after the current step and keeps all recorded frames. A second Ctrl-C stops at once.)");
     }
 
     int run() override {

@@ -151,7 +151,7 @@ TEST_CASE_METHOD(Workplace, "check says what was read and warns of what looks wr
     write("counter.l", "lsystem: 1\nderivation length: 2\naxiom: A\nA : { n = n + 1; } 1 --> A\nB --> A\nendlsystem\n");
     const Outcome warned = run("check counter.l");
     CHECK(warned.code == 0);
-    CHECK_THAT(warned.out, Contains("counter.l:5") && Contains("warning") && Contains("derived in order"));
+    CHECK_THAT(warned.out, Contains("counter.l:5") && Contains("warning") && Contains("derived by one thread"));
     CHECK(json::parse(run("check counter.l --json").out)["warnings"].size() >= 1);
 }
 

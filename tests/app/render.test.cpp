@@ -184,8 +184,8 @@ TEST_CASE("render: wrong words are told with what is meant, exit code 1", "[rend
     refuses("--colour-by brith", "did you mean 'birth'?");
     refuses("--field light", "no field 'light'");
     refuses("--field light:slcie", "did you mean 'slice'?");
-    refuses("--field light:slice=w", "slice=z is expected");
-    refuses("--field light:iso=much", "iso=0.3 is expected");
+    refuses("--field light:slice=w", "expected slice=z");
+    refuses("--field light:iso=much", "expected iso=0.3");
     refuses("--field :slice", "the name of a field");
     refuses("--plant lefft", "did you mean 'left'?");
     refuses("--step 99", "no frame of step 99");

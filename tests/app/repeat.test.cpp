@@ -41,7 +41,7 @@ TEST_CASE_METHOD(Workplace, "a run is repeated from its run.json alone, byte for
     CHECK(again.err == "");
     CHECK(again.code == 0);
     CHECK(fs::exists(path() / "second" / "plants.pvd"));
-    CHECK_THAT(run("rerun first").out, Contains("the same bytes in every file"));
+    CHECK_THAT(run("rerun first").out, Contains("all files have the same bytes"));
 }
 
 TEST_CASE_METHOD(Workplace, "rerun names the files that differ", "[app]") {
@@ -130,7 +130,7 @@ TEST_CASE_METHOD(Workplace, "rerun keeps its timeline apart from the one it repe
         const Outcome outcome = run(std::string("rerun runs/first --output ") + output);
         INFO(output);
         CHECK(outcome.code == 1);
-        CHECK_THAT(outcome.err, Contains("must lie outside the run's own folder"));
+        CHECK_THAT(outcome.err, Contains("must be outside the folder of the run"));
     }
     CHECK(run("rerun runs/first --quiet").code == 0);
     CHECK(run("rerun runs/first --quiet --output runs/first-again").code == 0);

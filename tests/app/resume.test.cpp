@@ -92,5 +92,5 @@ TEST_CASE_METHOD(Resumed, "what cannot go on is refused in words", "[app]") {
         CHECK_THAT(run("resume again").err, Contains("checkpoint is damaged"));
     }
     fs::remove(path() / "again" / "checkpoint");
-    CHECK_THAT(run("resume again").err, Contains("holds no checkpoint"));
+    CHECK_THAT(run("resume again").err, Contains("has no checkpoint"));
 }

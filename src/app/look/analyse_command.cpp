@@ -86,40 +86,38 @@ void print_last(const RecordedRun& run, const RecordedTable& table) {
         }
         fmt::print("{}\n", line);
     }
-    if (shown < rows.size()) fmt::print("... and {} plants more\n", rows.size() - shown);
+    if (shown < rows.size()) fmt::print("... and {} more plants\n", rows.size() - shown);
 }
 
 class Analyse final : public Command {
 public:
     explicit Analyse(CLI::App& program)
-        : Command(program, "analyse", "measure the form of a run's plants: branching, widths, crowns, depths"),
-          picture_(app()) {
-        app().add_option("run", run_, "an output folder")->required();
+        : Command(program, "analyse", "measure the form of plants: branching, widths, crowns, roots"), picture_(app()) {
+        app().add_option("run", run_, "the folder of a run")->required();
         app().add_option("--step", step_, std::string(frame_option_help) + "; default: all");
-        app().add_option("--plant", plant_, "the name of one plant; default: all plants");
+        app().add_option("--plant", plant_, "name of one plant; default: all plants");
         app()
-            .add_option("--format", format_, "of the tables: csv (default) or json")
+            .add_option("--format", format_, "format of the tables: csv (default) or json")
             ->check(CLI::IsMember({"csv", "json"}));
-        app().add_option("--output", output_, "folder; default: 'analysis' in the run's");
+        app().add_option("--output", output_, "output folder; default: 'analysis' in the folder of the run");
         app()
-            .add_option("--leaf", leaves_,
-                        "symbols whose surfaces are leaves, as L,~l; default: everything with a surface")
+            .add_option("--leaf", leaves_, "symbols whose surfaces are leaves, such as L,~l; default: every surface")
             ->delimiter(',')
             ->allow_extra_args(false);
         app()
             .add_option("--layer", layer_,
-                        "thickness of the layers of heights and depths, m; default: about 20 a plant")
+                        "thickness of the layers of height and depth, m; default: about 20 layers per plant")
             ->check(above_zero());
         app()
-            .add_option("--voxel", voxel_, "edge of the voxels a crown fills, m; default: 1/32 of its largest extent")
+            .add_option("--voxel", voxel_, "edge of the voxels of the crown, m; default: 1/32 of its largest extent")
             ->check(above_zero());
-        app().add_flag("--no-picture", no_picture_, "draw nothing");
+        app().add_flag("--no-picture", no_picture_, "draw no pictures");
         app().footer(
-            R"(Writes analysis.csv with a row per step and plant; orders.csv (streams of each Strahler order), ramification.csv,
-layers.csv (lengths and leaf areas by height or depth), internodes.csv (their lengths); or analysis.json with all of it;
-and analysis.png, the main figures over the steps, and layers.png, of the last step.
+            R"(Writes analysis.csv with one row per step and plant, orders.csv (streams of each Strahler order), ramification.csv,
+layers.csv (lengths and leaf areas by height or depth) and internodes.csv (lengths of internodes), or analysis.json with all
+of these. Also draws analysis.png, the main measures over the steps, and layers.png, the layers of the last step.
 Examples:
-  espalier analyse output/two-trees-20260101-120000
+  espalier analyse output/two-trees
   espalier analyse output/two-roots --step last --layer 0.02 --format json
   espalier analyse output/two-trees --plant left --step 0:184:8 --leaf N --output tables)");
     }
@@ -128,7 +126,7 @@ Examples:
         const RecordedRun run(run_);
         std::vector<const RecordedFrame*> frames = chosen_frames(run, step_);
         std::erase_if(frames, [](const RecordedFrame* frame) { return frame->plants.empty(); });
-        if (frames.empty()) throw UserError(fmt::format("{} holds no plants at those steps", run_.string()));
+        if (frames.empty()) throw UserError(fmt::format("{} has no plants at these steps", run_.string()));
         std::vector<std::uint32_t> plants;
         if (plant_.empty()) {
             for (const RecordedPlant& plant : run.plants()) plants.push_back(plant.number);

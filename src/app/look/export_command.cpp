@@ -38,7 +38,7 @@ Json json_of(const ExportedFile& file) {
 class ExportCommand final : public Command {
 public:
     explicit ExportCommand(CLI::App& program)
-        : Command(program, "export", "write a recorded run as another program's files") {
+        : Command(program, "export", "write a recorded run as files of other programs") {
         app().add_option("run", folder_, "the folder of a run")->required();
         app()
             .add_option("--format", formats_, fmt::format("one or several of {}", fmt::join(known_formats(), ", ")))
@@ -46,33 +46,33 @@ public:
             ->allow_extra_args(false);  // or it would take the run's folder for a format
         app().add_option("--step", step_, frame_option_help)->capture_default_str();
         app().add_option("--output", output_,
-                         "a folder, or a file of the format that its name ends with; default: RUN/export");
-        app().add_option("--plant", plant_, "this plant alone, by its name in the scene");
+                         "a folder, or a file whose extension selects the format; default: RUN/export");
+        app().add_option("--plant", plant_, "draw or write only this plant, by its name in the scene");
         app()
-            .add_option("--sides", options_.sides, "corners of the rings of tubes")
+            .add_option("--sides", options_.sides, "number of corners of the rings of tubes")
             ->check(CLI::Range(3, 256))
             ->capture_default_str();
         app()
             .add_option("--simplify", options_.simplify,
-                        "leave out nodes of axes as long as middle line and radius stray no more than so many metres")
+                        "leave out nodes of axes if middle line and radius change by at most so many metres")
             ->check(CLI::Range(0.0, 1e6))
             ->capture_default_str();
         app()
-            .add_option("--up", up_, "which axis points up: y or z")
+            .add_option("--up", up_, "the vertical axis: y or z")
             ->check(CLI::IsMember({"y", "z"}))
             ->capture_default_str();
-        app().add_flag("--quiet", quiet_, "print nothing but errors");
-        add_json_flag("print the files as JSON");
-        app().footer(R"(Nothing is grown again. Lengths are metres. Files appear complete or not at all.
+        app().add_flag("--quiet", quiet_, "print errors only");
+        add_json_flag("print the names of the files as JSON");
+        app().footer(R"(The run is not grown again. Lengths are in metres. Files appear complete or not at all.
 Examples:
-  espalier export output/two-trees --format obj                      the last frame, for any 3-D program
-  espalier export output/two-trees --output trees.obj                the same, as this file
-  espalier export output/two-trees --format gltf --step all          the growth as an animation, one file
+  espalier export output/two-trees --format obj                      the last frame, for any 3D program
+  espalier export output/two-trees --output trees.obj                the same, in this file
+  espalier export output/two-trees --format gltf --step all          the growth as an animation, in one file
   espalier export output/two-trees --format usd --step 0:274:8       every eighth step
   espalier export output/two-trees --format stl --plant left --sides 16 --up z
   espalier export output/two-roots --format rsml,mtg,csv
   espalier export output/forest --format ply --simplify 0.002        fewer triangles; their number is printed
-`espalier list exporters` says what each format carries and what is lost.)");
+`espalier list exporters` describes the content of each format.)");
     }
 
     int run() override {
@@ -109,8 +109,9 @@ private:
                              (formats_.empty() || formats_ == std::vector{told});
         if (is_file) return {output_.parent_path(), output_.stem().string(), {told}};
         if (formats_.empty()) {
-            throw UserError(fmt::format("which format? --format {}, or an --output that ends with one, as plant.obj",
-                                        fmt::join(known_formats(), ", ")));
+            throw UserError(
+                fmt::format("no format given: use --format {}, or an --output with an extension such as plant.obj",
+                            fmt::join(known_formats(), ", ")));
         }
         return {output_.empty() ? folder_ / "export" : output_, "", formats_};
     }

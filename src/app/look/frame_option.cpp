@@ -23,7 +23,7 @@ struct Steps {
 };
 
 [[noreturn]] void reject(const std::string& text) {
-    throw UserError(fmt::format("--step {}: a step, first, last, all, or FROM:TO[:EVERY] is expected", text));
+    throw UserError(fmt::format("--step {}: expected a step, first, last, all, or FROM:TO[:EVERY]", text));
 }
 
 Steps steps_of(const std::string& text) {
@@ -56,7 +56,7 @@ void require_frame_option(const std::string& text) {
 std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const std::string& text) {
     std::vector<const RecordedFrame*> recorded;
     for (const RecordedFrame& frame : run.frames()) recorded.push_back(&frame);
-    if (recorded.empty()) throw UserError(fmt::format("{} holds no frames", run.folder().string()));
+    if (recorded.empty()) throw UserError(fmt::format("{} contains no frames", run.folder().string()));
     if (text == "first") return {recorded.front()};
     if (text == "last") return {recorded.back()};
     if (const std::optional<int> step = whole_number(text)) return {&run.frame(*step)};
@@ -67,7 +67,7 @@ std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const st
         if (inside && (frame->step - steps.from) % steps.every == 0) chosen.push_back(frame);
     }
     if (chosen.empty()) {
-        throw UserError(fmt::format("--step {}: {} has no frame there; its frames are of steps {} to {}", text,
+        throw UserError(fmt::format("--step {}: {} has no such frame; its frames are from step {} to {}", text,
                                     run.folder().string(), recorded.front()->step, recorded.back()->step));
     }
     return chosen;

@@ -87,11 +87,11 @@ Json fields_of(const fs::path& folder) {
 Json read_run(const fs::path& folder) {
     const fs::path file = folder / "run.json";
     if (!fs::exists(file)) {
-        throw UserError(fmt::format("{} holds no run: there is no run.json in it", folder.string()));
+        throw UserError(fmt::format("{} is not the folder of a run: it has no run.json", folder.string()));
     }
     Json run = Json::parse(read_text(file), nullptr, false);
     if (!run.is_object() || !run.contains("exit")) {
-        throw UserError(fmt::format("{} is not what a run writes", file.string()));
+        throw UserError(fmt::format("{} was not written by a run", file.string()));
     }
     return run;
 }
@@ -193,17 +193,17 @@ int info(const InfoArguments& arguments) {
         }
     } catch (const Json::exception& error) {
         throw UserError(
-            fmt::format("{} is not what a run writes: {}", (arguments.folder / "run.json").string(), error.what()));
+            fmt::format("{} was not written by a run: {}", (arguments.folder / "run.json").string(), error.what()));
     }
     return exit_code::done;
 }
 
 class Info final : public Command {
 public:
-    explicit Info(CLI::App& program) : Command(program, "info", "summarise what a run left in a folder") {
-        app().add_option("folder", folder_, "an output folder")->required();
-        add_json_flag("print it as JSON");
-        app().footer("Example:\n  espalier info output/two-trees-20260101-120000");
+    explicit Info(CLI::App& program) : Command(program, "info", "summarise a run") {
+        app().add_option("folder", folder_, "the folder of a run")->required();
+        add_json_flag("print as JSON");
+        app().footer("Example:\n  espalier info output/two-trees");
     }
 
     int run() override { return info({folder_, wants_json()}); }

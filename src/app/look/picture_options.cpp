@@ -12,8 +12,8 @@
 namespace espalier {
 
 PictureOptions::PictureOptions(CLI::App& command) {
-    command.add_option("--size", size_, "WIDTHxHEIGHT in pixels; default: what fits");
-    command.add_flag("--dark", dark_, "on a dark background");
+    command.add_option("--size", size_, "WIDTHxHEIGHT in pixels; default: depends on the content");
+    command.add_flag("--dark", dark_, "use a dark background");
 }
 
 PictureSize PictureOptions::size(const PictureSize& otherwise) const {
@@ -28,8 +28,8 @@ PictureSize picture_size(const std::string& option, const std::string& text) {
         const auto [rest, wrong_height] = std::from_chars(cross + 1, end, size.height);
         if (wrong_height == std::errc() && rest == end && size.width > 0 && size.height > 0) return size;
     }
-    throw UserError(option == "--size" ? fmt::format("--size {}: WIDTHxHEIGHT is expected, as 1200x800", text)
-                                       : fmt::format("{} {}: COLUMNSxROWS is expected, as 4x2", option, text));
+    throw UserError(option == "--size" ? fmt::format("--size {}: expected WIDTHxHEIGHT, such as 1200x800", text)
+                                       : fmt::format("{} {}: expected COLUMNSxROWS, such as 4x2", option, text));
 }
 
 PictureBackground picture_background(const std::string& text) {
@@ -45,7 +45,7 @@ PictureBackground picture_background(const std::string& text) {
             return {{part(16), part(8), part(0)}, false};
         }
     }
-    throw UserError(fmt::format("--background {}: light, dark, transparent or #rrggbb is expected", text));
+    throw UserError(fmt::format("--background {}: expected light, dark, transparent or #rrggbb", text));
 }
 
 FieldLook field_look(const std::string& text) {
@@ -53,7 +53,7 @@ FieldLook field_look(const std::string& text) {
     FieldLook look;
     const std::size_t colon = text.rfind(':');
     look.name = text.substr(0, colon);
-    if (look.name.empty()) reject("the name of a field is expected, as water:slice");
+    if (look.name.empty()) reject("expected the name of a field, such as water:slice");
     if (colon == std::string::npos) return look;
     const std::string how = text.substr(colon + 1);
     const std::size_t equals = how.find('=');
@@ -68,15 +68,15 @@ FieldLook field_look(const std::string& text) {
         if (has_axis) look.axis = value[0], value.erase(0, 1);
         look.place = finite_number(value);
         if ((equals != std::string::npos && !has_axis) || (!value.empty() && !look.place)) {
-            reject("slice=z is expected, or slice=z0.5 with its place in metres");
+            reject("expected slice=z, or slice=z0.5 with a position in metres");
         }
     } else if (kind == "iso") {
         look.kind = FieldLook::Kind::surface;
         look.level = finite_number(value);
-        if (equals != std::string::npos && !look.level) reject("iso=0.3 is expected, with the value of its surface");
+        if (equals != std::string::npos && !look.level) reject("expected iso=0.3, with the value of the surface");
     } else {
-        reject(fmt::format("volume, slice[=AXIS[METRES]] or iso[=VALUE] is expected after ':'{}",
-                           did_you_mean(kind, kinds)));
+        reject(
+            fmt::format("expected volume, slice[=AXIS[METRES]] or iso[=VALUE] after ':'{}", did_you_mean(kind, kinds)));
     }
     return look;
 }

@@ -31,24 +31,25 @@ std::vector<PlottedTable> read_tables(const std::vector<fs::path>& folders) {
 
 class Plot final : public Command {
 public:
-    explicit Plot(CLI::App& program)
-        : Command(program, "plot", "draw charts of runs over their steps"), picture_(app()) {
-        app().add_option("runs", runs_, "output folders; several are compared in one chart")->required();
+    explicit Plot(CLI::App& program) : Command(program, "plot", "draw charts of one run or several"), picture_(app()) {
+        app().add_option("runs", runs_, "folders of runs; several runs are compared in each chart")->required();
         app()
             .add_option("--quantity", quantities_,
-                        "columns of statistics.csv, a chart each: height,light.mean; default: the main ones")
+                        "columns of statistics.csv, one chart each: height,light.mean; default: the main columns")
             ->delimiter(',')
             ->allow_extra_args(false);
         app()
-            .add_option("--per", per_, "a line per plant, per species (model), or total; default: what is readable")
+            .add_option(
+                "--per", per_,
+                "one line per plant, per species (model), or in total; default: depends on the number of plants")
             ->check(CLI::IsMember({"plant", "species", "total"}));
         app().add_option("--output", output_, "a .png or .svg; default: plot.png in the first run's folder");
         app().footer(R"(Examples:
-  espalier plot output/two-trees-20260101-120000
-  espalier plot output/a --quantity height,light.mean --per species --output light.svg
+  espalier plot output/two-trees
+  espalier plot output/forest --quantity height,light.mean --per species --output light.svg
   espalier plot output/two-trees output/lone-tree --quantity organs --dark
-`espalier info RUN` shows which quantities a run has. Of several plants in one line, counts, lengths and volumes are sums,
-the rest are means (heights and maxima: the greatest).)");
+`espalier info RUN` lists the quantities of a run. If a line stands for several plants, it shows the sum of counts, lengths and
+volumes, the greatest of heights and maxima, and the mean of everything else.)");
     }
 
     int run() override {

@@ -71,22 +71,24 @@ public:
         add_look_options();
         add_camera_options();
         app()
-            .add_option("--run-output", run_.output, "where a scene's run goes; default: output/<scene>-<time>")
+            .add_option("--run-output", run_.output, "output folder of the run; default: output/<scene>-<time>")
             ->group("Growing a scene");
-        app().add_flag("--overwrite", run_.overwrite, "replace the timeline in that folder")->group("Growing a scene");
-        app().add_flag("--quiet", run_.quiet, "print nothing but errors");
-        add_json_flag("print the files as JSON");
+        app()
+            .add_flag("--overwrite", run_.overwrite, "replace the timeline in the output folder")
+            ->group("Growing a scene");
+        app().add_flag("--quiet", run_.quiet, "print errors only");
+        add_json_flag("print the names of the files as JSON");
         app().footer(R"(Examples:
   espalier render output/two-trees                                        the last frame, as a picture
-  espalier render environments/two-trees.toml --output trees.png          grown first
-  espalier render output/two-trees --output growth.mp4 --orbit 90         a film, the camera goes round
+  espalier render environments/two-trees.toml --output trees.png          grows the scene first
+  espalier render output/two-trees --output growth.ogv --orbit 90         a film; the camera moves around
   espalier render output/two-trees --sheet 4x2 --output sheet.png         eight stages of growth on one page
   espalier render output/two-trees --colour-by birth --scale-bar --dark
   espalier render output/two-trees --field light:slice=z --colour-by light
   espalier render output/two-roots --field water:volume --elevation 5
   espalier render output/two-roots --field water:iso=0.28 --step 0:200:10 --output roots.png
-Nothing is grown again for a run. A field must have been recorded ([timeline] fields). `espalier info RUN` says what a run
-holds; docs/render.md shows what all this looks like.)");
+A recorded run is not grown again. A field must have been recorded ([timeline] fields). `espalier info RUN` lists the content of
+a run. docs/render.md shows examples.)");
     }
 
     int run() override {
@@ -118,16 +120,17 @@ holds; docs/render.md shows what all this looks like.)");
 
 private:
     void add_output_options() {
-        app().add_option("--output", output_,
-                         "a .png; or a film: .ogv, and with ffmpeg .mp4, .webm, .gif; default: RUN/render.png");
+        app().add_option(
+            "--output", output_,
+            "a picture: .png; or a film: .ogv, and with ffmpeg .mp4, .webm, .gif; default: RUN/render.png");
         app().add_option("--step", step_,
                          std::string(frame_option_help) + "; default: last for a picture, all for a film or a sheet");
-        app().add_option("--sheet", sheet_, "COLUMNSxROWS frames on one page, evenly from those of --step");
+        app().add_option("--sheet", sheet_, "COLUMNSxROWS frames on one page, evenly chosen from those of --step");
         app()
-            .add_option("--frames", frames_, "so many pictures in a film, evenly from those of --step")
+            .add_option("--frames", frames_, "number of pictures in a film, evenly chosen from those of --step")
             ->check(CLI::Range(1, 100000));
         app()
-            .add_option("--rate", rate_, "pictures of a film per second; default: so that it lasts about 10 s")
+            .add_option("--rate", rate_, "pictures per second of a film; default: the film takes about 10 s")
             ->check(CLI::Range(0.1, 120.0));
     }
 
@@ -137,25 +140,25 @@ private:
                         "natural, birth, age, order, plant, symbol, kind, colour, radius, "
                         "height, a recorded parameter or field")
             ->capture_default_str();
-        app().add_option("--range", range_, "LOW:HIGH of the colours; default: what the frames hold");
+        app().add_option("--range", range_, "LOW:HIGH, the range of the colours; default: the range in the frames");
         app()
-            .add_option("--field", fields_,
-                        "NAME:volume, NAME:slice[=AXIS[METRES]], NAME:iso[=VALUE]; may be given several times")
+            .add_option("--field", fields_, "NAME:volume, NAME:slice[=AXIS[METRES]], NAME:iso[=VALUE]; may be repeated")
             ->allow_extra_args(false);
-        app().add_option("--plant", plant_, "this plant alone, by its name in the scene");
+        app().add_option("--plant", plant_, "draw or write only this plant, by its name in the scene");
         app().add_option("--background", background_, "light, dark, transparent or #rrggbb; default: light");
         ground_option_ = app().add_flag("--ground,!--no-ground", ground_,
-                                        "with or without a ground; default: where nothing grows beneath it");
-        app().add_flag("--no-shade", no_shade_, "no shadows: quicker");
-        app().add_flag("--no-legend", no_legend_, "no colour bars");
-        app().add_flag("--scale-bar", scale_bar_, "a length to compare with");
-        app().add_flag("--time", time_, "write the step or the time");
-        app().add_option("--title", title_, "a heading");
+                                        "with or without a ground; default: with, if nothing grows below it");
+        app().add_flag("--no-shade", no_shade_, "draw no shadows; faster");
+        app().add_flag("--no-legend", no_legend_, "draw no colour bars");
+        app().add_flag("--scale-bar", scale_bar_, "draw a scale bar");
+        app().add_flag("--time", time_, "write the step or the time on the picture");
+        app().add_option("--title", title_, "write a title on the picture");
     }
 
     void add_camera_options() {
         app()
-            .add_option("--azimuth", camera_.azimuth, "degrees round the vertical; 0: from the front (against z)")
+            .add_option("--azimuth", camera_.azimuth,
+                        "degrees about the vertical axis; 0: from the front (looking along -z)")
             ->check(CLI::Range(-36000.0, 36000.0))
             ->capture_default_str();
         app()
@@ -167,9 +170,9 @@ private:
             ->check(CLI::Range(0.01, 1000.0))
             ->capture_default_str();
         app()
-            .add_option("--orbit", orbit_, "degrees that the camera goes round during a film")
+            .add_option("--orbit", orbit_, "degrees that the camera moves around during a film")
             ->check(CLI::Range(-36000.0, 36000.0));
-        app().add_flag("--follow", follow_, "frame each step's plants anew, instead of those of all steps");
+        app().add_flag("--follow", follow_, "adapt the camera to the plants of each step, instead of all steps");
     }
 
     /// A mistake that can be known from the words and the scene should not cost the growing.
@@ -193,11 +196,10 @@ private:
         const bool has_all_fields = fields == std::vector<std::string>{"all"};
         for (const std::string& look : looks) {
             if (!has_all_fields)
-                require("--field", look, fields, "`fields = [...]` under [timeline] names what is recorded");
+                require("--field", look, fields, "`fields = [...]` under [timeline] lists the recorded fields");
         }
         if (!has_all_fields) {
-            require("--colour-by", colour_by_, colours,
-                    "`parameters` and `fields` under [timeline] say what more there is");
+            require("--colour-by", colour_by_, colours, "`parameters` and `fields` under [timeline] record more");
         }
         if (!plant_.empty()) require("--plant", plant_, plants, "the plants of the scene have other names");
     }
@@ -205,7 +207,7 @@ private:
     void require(const char* option, const std::string& name, const std::vector<std::string>& known,
                  const char* hint) const {
         if (std::find(known.begin(), known.end(), name) != known.end()) return;
-        throw UserError(fmt::format("{} {}: {} will have nothing of that name{}; {}", option, name,
+        throw UserError(fmt::format("{} {}: {} will have nothing with that name{}; {}", option, name,
                                     run_.model.file.string(), did_you_mean(name, known), hint));
     }
 
@@ -246,7 +248,7 @@ private:
             const auto low = finite_number(range_.substr(0, colon)), high = finite_number(range_.substr(colon + 1));
             if (low && high && *low < *high) return std::array{*low, *high};
         }
-        throw UserError(fmt::format("--range {}: LOW:HIGH is expected, as 0:0.5", range_));
+        throw UserError(fmt::format("--range {}: expected LOW:HIGH, such as 0:0.5", range_));
     }
 
     /// Columns and rows.

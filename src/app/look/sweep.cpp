@@ -154,7 +154,7 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
     const SignalCounter signals;
     const std::vector<const SweepRun*> left = to_do();
     if (!quiet && left.size() < runs_.size()) {
-        fmt::print(stderr, "{} of {} runs are done already\n", runs_.size() - left.size(), runs_.size());
+        fmt::print(stderr, "{} of {} runs are already complete\n", runs_.size() - left.size(), runs_.size());
     }
     Crew crew(*this, left.size(), quiet);
     int passed_on = 0;

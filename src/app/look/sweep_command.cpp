@@ -31,39 +31,40 @@ public:
             .add_option("--vary", vary_, "KEY=FIRST:LAST:COUNT, KEY=FIRST..LAST or KEY=VALUE,VALUE...; may be repeated")
             ->required()
             ->allow_extra_args(false);
-        app().add_option("--output", output_, "folder of folders; default: output/<scene>-sweep");
+        app().add_option("--output", output_, "output folder, with one folder per run; default: output/<scene>-sweep");
         app()
-            .add_option("--jobs", jobs_, "runs at a time; default: as many as the machine has cores")
+            .add_option("--jobs", jobs_, "number of simultaneous runs; default: the number of cores")
             ->check(CLI::Range(1, 4096));
         app()
-            .add_option("--threads", threads_, "of each run; default: the cores shared among the jobs")
+            .add_option("--threads", threads_, "number of threads of each run; default: the cores divided by the jobs")
             ->check(CLI::Range(1, 4096));
         app()
             .add_option("--statistic", statistics_,
-                        "draw these columns of sweep.csv over what was varied, a chart each: height,light.mean")
+                        "draw these columns of sweep.csv over the varied values, one chart each: height,light.mean")
             ->delimiter(',')
             ->allow_extra_args(false);
         app().add_option("--plot", plot_,
-                         "draw into this .png or .svg; default with --statistic: sweep.png in the folder");
-        app().add_flag("--list", list_, "print the commands that are still to do instead of running them");
-        app().add_flag("--quiet", quiet_, "print nothing but errors");
+                         "file for the charts, .png or .svg; default with --statistic: sweep.png in the folder");
+        app().add_flag("--list", list_, "print the commands that are still to be run, and do not run them");
+        app().add_flag("--quiet", quiet_, "print errors only");
         app().footer(
-            R"(A sweep that was stopped goes on where it was: runs that are done and whose files have not changed stay.
-At its end sweep.csv holds a row for every run and plant: the values, then the last step of statistics.csv.
-The picture shows how the runs ended: a line for every value of all keys but the one along x (or a heat map), and of runs
-that differ in simulation.seed alone the mean with its standard deviation. A sweep that is done draws at once.
-For a model alone a KEY without a dot is one of its #defines.
+            R"(A sweep continues where it stopped: complete runs whose files have not changed are kept.
+At the end, sweep.csv has one row for every run and plant: the values, then the last step of statistics.csv.
+The chart shows the last step of the runs. One key is the x axis, and every value of the others is a line (or the chart is a
+heat map). Runs that differ only in simulation.seed become a mean with its standard deviation.
+For a model alone, a KEY without a dot is one of its #defines.
 Examples:
   espalier sweep environments/two-trees.toml --vary environment.light.strength=0.2:1:5 --vary simulation.seed=1..4
   espalier sweep models/course/03-parameters.l --vary simulation.steps=1..6 --jobs 2
-  espalier sweep scene.toml --vary environment.light.voxel=0.1:0.5:5 --statistic height,organs --plot voxel.svg
-  espalier sweep scene.toml --vary simulation.seed=1..100 --list > commands      for a cluster: docs/sweeps.md)");
+  espalier sweep environments/course-light.toml --vary environment.light.voxel=0.1:0.5:5 --statistic height,organs
+  espalier sweep environments/course-light.toml --vary simulation.seed=1..100 --list > commands     for a cluster: docs/sweeps.md)");
     }
 
     int run() override {
         std::error_code error;
         const fs::path what = model_.arguments().file;
-        if (!fs::exists(what, error)) throw UserError(fmt::format("cannot read {}: no such file", what.string()));
+        if (!fs::exists(what, error))
+            throw UserError(fmt::format("cannot read {}: the file does not exist", what.string()));
         const Sweep sweep(base(), variations(), folder());
         if (list_) {
             for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));

@@ -81,27 +81,32 @@ bool is_run(const fs::path& path) {
 class View final : public Command {
 public:
     explicit View(CLI::App& program)
-        : Command(program, "view", "look at a run, or at a scene while it grows, in a window"),
-          model_(app(), "what", "the folder of a run; or what `espalier run` takes, which is grown meanwhile",
+        : Command(program, "view", "show a run, or a scene while it grows, in a window"),
+          model_(app(), "what",
+                 "the folder of a run; or anything that `espalier run` accepts, which is shown while it grows",
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
           picture_(app()) {
-        app().add_option("--step", step_, "the frame to begin with: N, first or last; default: last, and live");
+        app().add_option("--step", step_, "the first frame to show: N, first or last; default: last, and live");
         app()
             .add_option("--colour-by", options_.style.colour_by,
-                        "what organs are coloured by, as `c` in the window does")
+                        "how organs are coloured, as with the key c in the window")
             ->capture_default_str();
-        app().add_option("--field", field_, "a field as volume, slice or iso, as `f` in the window does: light:slice");
-        app().add_option("--screenshot", options_.screenshot, "write what the window shows as .png, and end");
-        app().add_option("--script", script_, "do what a file says, line by line, and end: docs/view.md");
-        app().add_option("--output", arguments_.output, "of a scene: folder; default: output/<scene>-<time>");
-        app().add_flag("--overwrite", arguments_.overwrite, "of a scene: replace the timeline in that folder");
-        app().add_option("--threads", arguments_.threads, "of a scene: default: all")->check(CLI::Range(1, 4096));
-        app().add_flag("--keep-running", keep_running_, "of a scene: when the window closes, wait for the run's end");
-        app().footer(R"(In the window h shows what keys and mouse do. Examples:
-  espalier view output/two-trees                        a run, ended or still going
-  espalier view environments/two-trees.toml             grows it and shows it grow; closing the window ends the run
+        app().add_option("--field", field_,
+                         "show a field as volume, slice or iso, as with the key f in the window: light:slice");
+        app().add_option("--screenshot", options_.screenshot, "write a picture of the window (.png) and exit");
+        app().add_option("--script", script_, "execute a script line by line and exit: docs/view.md");
+        app().add_option("--output", arguments_.output, "of a scene: output folder; default: output/<scene>-<time>");
+        app().add_flag("--overwrite", arguments_.overwrite, "of a scene: replace the timeline in the output folder");
+        app()
+            .add_option("--threads", arguments_.threads, "of a scene: number of threads; default: all cores")
+            ->check(CLI::Range(1, 4096));
+        app().add_flag("--keep-running", keep_running_,
+                       "of a scene: when the window closes, wait for the end of the run");
+        app().footer(R"(The key h shows the keys of the window. Examples:
+  espalier view output/two-trees                        a run, finished or still growing
+  espalier view environments/two-trees.toml             grows a scene and shows it; closing the window ends the run
   espalier view models/course/02-branching.l --steps 6
   espalier view output/two-trees --step 120 --screenshot tree.png
 A screenshot and a script need no display.)");
@@ -135,13 +140,13 @@ private:
         int step = 0;
         const auto [end, error] = std::from_chars(step_.data(), step_.data() + step_.size(), step);
         if (error != std::errc() || end != step_.data() + step_.size()) {
-            throw UserError(fmt::format("--step {}: a step, first or last is expected", step_));
+            throw UserError(fmt::format("--step {}: expected a step, first or last", step_));
         }
         return recorded.frame(step).step;
     }
 
     int view_growing() {
-        if (!step_.empty()) throw UserError("--step is for runs that are recorded; a scene is shown as it grows");
+        if (!step_.empty()) throw UserError("--step applies to recorded runs; a scene is shown while it grows");
         arguments_.overrides = sets_.overrides();
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
