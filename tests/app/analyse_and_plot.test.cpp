@@ -103,7 +103,7 @@ TEST_CASE_METHOD(Workplace, "mistakes of analyse and plot are named, with what w
     says("plot run --size 1000000x5", "16384 pixels");
     says("plot nowhere", "nowhere");
     says("analyse run --step 99", "no frame of step 99");
-    says("analyse run --step 7:9", "steps 0 to 6");
+    says("analyse run --step 7:9", "step 0 to 6");
     says("analyse run --step 1:2:0", "FROM:TO");
     says("analyse run --step soon", "FROM:TO");
     says("analyse run --plant perfekt", "did you mean 'perfect'?");

@@ -42,7 +42,8 @@ TEST_CASE_METHOD(BadInput, "mistakes on the command line exit with 1 and offer t
     CHECK_THAT(run("").err, Contains("derive") && Contains("check"));
     CHECK(run("rnu bush.l").code == 1);
     CHECK_THAT(run("drive bush.l").err, Contains("no command 'drive'") && Contains("did you mean 'derive'?"));
-    CHECK_THAT(run("frobnicate").err, Contains("there is no command 'frobnicate'; the commands are run, resume, rerun"));
+    CHECK_THAT(run("frobnicate").err,
+               Contains("there is no command 'frobnicate'; the commands are run, resume, rerun"));
     CHECK_THAT(run("--frobnicate").err, Contains("espalier has no option '--frobnicate'"));
     CHECK_THAT(run("check bush.l other.l").err, Contains("espalier check does not accept 'other.l'"));
     CHECK_THAT(run("run bush.l --stpes 3").err, Contains("did you mean '--steps'?"));

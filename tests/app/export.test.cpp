@@ -60,7 +60,7 @@ TEST_CASE("export writes the file it is told, in the format of its name", "[expo
     CHECK(exists(place, "of.ply/bush.csv"));
     const Outcome vague = place.run("export run --output meshes");
     CHECK(vague.code == 1);
-    CHECK(vague.err.find("which format? --format csv, gltf, ") != std::string::npos);
+    CHECK(vague.err.find("no format given: use --format csv, gltf, ") != std::string::npos);
 }
 
 TEST_CASE("export says how many vertices and triangles it wrote", "[export]") {

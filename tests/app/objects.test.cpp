@@ -103,7 +103,7 @@ TEST_CASE_METHOD(Objects, "options stand over what the folder says", "[app]") {
     CHECK(frames("a") == std::set<std::string>{"0001"});
     put("shoot.l", "#define N 2\n" + std::string(model));
     CHECK(run("derive shoot --define N=3").out == four_steps);
-    CHECK_THAT(run("run again.toml --view straight.v").err, Contains("--view is for a model alone"));
+    CHECK_THAT(run("run again.toml --view straight.v").err, Contains("--view applies to a model"));
     CHECK(run("derive shoot --colour-map lost.map").code == 1);
     CHECK(run("derive shoot --colour-map 2=shoot/shoot.map").out == four_steps);
     CHECK_THAT(run("derive shoot --view lost.v").err, Contains("lost.v") && Contains("No such file"));

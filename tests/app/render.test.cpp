@@ -211,14 +211,14 @@ TEST_CASE("render: what a scene will not hold is told before it is grown", "[ren
         CHECK_THAT(outcome.err, Contains(words));
         CHECK_FALSE(std::filesystem::exists(place.path() / "grown"));
     };
-    fails("--field light:slice", "--field light: pair.toml will have nothing of that name");
+    fails("--field light:slice", "--field light: pair.toml will have nothing with that name");
     fails("--colour-by lenght", "did you mean 'length'?");
     fails("--plant lef", "did you mean 'left'?");
     fails("--output x.jpg", "no picture that can be written");
     fails("--sheet 2x2 --output x.mp4", "no picture that can be written");
     fails("--range 2:1", "--range 2:1");
     fails("--background pale", "--background pale");
-    fails("--step 3:x", "--step 3:x: a step, first, last");
+    fails("--step 3:x", "--step 3:x: expected a step, first, last");
     fails("--sheet 200x200", "10,000");
     fails("--output x.mp4", "apt-get install ffmpeg", 2, "PATH=/nowhere");
 }

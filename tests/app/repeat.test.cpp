@@ -149,9 +149,9 @@ TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one 
     CHECK(lines_in(table) == 7);
 
     // What is done stays; what has changed is done again.
-    CHECK_THAT(run(command + "--output s").err, Contains("6 of 6 runs are done already"));
+    CHECK_THAT(run(command + "--output s").err, Contains("6 of 6 runs are already complete"));
     fs::remove(path() / "s" / "voxel=1,steps=3" / "run.json");
-    CHECK_THAT(run(command + "--output s").err, Contains("5 of 6 runs are done already"));
+    CHECK_THAT(run(command + "--output s").err, Contains("5 of 6 runs are already complete"));
     write("shrub.l", std::string(shrub) + "\n");
     CHECK(lines_in(run(command + "--output s --list").out) == 6);
 }
@@ -164,7 +164,7 @@ TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, a
     CHECK_THAT(mistaken.err, Contains("there is no quantity 'heigt' (did you mean 'height'?)"));
     CHECK(fs::exists(path() / "s" / "sweep.csv"));
     const Outcome drawn = run(sweep + "--statistic height,organs");
-    CHECK_THAT(drawn.err, Contains("4 of 4 runs are done already"));
+    CHECK_THAT(drawn.err, Contains("4 of 4 runs are already complete"));
     if (drawn.code == 2) return;  // nothing can draw here
     CHECK(drawn.code == 0);
     CHECK(drawn.out == "s/sweep.csv\ns/sweep.png\n");
