@@ -181,6 +181,19 @@ TEST_CASE("Every command that is not run stands in a page, and says why it is no
     }
 }
 
+TEST_CASE("./dev knows its commands that pages name", "[docs]") {
+    const TemporaryFolder folder;
+    const fs::path help = folder.path() / "help";
+    REQUIRE(std::system(("'" + (root / "dev").string() + "' help >'" + help.string() + "'").c_str()) == 0);
+    const std::string usage = text_of(help);
+    for (const NotRun& entry : not_run()) {
+        if (!entry.command.starts_with("./dev ")) continue;
+        const std::string command = entry.command.substr(6, entry.command.find(' ', 6) - 6);
+        INFO(entry.page << ": " << entry.command);
+        CHECK(usage.find("\n  " + command + " ") != std::string::npos);
+    }
+}
+
 TEST_CASE("Blocks are read: loops, continued lines, output, options for tests", "[docs]") {
     Block block{
         "sh", {"for i in 1 2; do", "    echo $i", "done   # counts", "", "# remark", "echo a \\", "  b"}, 10, {}};
