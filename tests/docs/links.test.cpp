@@ -96,3 +96,8 @@ TEST_CASE("The index of the manual names every page", "[docs]") {
         CHECK(std::find(links.begin(), links.end(), fs::relative(page, "docs").string()) != links.end());
     }
 }
+
+TEST_CASE("CITATION.cff has the version of the program", "[docs]") {
+    const std::vector<std::string> lines = lines_of("CITATION.cff");
+    CHECK(std::find(lines.begin(), lines.end(), "version: " ESPALIER_VERSION) != lines.end());
+}
