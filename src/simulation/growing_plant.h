@@ -6,8 +6,8 @@
 #include "espalier/simulation/scene.h"
 #include "espalier/turtle/interpretation.h"
 
-#include "lent.h"
-#include "memory.h"
+#include "reusable.h"
+#include "memory_budget.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
 
-#include "memory.h"
+#include "memory_budget.h"
 #include "run_record.h"
 #include "sealed_file.h"
 #include "written_files.h"

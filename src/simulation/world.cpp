@@ -4,7 +4,7 @@
 #include "espalier/timeline/timeline.h"
 
 #include "growing_plant.h"
-#include "memory.h"
+#include "memory_budget.h"
 #include "string_checkpoint.h"
 
 #include <fmt/format.h>

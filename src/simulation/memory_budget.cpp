@@ -1,4 +1,4 @@
-#include "memory.h"
+#include "memory_budget.h"
 
 #include "espalier/simulation/simulation.h"
 
