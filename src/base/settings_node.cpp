@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <mutex>
 
 namespace espalier {
 namespace {
@@ -52,12 +53,36 @@ std::shared_ptr<Node> scalar(Node::Type type, Value Node::*member, Value value) 
     return node;
 }
 
+/// Looking up marks what was read, in tables that several worlds of one scene may share.
+std::mutex& marks() {
+    static std::mutex mutex;
+    return mutex;
+}
+
 /// The name that was meant, or else all that are known.
 std::string what_may_stand(const std::string& name, std::vector<std::string> known) {
     std::string meant = did_you_mean(name, known);
     if (!meant.empty() || known.empty()) return meant;
     std::sort(known.begin(), known.end());
     return fmt::format("; what can stand here: {}", fmt::join(known, ", "));
+}
+
+void collect_unread_below(const Node& node, std::vector<Diagnostic>& diagnostics) {
+    const bool is_table = node.type == Node::Type::table;
+    std::vector<std::string> known;
+    for (std::size_t i = 0; is_table && i < node.names.size(); ++i) {
+        if (node.items[i]->was_read) known.push_back(node.names[i]);
+    }
+    for (const auto& entry : node.defaults) known.push_back(entry.first);
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        if (is_table && !node.items[i]->was_read) {
+            diagnostics.push_back(
+                {Diagnostic::Severity::error, node.items[i]->place,
+                 fmt::format("'{}' means nothing here{}", node.names[i], what_may_stand(node.names[i], known))});
+        } else {
+            collect_unread_below(*node.items[i], diagnostics);
+        }
+    }
 }
 
 }  // namespace
@@ -90,6 +115,7 @@ Node* Node::find(std::string_view key) const {
 std::shared_ptr<Node> Node::read_shared(std::string_view key) {
     std::shared_ptr<Node> node = find_shared(key);
     if (!node) return nullptr;
+    const std::lock_guard lock(marks());
     node->was_read = true;
     // What lies in a plain array is read with it; tables inside answer for themselves.
     for (const auto& item : node->items) {
@@ -106,6 +132,7 @@ Node& Node::require(std::string_view key, const char* expected) {
 
 void Node::remember_default(std::string_view key, std::shared_ptr<Node> value) {
     const auto known = [&](const auto& entry) { return entry.first == key; };
+    const std::lock_guard lock(marks());
     const auto at = std::find_if(defaults.begin(), defaults.end(), known);
     if (at == defaults.end()) defaults.emplace_back(std::string(key), std::move(value));
 }
@@ -121,25 +148,12 @@ void Node::put(const std::string& key, std::shared_ptr<Node> value) {
 }
 
 void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {
-    std::vector<std::string> known;
-    if (type == Type::table) {
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (items[i]->was_read) known.push_back(names[i]);
-        }
-        for (const auto& entry : defaults) known.push_back(entry.first);
-    }
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        if (type == Type::table && !items[i]->was_read) {
-            diagnostics.push_back(
-                {Diagnostic::Severity::error, items[i]->place,
-                 fmt::format("'{}' means nothing here{}", names[i], what_may_stand(names[i], known))});
-        } else {
-            items[i]->collect_unread(diagnostics);
-        }
-    }
+    const std::lock_guard lock(marks());
+    collect_unread_below(*this, diagnostics);
 }
 
 std::string Node::to_json() const {
+    const std::lock_guard lock(marks());
     // A value of the command line may be no UTF-8.
     return json_of(*this).dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,12 +1,14 @@
-// Parameters as a file gives them: typed look-ups with defaults, ranges and units; names nobody asked for are errors.
+// Parameters as a file or a program gives them: typed look-ups with defaults and ranges; unknown names are errors.
 #pragma once
 
 #include "espalier/base/error.h"
 
 #include <glm/vec3.hpp>
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -28,12 +30,19 @@ struct Range {
     static Range between(double a, double b) { return {a, b, false}; }
 };
 
-/// A table of parameters (TOML's, or one made by a program). Copies share the same table.
-/// Every look-up marks its key as read and remembers the value used, default or not, for `resolved()`.
-/// Look-ups throw UserError with file, line and column when the value is missing, of the wrong type or out of range.
+class SettingValue;
+
+/// A table of parameters, from TOML or made by a program:
+///   Settings{{"voxel", 0.25}, {"centre", {0, 1, 0}}, {"motion", Settings{{"growth", 0.1}}}}
+/// Copies share the same table; several threads may read it. Every look-up marks its key as read and remembers the
+/// value used, default or not, for `resolved_json()`. Look-ups throw UserError with file, line and column when the
+/// value is missing, of the wrong type or out of range.
 class Settings {
 public:
+    struct Entry;
+
     Settings();
+    Settings(std::initializer_list<Entry> entries);
 
     /// Reads a TOML file or text; `name` stands in messages. Throws UserError.
     static Settings read_toml(const std::filesystem::path& path);
@@ -80,6 +89,11 @@ public:
     /// The value is read as TOML, or taken as text if it is not. Throws UserError if the path leads nowhere sensible.
     void set(std::string_view dotted_key, std::string_view value);
 
+    /// One value as a program gives it; relative paths are relative to the current folder.
+    void put(std::string_view key, SettingValue value);
+    /// A table of its own with the same values, none of them read. In messages `name` stands where a file's would.
+    Settings copy(const std::string& name) const;
+
     /// Throws UserError listing every key that nobody read, here and below, with the nearest name that was asked for.
     void reject_unread() const;
 
@@ -89,8 +103,37 @@ public:
     struct Node;
 
 private:
+    friend class SettingValue;
     explicit Settings(std::shared_ptr<Node> node) : node_(std::move(node)) {}
     std::shared_ptr<Node> node_;
+};
+
+/// Made from what it holds: true or false, a number, a text, a list of these, or a table.
+class SettingValue {
+public:
+    SettingValue(bool value);
+    SettingValue(double value);
+    template <std::integral Integer>
+    SettingValue(Integer value) : SettingValue(whole(static_cast<std::int64_t>(value))) {}
+    SettingValue(const char* text);
+    SettingValue(const std::string& text);
+    SettingValue(const std::filesystem::path& path);
+    SettingValue(glm::dvec3 vector);
+    SettingValue(std::initializer_list<SettingValue> list);
+    SettingValue(const std::vector<double>& list);
+    SettingValue(const std::vector<std::string>& list);
+    SettingValue(const Settings& table);
+
+private:
+    friend class Settings;
+    explicit SettingValue(std::shared_ptr<Settings::Node> node) : node_(std::move(node)) {}
+    static SettingValue whole(std::int64_t value);
+    std::shared_ptr<Settings::Node> node_;
+};
+
+struct Settings::Entry {
+    std::string key;
+    SettingValue value;
 };
 
 }  // namespace espalier
