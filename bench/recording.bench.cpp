@@ -30,7 +30,7 @@ Recorded record(const Scene& scene) {
     const fs::path run = folder.path() / "run";
     Recorded recorded;
     World world(scene);
-    Timeline timeline(run, scene.timeline, scene.steps);
+    Timeline timeline(run, scene.timeline, world.last_step());
     const auto record_frame = [&] {
         recorded.waited += seconds_of([&] { timeline.record(world.frame()); });
         for (std::size_t plant = 0; plant < world.size(); ++plant) {
@@ -40,7 +40,7 @@ Recorded record(const Scene& scene) {
     };
     recorded.grown += seconds_of([&] { world.start(); });
     record_frame();
-    while (world.steps_done() < scene.steps) {
+    while (!world.at_end()) {
         recorded.grown += seconds_of([&] { world.step(); });
         record_frame();
     }
@@ -55,7 +55,7 @@ double grow(const Scene& scene) {
     World world(scene);
     return seconds_of([&] {
         world.start();
-        while (world.steps_done() < scene.steps) world.step();
+        while (!world.at_end()) world.step();
     });
 }
 

@@ -58,9 +58,9 @@ void review_notes(const SceneNotes& notes, Findings& findings) {
 void review_scene(const Scene& scene, Findings& findings) {
     const World world(scene);
     const TemporaryFolder folder("check");  // for the recorders to be made in
-    const Timeline timeline(folder.path(), scene.timeline, scene.steps);
+    const Timeline timeline(folder.path(), scene.timeline, world.last_step());
     std::set<const CompiledModel*> seen;
-    for (const PlantDescription& plant : scene.plants) {
+    for (const Plant& plant : scene.plants) {
         if (seen.insert(plant.model.get()).second) review_model(plant.model, findings);
         if (plant.view && seen.size() == 1) review_view(*plant.view, findings);
     }

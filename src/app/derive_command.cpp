@@ -35,7 +35,7 @@ bool has_queries(const Alphabet& alphabet) {
 // Answers ?P ?H ?L ?U ?Q; queries to processes keep their parameters.
 class TurtleAnswers {
 public:
-    explicit TurtleAnswers(const PlantDescription& plant)
+    explicit TurtleAnswers(const Plant& plant)
         : model_(source_of(*plant.model)),
           turtle_(plant.turtle),
           symbols_(symbol_table(model_)),
@@ -73,7 +73,7 @@ void grow(const Growth& growth, bool before_exchange) {
 }
 
 ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
-    const PlantDescription& plant = scene.plants.front();
+    const Plant& plant = scene.plants.front();
     DerivationSettings settings;
     settings.seed = scene.seed;
     // Old and new string, and the text they are printed as.
@@ -81,7 +81,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     settings.input_folder = folder_with(source_of(*plant.model));
     settings.output_folder = arguments.files;
     Derivation derivation(plant.model, settings);
-    derivation.set_length(scene.steps);
+    derivation.set_length(scene.steps.value_or(derivation.length()));
 
     TurtleAnswers answers(plant);
     ModuleString string, next;
@@ -100,8 +100,11 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
 ModuleString derive_in_world(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
     World world(scene, arguments.memory == 0 ? default_memory() : arguments.memory, arguments.files);
     if (!arguments.quiet) print_warnings(world.warnings());
-    grow({[&] { return world.stopped() || world.steps_done() >= world.last_step(); }, [&] { world.plant_axioms(); },
-          [&] { world.derive(); }, [&] { world.exchange(); }},
+    grow({[&] { return world.at_end(); }, [&] { world.write_axioms(); }, [&] { world.derive(); },
+          [&] {
+              world.interpret();
+              world.exchange();
+          }},
          before_exchange);
     return world.string(0);
 }
@@ -145,11 +148,12 @@ int derive(const DeriveArguments& arguments) {
     const Scene scene = scene_of_object(object, {{}, arguments.steps, arguments.seed});
     if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
 
-    const PlantDescription& plant = scene.plants.front();
+    const Plant& plant = scene.plants.front();
     // "environment display: before" makes cpfg, too, answer the last queries.
     const bool before_exchange = arguments.before_exchange && !(plant.view && plant.view->exchanges_first);
-    const ModuleString string = scene.processes.empty() ? derive_alone(scene, arguments, before_exchange)
-                                                        : derive_in_world(scene, arguments, before_exchange);
+    const ModuleString string = scene.environment.processes.empty()
+                                    ? derive_alone(scene, arguments, before_exchange)
+                                    : derive_in_world(scene, arguments, before_exchange);
     const Alphabet& alphabet = source_of(*plant.model).alphabet;
     if (arguments.format == "counts") {
         write_out(counts_text(string, alphabet));

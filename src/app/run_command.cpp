@@ -16,6 +16,9 @@
 #include <atomic>
 #include <csignal>
 #include <ctime>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 namespace espalier {
@@ -33,6 +36,15 @@ void request_interrupt(int) {
     if (silent) return;
     static const char message[] = "\nfinishing this step (press Ctrl-C again to stop at once)\n";
     [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, sizeof message - 1);
+}
+
+// By itself the GNU library raises this threshold up to 32 MiB, and columns that plants have outgrown lie unused
+// between those that came later: up to a quarter of what a run held.
+void give_back_what_is_large() {
+#ifdef __GLIBC__
+    constexpr int large = 1 << 20;
+    mallopt(M_MMAP_THRESHOLD, large);
+#endif
 }
 
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
@@ -106,6 +118,7 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
 
 int run_command(const RunArguments& arguments) {
     silent = arguments.quiet;
+    give_back_what_is_large();
     // The first signal asks, the second kills.
     const EndSignals signals(request_interrupt, /*only_once=*/true);
     // Progress that nobody reads any more must not end a run.

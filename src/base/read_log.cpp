@@ -1,12 +1,11 @@
 #include "espalier/base/read_log.h"
 
-#include <atomic>
-#include <stdexcept>
+#include <utility>
 
 namespace espalier {
 namespace {
 
-std::atomic<ReadLog*> current{nullptr};
+thread_local ReadLog* log_of_thread = nullptr;
 
 }  // namespace
 
@@ -16,13 +15,18 @@ std::uint64_t digest(std::string_view bytes, std::uint64_t before) {
     return hash;
 }
 
-ReadLog::ReadLog(std::size_t most_kept) : most_kept_(most_kept) {
-    ReadLog* nobody = nullptr;
-    if (!current.compare_exchange_strong(nobody, this)) throw std::logic_error("there is a ReadLog already");
+ReadLog::ReadLog(std::size_t most_kept) : most_kept_(most_kept) {}
+
+ReadLog::~ReadLog() = default;
+
+ReadLog* ReadLog::current() {
+    return log_of_thread;
 }
 
-ReadLog::~ReadLog() {
-    current = nullptr;
+ReadLog::Scope::Scope(ReadLog* log) : before_(std::exchange(log_of_thread, log)) {}
+
+ReadLog::Scope::~Scope() {
+    log_of_thread = before_;
 }
 
 std::map<std::filesystem::path, ReadLog::File> ReadLog::files() const {
@@ -31,7 +35,7 @@ std::map<std::filesystem::path, ReadLog::File> ReadLog::files() const {
 }
 
 void ReadLog::note(const std::filesystem::path& path, std::string_view bytes) {
-    if (ReadLog* log = current.load()) log->add(path, bytes);
+    if (ReadLog* log = log_of_thread) log->add(path, bytes);
 }
 
 void ReadLog::add(const std::filesystem::path& path, std::string_view bytes) {

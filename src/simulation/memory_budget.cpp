@@ -1,98 +1,13 @@
 #include "memory_budget.h"
 
-#include "espalier/simulation/simulation.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <fstream>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace espalier {
+namespace {
 
-std::size_t default_memory() {
-    std::size_t bytes =
-        static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
-    // A container's limit (control groups, version 2); "max" is no number and leaves the machine's.
-    std::ifstream limit("/sys/fs/cgroup/memory.max");
-    std::size_t allowed = 0;
-    if (limit >> allowed) bytes = std::min(bytes, allowed);
-    return bytes / 2;
-}
-
-std::size_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-    constexpr std::size_t unit = 1;
-#else
-    constexpr std::size_t unit = 1024;
-#endif
-    return static_cast<std::size_t>(usage.ru_maxrss) * unit;
-}
-
-// By itself the GNU library raises this threshold up to 32 MiB, and columns that plants have outgrown lie unused
-// between those that came later: up to a quarter of what a run held.
-void give_back_what_is_large() {
-#ifdef __GLIBC__
-    constexpr int large = 1 << 20;
-    mallopt(M_MMAP_THRESHOLD, large);
-#endif
-}
-
-MemoryShares share_memory(std::size_t budget, std::size_t processes) {
-    const std::size_t fields = processes == 0 ? 0 : budget / 2;
-    const std::size_t plants = budget - fields;
-    // The rest is for the program itself, and for what is drawn of a step's strings before anyone knows how much.
-    return {plants / 8 * 7, plants / 16, processes == 0 ? 0 : fields / processes};
-}
-
-void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plants) {
-    // Memory that grows by doubling.
-    const auto held = [](const auto& column) {
-        return column.empty() ? 0 : std::bit_ceil(column.size()) * sizeof(column[0]);
-    };
-    // Of large plants these are counted before they are written.
-    constexpr std::size_t large = 8192;
-    const auto written = [&](const auto& column) {
-        return column.size() < large ? held(column) : column.size() * sizeof(column[0]);
-    };
-    const PlantGeometry& geometry = interpretation.geometry;
-    const DrawnMesh& mesh = geometry.mesh;
-    const std::size_t question = sizeof(Answer) + 2 * sizeof(double) + (many_plants ? sizeof(Query) : 0);
-    drawn = written(geometry.internodes) + written(interpretation.queries) + written(interpretation.answers) +
-            held(interpretation.directions) + held(geometry.polygons) + held(geometry.vertices) +
-            held(geometry.organs) + held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) +
-            held(geometry.labels) + held(geometry.textures) + interpretation.queries.size() * question;
-}
-
-void PlantMemory::set_recorded(const RecordedMemory& now, std::size_t before) {
-    drawn_before = before;
-    recorded = {now.frame, recorded.kept + now.kept, recorded.finish + now.finish};
-}
-
-void PlantMemory::add(const PlantMemory& plant) {
-    strings += plant.strings;
-    drawn += plant.drawn;
-    drawn_before += plant.drawn_before;
-    recorded += plant.recorded;
-}
-
-PlantMemory PlantMemory::grown(double factor, bool is_recorded) const {
-    const auto times = [&](std::size_t bytes) { return static_cast<std::size_t>(static_cast<double>(bytes) * factor); };
-    return {strings, times(drawn), is_recorded ? drawn : 0,
-            RecordedMemory{times(recorded.frame), times(recorded.kept), times(recorded.finish)}};
-}
-
-std::size_t PlantMemory::total() const {
-    return strings + drawn + drawn_before + recorded.kept + std::max(recorded.frame, recorded.finish);
-}
-
+// ", most of them F, which the production at plant.l:4:1 writes most of": what a plant grew too large by.
 std::string commonest_module(const Model& model, const ModuleString& string) {
     if (string.empty()) return "";
     std::vector<std::size_t> counts(model.alphabet.size());
@@ -113,6 +28,92 @@ std::string commonest_module(const Model& model, const ModuleString& string) {
     std::string text = ", most of them " + model.alphabet.name(letter);
     if (writer) text += fmt::format(", which the production at {} writes most of", to_string(writer->place));
     return text;
+}
+
+}  // namespace
+
+MemoryShares share_memory(std::size_t budget, std::size_t processes) {
+    const std::size_t fields = processes == 0 ? 0 : budget / 2;
+    const std::size_t plants = budget - fields;
+    // The rest is for the program itself, and for what is drawn of a step's strings before anyone knows how much.
+    return {plants / 8 * 7, plants / 16, processes == 0 ? 0 : fields / processes};
+}
+
+void MemoryBudget::limit_strings(GrowingPlant& plant) const {
+    const std::size_t others = held_.total() - plant.memory.strings;
+    const std::size_t taken = others + plant.derivation.working_memory(*plant.string);
+    plant.derivation.set_memory(bytes_ - std::min(taken, bytes_));
+}
+
+void MemoryBudget::count_strings(GrowingPlant& plant) {
+    const std::size_t before = plant.memory.strings;
+    plant.memory.set_strings(plant.modules_before(), *plant.string, plant.derivation.working_memory(*plant.string));
+    if (plant.memory.strings != before) strings_ += plant.memory.strings - before;
+}
+
+void MemoryBudget::check_strings(std::span<const GrowingPlant> plants, int step) {
+    const std::size_t modules_before = modules_;
+    const bool is_full = !has_room();
+    if (is_full && plants.size() > 1) refuse_strings(plants, step, modules_before);
+    sum(plants);
+    // How much will be drawn is extrapolated from the previous step: as much of a module as then.
+    const double growth = modules_before == 0 ? 1 : static_cast<double>(modules_) / static_cast<double>(modules_before);
+    require(held_.grown(std::max(growth, 1.0), !recorders_.empty()), plants, step);
+}
+
+void MemoryBudget::count_drawn(GrowingPlant& plant, int step, bool many_plants) const {
+    const std::size_t before = plant.memory.drawn;
+    plant.memory.set_drawn(*plant.interpretation, many_plants);
+    if (recorders_.empty()) return;
+    RecordedMemory recorded;
+    for (const Recorder* recorder : recorders_) {
+        recorded += recorder->memory(step, *plant.string, *plant.interpretation);
+    }
+    plant.memory.set_recorded(recorded, before);
+}
+
+void MemoryBudget::check_drawn(std::span<const GrowingPlant> plants, int step) {
+    sum(plants);
+    require(held_, plants, step);
+}
+
+void MemoryBudget::sum(std::span<const GrowingPlant> plants) {
+    held_ = {};
+    modules_ = 0;
+    for (const GrowingPlant& plant : plants) {
+        held_.add(plant.memory);
+        modules_ += plant.string->size();
+    }
+    strings_ = held_.strings;
+    besides_ = held_.total() - held_.strings;
+}
+
+// Which plants were rewritten when the others were given up depends on the threads: the message is about the strings
+// before.
+void MemoryBudget::refuse_strings(std::span<const GrowingPlant> plants, int step, std::size_t modules) const {
+    const auto before = [&](const GrowingPlant& plant) -> const ModuleString& {
+        return plant.derivation.steps_done() == step ? plant.modules_before() : *plant.string;
+    };
+    const GrowingPlant& largest = *std::max_element(
+        plants.begin(), plants.end(),
+        [&](const GrowingPlant& a, const GrowingPlant& b) { return before(a).size() < before(b).size(); });
+    throw RunError(
+        fmt::format("step {}: {} modules grow beyond the {} MiB that --memory leaves for plants; the largest was '{}' "
+                    "with {} modules{}",
+                    step, modules, bytes_ >> 20, largest.description->name, before(largest).size(),
+                    commonest_module(largest.model(), before(largest))));
+}
+
+void MemoryBudget::require(const PlantMemory& needed, std::span<const GrowingPlant> plants, int step) const {
+    if (needed.total() <= bytes_) return;
+    const GrowingPlant& largest = *std::max_element(
+        plants.begin(), plants.end(),
+        [](const GrowingPlant& a, const GrowingPlant& b) { return a.string->size() < b.string->size(); });
+    throw RunError(
+        fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
+                    "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
+                    step, modules_, needed.total() >> 20, bytes_ >> 20, largest.description->name,
+                    largest.string->size(), commonest_module(largest.model(), *largest.string)));
 }
 
 }  // namespace espalier

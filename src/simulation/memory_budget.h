@@ -1,16 +1,17 @@
-// How much memory a run may take, and how it is shared out.
+// The memory of a run: how it is shared out, and whether the plants stay within their share.
 #pragma once
 
 #include "espalier/timeline/recorder.h"
-#include "espalier/turtle/interpretation.h"
 
+#include "growing_plant.h"
+#include "plant_memory.h"
+
+#include <atomic>
 #include <cstddef>
-#include <string>
+#include <span>
+#include <vector>
 
 namespace espalier {
-
-/// Has memory that was freed go back to the system, if it was more than a little at once. For the whole process.
-void give_back_what_is_large();
 
 /// A budget divided between the plants and the fields of the processes.
 struct MemoryShares {
@@ -20,25 +21,39 @@ struct MemoryShares {
 };
 MemoryShares share_memory(std::size_t budget, std::size_t processes);
 
-/// What plants hold, in bytes. How much room their memory really has depends on the threads and on which frames are
-/// still read; where a run ends must not: told from what is in it.
-struct PlantMemory {
-    std::size_t strings = 0;       ///< old and new, and what derivation needs besides
-    std::size_t drawn = 0;         ///< the interpretation, and its questions on their way
-    std::size_t drawn_before = 0;  ///< that of the frame on its way to the files
-    RecordedMemory recorded = {};  ///< of what is kept, the sum of all steps
+/// The plants' share. Stages limit and count each plant in parallel, then check all of them together; a check throws
+/// RunError that names the step, the size and the largest plant, the same with any number of threads.
+class MemoryBudget {
+public:
+    explicit MemoryBudget(std::size_t bytes) : bytes_(bytes) {}
 
-    /// Of many plants the questions are copied.
-    void set_drawn(const Interpretation& interpretation, bool many_plants);
-    /// After set_drawn(): what recording this step takes, the frame before being still on its way.
-    void set_recorded(const RecordedMemory& now, std::size_t before);
-    void add(const PlantMemory& plant);
-    /// With so many times as much drawn, `is_recorded` or not.
-    PlantMemory grown(double factor, bool is_recorded) const;
-    std::size_t total() const;
+    /// What it takes counts, too, from now on. It outlives the steps.
+    void count_recorder(const Recorder& recorder) { recorders_.push_back(&recorder); }
+
+    // Around derivation. Strings never give memory back: as soon as some take too much, the others need not be made.
+    bool has_room() const { return strings_ + besides_ <= bytes_; }
+    void limit_strings(GrowingPlant& plant) const;
+    void count_strings(GrowingPlant& plant);
+    void check_strings(std::span<const GrowingPlant> plants, int step);
+
+    // Around interpretation.
+    void count_drawn(GrowingPlant& plant, int step, bool many_plants) const;
+    void check_drawn(std::span<const GrowingPlant> plants, int step);
+
+    std::size_t bytes() const { return bytes_; }
+    std::size_t modules() const { return modules_; }
+
+private:
+    void sum(std::span<const GrowingPlant> plants);
+    [[noreturn]] void refuse_strings(std::span<const GrowingPlant> plants, int step, std::size_t modules) const;
+    void require(const PlantMemory& needed, std::span<const GrowingPlant> plants, int step) const;
+
+    std::size_t bytes_;
+    std::vector<const Recorder*> recorders_;
+    PlantMemory held_;         // of all plants, as the last check left it
+    std::size_t modules_ = 0;  // the same
+    std::size_t besides_ = 0;  // held beside the strings
+    std::atomic<std::size_t> strings_{0};
 };
-
-/// ", most of them F, which the production at plant.l:4:1 writes most of": what a plant grew too large by.
-std::string commonest_module(const Model& model, const ModuleString& string);
 
 }  // namespace espalier

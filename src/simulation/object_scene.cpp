@@ -56,7 +56,7 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options) {
     scene.notes.diagnostics.insert(scene.notes.diagnostics.begin(), object.diagnostics.begin(),
                                    object.diagnostics.end());
     const Model& model = source_of(*scene.plants.front().model);
-    if (object.warns_of_unanswered && scene.processes.empty() && asks_processes(model)) {
+    if (object.warns_of_unanswered && scene.environment.processes.empty() && asks_processes(model)) {
         Diagnostic warning;
         warning.severity = Diagnostic::Severity::warning;
         warning.place.file = model.path.string();

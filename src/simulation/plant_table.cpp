@@ -115,11 +115,11 @@ Pose read_pose(const Settings& table) {
 
 class PlantReader {
 public:
-    PlantReader(std::uint64_t seed, std::vector<PlantDescription>& plants, SceneNotes& notes)
+    PlantReader(std::uint64_t seed, std::vector<Plant>& plants, SceneNotes& notes)
         : seed_(seed), plants_(plants), notes_(notes), side_files_(notes) {}
 
     void read(const Settings& table) {
-        PlantDescription plant;
+        Plant plant;
         const Defines defines = read_defines(table.table("define"));
         const std::filesystem::path folder = table.path_if_any("folder").value_or("");
         // The view comes first: it names the functions that the model calls.
@@ -182,7 +182,7 @@ private:
     }
 
     std::uint64_t seed_;
-    std::vector<PlantDescription>& plants_;
+    std::vector<Plant>& plants_;
     SceneNotes& notes_;
     SideFiles side_files_;
     std::set<std::string> names_;
@@ -191,9 +191,8 @@ private:
 
 }  // namespace
 
-std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes,
-                                          SceneNotes& notes) {
-    std::vector<PlantDescription> plants;
+std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes) {
+    std::vector<Plant> plants;
     mistakes.attempt([&] {
         const std::vector<Settings> tables = root.tables("plant");
         if (tables.empty()) throw UserError(root.place(), "no [[plant]] in this scene: at least one is needed");

@@ -29,7 +29,6 @@ private:
 };
 
 /// Reads every plant of the scene, in order. Plants with the same model, defines and view share one CompiledModel.
-std::vector<PlantDescription> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes,
-                                          SceneNotes& notes);
+std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes);
 
 }  // namespace espalier

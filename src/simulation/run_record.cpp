@@ -17,12 +17,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json plants_json(const Scene& scene, const World& world) {
+Json plants_json(const World& world) {
     Json plants = Json::array();
-    for (std::size_t i = 0; i < scene.plants.size(); ++i) {
-        plants.push_back({{"name", scene.plants[i].name},
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const Plant& plant = world.scene().plants[i];
+        plants.push_back({{"name", plant.name},
                           {"model", world.model(i).path.string()},
-                          {"stream", scene.plants[i].stream},
+                          {"stream", *plant.stream},
                           {"modules", world.string(i).size()}});
     }
     return plants;
@@ -31,7 +32,7 @@ Json plants_json(const Scene& scene, const World& world) {
 // With the values that were used, those of environment files among them.
 Json processes_json(const Scene& scene) {
     Json processes = Json::object();
-    for (const auto& [name, table] : scene.processes) processes[name] = Json::parse(table.resolved_json());
+    for (const auto& [name, table] : scene.environment.processes) processes[name] = Json::parse(table.resolved_json());
     return processes;
 }
 
@@ -39,6 +40,13 @@ Json overrides_json(const Scene& scene) {
     Json overrides = Json::array();
     for (const auto& [key, value] : scene.overrides) overrides.push_back(key + "=" + value);
     return overrides;
+}
+
+// Of the whole scene, with the steps that it leaves to its models.
+Json parameters_json(const Scene& scene, int planned_steps) {
+    Json parameters = Json::parse(scene.root.resolved_json());
+    if (!scene.steps && !scene.frames) parameters["simulation"]["steps"] = planned_steps;
+    return parameters;
 }
 
 Json names_json(const std::set<std::filesystem::path>& files) {
@@ -49,8 +57,9 @@ Json names_json(const std::set<std::filesystem::path>& files) {
 
 }  // namespace
 
-RunRecord::RunRecord(const Scene& scene, const RunOptions& options)
-    : scene_(scene),
+RunRecord::RunRecord(const World& world, const RunOptions& options)
+    : world_(world),
+      planned_steps_(world.last_step()),
       memory_(options.memory),
       checkpoint_every_(options.checkpoint_every),
       output_(options.output),
@@ -87,39 +96,40 @@ void RunRecord::add_step(const StageTimes& times) {
     total_.record += times.record;
 }
 
-std::string RunRecord::json(const World& world, const std::string& exit, double seconds) const {
+std::string RunRecord::json(const std::string& exit, double seconds) const {
+    const Scene& scene = world_.scene();
     Json json;
     json["program"] = "espalier";
     json["version"] = ESPALIER_VERSION;
     json["exit"] = exit;
-    json["scene"] = {{"name", scene_.name}, {"path", scene_.path.string()}, {"text", scene_.text}};
+    json["scene"] = {{"name", scene.name}, {"path", scene.path.string()}, {"text", scene.text}};
     json["command"] = {{"folder", folder_}, {"arguments", arguments_}};
-    json["overrides"] = overrides_json(scene_);
-    json["seed"] = scene_.seed;
-    json["steps"] = scene_.steps;
+    json["overrides"] = overrides_json(scene);
+    json["seed"] = scene.seed;
+    json["steps"] = planned_steps_;
     json["steps_done"] = std::max(steps_ - 1, 0);
-    json["dt"] = scene_.dt;
-    json["time_unit"] = scene_.time_unit;
+    json["dt"] = scene.dt;
+    json["time_unit"] = scene.time_unit;
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     json["memory"] = memory_;
     json["peak_memory"] = peak_memory();
     json["started"] = started_;
     json["checkpoint_every"] = checkpoint_every_;
     json["files_before"] = names_json(files_before_);
-    json["plants"] = plants_json(scene_, world);
-    json["processes"] = processes_json(scene_);
+    json["plants"] = plants_json(world_);
+    json["processes"] = processes_json(scene);
     json["timings"] = {{"total", seconds},
                        {"derive", total_.derive},
                        {"interpret", total_.interpret},
                        {"exchange", total_.exchange},
                        {"record", total_.record}};
     json["inputs"] = inputs_json(inputs_, output_);
-    json["parameters"] = Json::parse(scene_.root.resolved_json());
+    json["parameters"] = parameters_json(scene, planned_steps_);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void RunRecord::write(const Timeline& timeline, const World& world, const std::string& exit, double seconds) const {
-    timeline.write_run(json(world, exit, seconds));
+void RunRecord::write(const Timeline& timeline, const std::string& exit, double seconds) const {
+    timeline.write_run(json(exit, seconds));
 }
 
 }  // namespace espalier

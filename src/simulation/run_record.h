@@ -15,7 +15,7 @@ namespace espalier {
 
 class RunRecord {
 public:
-    RunRecord(const Scene& scene, const RunOptions& options);
+    RunRecord(const World& world, const RunOptions& options);
 
     /// What lies where the models will write, though none of them wrote it.
     void note_files_before(std::set<std::filesystem::path> files) { files_before_ = std::move(files); }
@@ -26,12 +26,13 @@ public:
     void save(std::ostream& out) const;
     void add_step(const StageTimes& times);
     /// `exit`: "running", "done", "interrupted", "failed: why".
-    void write(const Timeline& timeline, const World& world, const std::string& exit, double seconds) const;
+    void write(const Timeline& timeline, const std::string& exit, double seconds) const;
 
 private:
-    std::string json(const World& world, const std::string& exit, double seconds) const;
+    std::string json(const std::string& exit, double seconds) const;
 
-    const Scene& scene_;
+    const World& world_;
+    int planned_steps_;
     std::size_t memory_;
     int checkpoint_every_;
     std::filesystem::path output_;

@@ -29,17 +29,14 @@ Box read_domain(const Settings& table) {
     return domain;
 }
 
-// Returns the steps the scene gives, or nothing.
-std::optional<int> read_simulation(const Settings& table, Scene& scene) {
-    std::optional<int> steps;
-    if (table.has("steps")) steps = static_cast<int>(table.integer("steps", Range::between(0, most_steps)));
+void read_simulation(const Settings& table, Scene& scene) {
+    if (table.has("steps")) scene.steps = static_cast<int>(table.integer("steps", Range::between(0, most_steps)));
     scene.seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Range::not_negative()));
     scene.dt = table.number_or("dt", 1, Range::positive());
     scene.time_unit = table.text_or("time_unit", "step");
     if (table.has("domain")) scene.domain = read_domain(table.table("domain"));
     table.integer_or("steps", 0);  // so that a misspelt 'steps' is offered it
     table.reject_unread();
-    return steps;
 }
 
 void add_notes(SceneNotes& notes, const std::filesystem::path& path, const std::vector<Diagnostic>& diagnostics,
@@ -59,15 +56,15 @@ void add_environment_file(const Settings& table, Scene& scene) {
     EnvironmentFile file = read_environment_file(path, folder);
     add_notes(scene.notes, path, file.diagnostics, file.unused);
     scene.notes.files.insert(scene.notes.files.end(), file.files.begin(), file.files.end());
-    scene.routed = file.routed;
-    if (scene.default_process.empty()) scene.default_process = file.processes.front().first;
-    for (auto& process : file.processes) scene.processes.push_back(std::move(process));
+    scene.environment.routed = file.routed;
+    if (scene.environment.default_process.empty()) scene.environment.default_process = file.processes.front().first;
+    for (auto& process : file.processes) scene.environment.processes.push_back(std::move(process));
 }
 
 // The processes read their own parameters when the world makes them.
 void read_environment(const Settings& table, Scene& scene) {
-    scene.default_process = table.text_or("default", "");
-    scene.keeps_unanswered = table.choice_or("unanswered", "error", {"error", "keep"}) == "keep";
+    scene.environment.default_process = table.text_or("default", "");
+    scene.environment.keeps_unanswered = table.choice_or("unanswered", "error", {"error", "keep"}) == "keep";
     add_environment_file(table, scene);
     const std::vector<std::string> words{"default", "file", "folder", "unanswered"};
     for (const std::string& name : table.keys()) {
@@ -77,21 +74,21 @@ void read_environment(const Settings& table, Scene& scene) {
                             fmt::format("'{}' must be a table: [environment.{}] with process = \"...\"{}", name, name,
                                         did_you_mean(name, words)));
         }
-        scene.processes.emplace_back(name, table.table(name));
+        scene.environment.processes.emplace_back(name, table.table(name));
     }
     std::vector<std::string> names;
-    for (const auto& process : scene.processes) {
+    for (const auto& process : scene.environment.processes) {
         if (std::find(names.begin(), names.end(), process.first) != names.end()) {
             throw UserError(table.place(process.first),
                             fmt::format("the environment file has a process '{}' already", process.first));
         }
         names.push_back(process.first);
     }
-    if (scene.default_process.empty()) return;
-    if (std::find(names.begin(), names.end(), scene.default_process) != names.end()) return;
+    if (scene.environment.default_process.empty()) return;
+    if (std::find(names.begin(), names.end(), scene.environment.default_process) != names.end()) return;
     throw UserError(table.place("default"),
-                    fmt::format("no process of this scene is called '{}'{}", scene.default_process,
-                                did_you_mean(scene.default_process, names)));
+                    fmt::format("no process of this scene is called '{}'{}", scene.environment.default_process,
+                                did_you_mean(scene.environment.default_process, names)));
 }
 
 // An animation file says which steps become frames, and which is the last.
@@ -128,31 +125,6 @@ void reject_unknown_tables(const Settings& root) {
     if (!unknown.empty()) throw UserError(unknown);
 }
 
-// How long the models themselves want to grow: the longest decides.
-int longest_derivation(const std::vector<PlantDescription>& plants) {
-    int length = 0;
-    const CompiledModel* previous = nullptr;
-    for (const PlantDescription& plant : plants) {
-        if (plant.model.get() != previous) length = std::max(length, Derivation(plant.model).length());
-        previous = plant.model.get();
-    }
-    return length;
-}
-
-// Steps that the scene gives are the derivation length of all plants; an animation's last frame leaves it alone.
-void set_steps(const std::optional<int>& given, Scene& scene) {
-    scene.steps = given ? *given : longest_derivation(scene.plants);
-    if (given) scene.last_frame.reset();
-    if (!scene.frames) return;
-    scene.sets_length = given.has_value();
-    if (scene.last_frame) {
-        scene.steps = *scene.last_frame;
-    } else if (!given && scene.steps < scene.frames->first) {
-        scene.steps = scene.frames->first;
-        scene.last_frame = scene.steps;
-    }
-}
-
 Scene read(Settings root, Scene scene, const SceneOptions& options) {
     scene.overrides = options.overrides;
     if (options.steps) scene.overrides.emplace_back("simulation.steps", std::to_string(*options.steps));
@@ -160,20 +132,32 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     for (const auto& [key, value] : scene.overrides) root.set(key, value);
 
     Mistakes mistakes;
-    std::optional<int> steps;
     mistakes.attempt([&] { reject_unknown_tables(root); });
-    mistakes.attempt([&] { steps = read_simulation(root.table("simulation"), scene); });
+    mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
     scene.plants = read_plants(root, scene.seed, mistakes, scene.notes);
     mistakes.throw_if_any();
-    set_steps(steps, scene);
-    if (!steps && !scene.frames) root.set("simulation.steps", std::to_string(scene.steps));
+    if (scene.steps) scene.last_frame.reset();
     scene.root = root;
     return scene;
 }
 
 }  // namespace
+
+Plant plant_of_file(const std::filesystem::path& model, const Defines& defines) {
+    return {.model = compile(read_model(model, {.defines = defines}))};
+}
+
+Plant plant_of_text(std::string_view model, const std::string& name, const Defines& defines) {
+    return {.model = compile(read_model_text(model, name, {}, {.defines = defines}))};
+}
+
+void SceneEnvironment::add(const std::string& name, const std::string& process, const Settings& parameters) {
+    Settings table = parameters.copy("environment." + name);
+    table.put("process", process);
+    processes.emplace_back(name, std::move(table));
+}
 
 Scene read_scene(const std::filesystem::path& path, const SceneOptions& options) {
     Scene scene;

@@ -2,6 +2,7 @@
 
 #include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
+#include "espalier/timeline/timeline.h"
 
 #include "memory_budget.h"
 #include "run_record.h"
@@ -14,6 +15,7 @@
 #include <exception>
 #include <fstream>
 #include <optional>
+#include <sstream>
 
 namespace espalier {
 namespace {
@@ -27,7 +29,7 @@ public:
         : scene_(scene),
           options_(options),
           world_(scene, options.memory, files_folder(options)),
-          record_(scene, options) {
+          record_(world_, options) {
         if (options.warn) options.warn(world_.warnings());
         if (!options.output.empty()) open_timeline();
     }
@@ -35,13 +37,13 @@ public:
     RunResult walk() {
         try {
             grow();
-            if (timeline_ && !at_end()) write_checkpoint();
+            if (timeline_ && !world_.at_end()) write_checkpoint();
             if (timeline_) timeline_->finish();
         } catch (const std::exception& error) {
             end_failed(error.what());
             throw;
         }
-        const bool cut_short = !at_end();
+        const bool cut_short = !world_.at_end();
         write_record(cut_short ? "interrupted" : "done");
         if (timeline_ && !cut_short) remove_checkpoint();
         return {world_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
@@ -59,7 +61,7 @@ private:
         const bool existed = std::filesystem::exists(options_.output);
         const auto files_before = files_before_run(options_.output);
         try {
-            timeline_.emplace(options_.output, scene_.timeline, scene_.steps, options_.overwrite);
+            timeline_.emplace(options_.output, scene_.timeline, world_.last_step(), options_.overwrite);
         } catch (const UserError&) {
             if (!existed) remove_if_unused(options_.output);
             throw;
@@ -73,8 +75,8 @@ private:
 
     void begin_recording() {
         if (scene_.frames) timeline_->choose(*scene_.frames);
-        timeline_->keep_at_most(world_.bytes_for_frames());
-        world_.count_recording(*timeline_);
+        timeline_->keep_at_most(share_memory(options_.memory, scene_.environment.processes.size()).frames);
+        world_.attach(*timeline_);
         write_record("running");
     }
 
@@ -85,16 +87,17 @@ private:
         if (!in) throw UserError(fmt::format("there is no {} to go on from", path.string()));
         if (get<std::uint64_t>(in) != signature) throw RunError(fmt::format("{} is no checkpoint", path.string()));
         if (!is_sealed(path)) throw RunError(fmt::format("{} is damaged: it is not what was written", path.string()));
-        timeline_.emplace(options_.output, scene_.timeline, scene_.steps, get_text(in, most_checkpoint_bytes));
+        timeline_.emplace(options_.output, scene_.timeline, world_.last_step(), get_text(in, most_checkpoint_bytes));
         record_.resume(*timeline_, in);
         world_.restore(in);
         begin_recording();
     }
 
     void write_checkpoint() {
-        const std::string timeline = timeline_->save();
+        std::ostringstream timeline;
+        timeline_->save(timeline);
         write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
-            return save(temporary, timeline) && seal(temporary);
+            return save(temporary, timeline.str()) && seal(temporary);
         });
     }
 
@@ -121,25 +124,18 @@ private:
     void grow() {
         if (!options_.resume) {
             world_.start();
-            record_frame();
+            note_step();
         }
-        while (!at_end() && !interrupted()) {
+        while (!world_.at_end() && !interrupted()) {
             world_.step();
-            record_frame();
+            note_step();
             const bool due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
-            if (timeline_ && due && !at_end()) write_checkpoint();
+            if (timeline_ && due && !world_.at_end()) write_checkpoint();
         }
     }
 
-    // Asked anew after every step: a model may stop, or change its derivation length.
-    bool at_end() const { return world_.stopped() || world_.steps_done() >= world_.last_step(); }
-
-    void record_frame() {
-        StageTimes times = world_.times();
-        const auto begin = std::chrono::steady_clock::now();
-        if (timeline_) timeline_->record(world_.frame(), at_end());
-        times.record = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        record_.add_step(times);
+    void note_step() {
+        record_.add_step(world_.times());
         if (options_.progress)
             options_.progress({world_.steps_done(), world_.last_step(), world_.modules(), seconds()});
     }
@@ -158,7 +154,7 @@ private:
     }
 
     void write_record(const std::string& exit) {
-        if (timeline_) record_.write(*timeline_, world_, exit, seconds());
+        if (timeline_) record_.write(*timeline_, exit, seconds());
     }
 
     bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
@@ -181,7 +177,6 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& output) {
 RunResult run(const Scene& scene, const RunOptions& options) {
     RunOptions resolved = options;
     if (resolved.memory == 0) resolved.memory = default_memory();
-    give_back_what_is_large();
     return Run(scene, resolved).walk();
 }
 

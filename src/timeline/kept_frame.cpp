@@ -19,9 +19,8 @@ std::size_t bytes_of(const PlantGeometry& geometry) {
 }  // namespace
 
 void KeptFrame::take(const Frame& frame, std::span<const std::string> fields) {
-    step_ = frame.step;
-    time_ = frame.time;
-    plants_.assign(frame.plants.begin(), frame.plants.end());
+    frame_ = frame;
+    frame_.fields = &fields_;
     fields_ = {};
     if (frame.fields) take_fields(*frame.fields, fields);
 }
@@ -40,10 +39,7 @@ void KeptFrame::take_fields(const Fields& all, std::span<const std::string> want
 }
 
 void KeptFrame::release() {
-    for (PlantFrame& plant : plants_) {
-        plant.string.reset();
-        plant.interpretation.reset();
-    }
+    frame_.plants.clear();
     fields_ = {};
 }
 

@@ -115,7 +115,8 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const 
     : folder_(folder), lock_(folder), last_step_(last_step) {
     make_recorders(table);
     remove_half_written(folder);
-    restore(checkpoint);
+    std::istringstream in(checkpoint);
+    restore(in);
 }
 
 void Timeline::make_recorders(Settings& table) {
@@ -147,10 +148,10 @@ void Timeline::choose(FrameSelection frames) {
     exactly_ = true;
 }
 
-void Timeline::record(const Frame& frame, bool is_last) {
+void Timeline::record(const Frame& frame) {
     const bool chosen = frame.step >= next_;
     if (chosen) next_ = frames_.after(frame.step);
-    const bool ends = is_last || (!exactly_ && frame.step == last_step_);
+    const bool ends = frame.is_last || (!exactly_ && frame.step == last_step_);
     const bool due = chosen || (ends && !(exactly_ && recorded_));
     if (due || sees_every_step_) writer_->add(frame, due);
     if (due && !recorded_) writer_->wait();
@@ -171,18 +172,15 @@ void Timeline::wait() {
     writer_->wait();
 }
 
-std::string Timeline::save() {
+void Timeline::save(std::ostream& out) const {
     writer_->wait();
-    std::ostringstream out;
     put(out, next_);
     put(out, static_cast<std::uint8_t>(recorded_));
     put(out, static_cast<std::uint64_t>(recorders_.size()));
     for (const auto& recorder : recorders_) recorder->save(out);
-    return std::move(out).str();
 }
 
-void Timeline::restore(const std::string& checkpoint) {
-    std::istringstream in(checkpoint);
+void Timeline::restore(std::istream& in) {
     resumed_ = true;
     next_ = get<int>(in);
     recorded_ = get<std::uint8_t>(in) != 0;

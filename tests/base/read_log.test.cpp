@@ -5,6 +5,8 @@
 #include "catch.h"
 #include "temporary_folder.h"
 
+#include <thread>
+
 using espalier::ReadLog;
 
 TEST_CASE("the digest is FNV-1a's", "[base]") {
@@ -29,6 +31,24 @@ TEST_CASE("a log notes what is read while it lives, once, under one name", "[bas
     CHECK(files.begin()->first == path);
     CHECK(files.begin()->second.bytes == "first");
     CHECK(files.begin()->second.digest == espalier::digest("first"));
+}
+
+TEST_CASE("each thread has its own log, and may note in another's", "[base]") {
+    const TemporaryFolder folder;
+    const auto mine = folder.write("mine", "1"), yours = folder.write("yours", "2"), ours = folder.write("ours", "3");
+    ReadLog log;
+    std::thread([&] {
+        espalier::read_text(mine);
+        const ReadLog other;
+        espalier::read_text(yours);
+        CHECK(other.files().size() == 1);
+        const ReadLog::Scope scope(&log);
+        espalier::read_text(ours);
+        CHECK(other.files().size() == 1);
+    }).join();
+    CHECK(ReadLog::current() == &log);
+    REQUIRE(log.files().size() == 1);
+    CHECK(log.files().count(ours) == 1);
 }
 
 TEST_CASE("a log keeps no more bytes than it may, but knows every file", "[base]") {

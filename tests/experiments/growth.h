@@ -76,7 +76,7 @@ inline std::unique_ptr<World> grown(const std::string& file, const SceneOptions&
     const Scene scene = read_scene(source_path(file), options);
     auto world = std::make_unique<World>(scene);
     world->start();
-    for (int step = 0; step < scene.steps && !world->stopped(); ++step) world->step();
+    while (!world->at_end()) world->step();
     return world;
 }
 

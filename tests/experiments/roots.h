@@ -109,7 +109,7 @@ inline Grown grow_watched(const std::string& file, const SceneOptions& options =
     };
     grown.world->start();
     watch();
-    for (int step = 0; step < scene.steps; ++step) {
+    while (!grown.world->at_end()) {
         grown.world->step();
         watch();
     }

@@ -98,7 +98,7 @@ TEST_CASE("root 2d: water is balanced to 1e-9 in every step, drunk, and never ne
 TEST_CASE("root 2d: no node of any root lies in a stone, though the way down is blocked", "[roots]") {
     const Scene scene = read_scene(source_path("environments/root-2d-stones.toml"));
     std::vector<std::shared_ptr<const Shape>> stones;
-    Settings soil = scene.processes.front().second;
+    Settings soil = scene.environment.processes.front().second;
     for (Settings& table : soil.tables("obstacles")) stones.push_back(read_shape(table));
     REQUIRE(stones.size() == 14);
     const auto in_stone = [&](const glm::dvec3& point) {

@@ -20,7 +20,7 @@ constexpr double kSegment = 0.2, kStub = 0.02;
 
 std::shared_ptr<const Shape> shape_of(const std::string& file) {
     const Scene scene = read_scene(source_path(file));
-    Settings table = scene.processes.front().second;
+    Settings table = scene.environment.processes.front().second;
     return read_shape(table);
 }
 
@@ -106,7 +106,7 @@ struct Dinosaur {
         const Scene scene = read_scene(source_path(file));
         World world(scene);
         world.start();
-        for (int step = 1; step <= scene.steps; ++step) {
+        for (int step = 1; step <= world.last_step(); ++step) {
             std::vector<std::set<Identity>> buds;
             for (std::size_t plant = 0; plant < world.size(); ++plant) {
                 met += buds_met(world, plant);

@@ -154,7 +154,7 @@ std::vector<Life> lives(const std::string& file, const SceneOptions& options = {
     world.start();
     std::vector<Life> lives(world.size());
     for (std::size_t i = 0; i < world.size(); ++i) lives[i].trunk_x.push_back(Tree(world, i).trunk_x());
-    for (int step = 1, cycle = 1; step <= scene.steps; ++step) {
+    for (int step = 1, cycle = 1; step <= world.last_step(); ++step) {
         std::vector<std::vector<Stem>> before;
         for (std::size_t i = 0; i < world.size(); ++i) before.push_back(Tree(world, i).stems());
         world.step();

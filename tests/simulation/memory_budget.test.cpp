@@ -16,6 +16,20 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+/// Counts as the timeline does, and writes nothing.
+class Counted final : public Recorder {
+public:
+    explicit Counted(const Timeline& timeline) : timeline_(timeline) {}
+    void record(const Frame&) override {}
+    void finish() override {}
+    RecordedMemory memory(int step, const ModuleString& string, const Interpretation& interpretation) const override {
+        return timeline_.memory(step, string, interpretation);
+    }
+
+private:
+    const Timeline& timeline_;
+};
+
 /// A world of one plant whose timeline is `table`, in so much memory.
 class RecordedWorld {
 public:
@@ -23,7 +37,7 @@ public:
         : scene_(scene(folder_, model)),
           timeline_(folder_.path() / "run", Settings::parse_toml(table, "scene.toml"), 1000),
           world(scene_, memory) {
-        world.count_recording(timeline_);
+        world.attach(counted_);
     }
 
 private:
@@ -35,6 +49,7 @@ private:
     TemporaryFolder folder_;
     Scene scene_;
     Timeline timeline_;
+    Counted counted_{timeline_};
 
 public:
     World world;

@@ -170,15 +170,14 @@ TEST_CASE_METHOD(ObjectFolder, "an object becomes a scene of one plant that its 
     const Scene scene = scene_of_object(read("cpfg -m plant.map plant.l plant.v plant.a"));
     CHECK(scene.name == folder().path().filename());
     REQUIRE(scene.plants.size() == 1);
-    CHECK(scene.steps == 2);
+    CHECK_FALSE(scene.steps);
     CHECK(scene.last_frame == 2);
-    CHECK_FALSE(scene.sets_length);
-    CHECK(scene.keeps_unanswered);
+    CHECK(scene.environment.keeps_unanswered);
     CHECK(scene.notes.files.size() == 3);
     const Scene again = read_scene_text(scene.text, "again", {});
-    CHECK(again.steps == 2);
+    CHECK(again.last_frame == 2);
     CHECK(again.plants[0].view != nullptr);
-    const World world(scene);
+    CHECK(World(scene).last_step() == 2);
     CHECK(Derivation(scene.plants[0].model).length() == 3);
 }
 
@@ -188,7 +187,6 @@ TEST_CASE_METHOD(ObjectFolder, "steps given by hand are the derivation length an
     const Scene scene = scene_of_object(read("cpfg plant.l plant.v plant.a"), options);
     CHECK(scene.steps == 5);
     CHECK_FALSE(scene.last_frame);
-    CHECK(scene.sets_length);
     World world(scene);
     CHECK(world.last_step() == 5);
 }

@@ -1,5 +1,7 @@
 #include "espalier/simulation/scene.h"
 
+#include "espalier/simulation/world.h"
+
 #include "catch.h"
 #include "temporary_folder.h"
 
@@ -39,7 +41,7 @@ private:
     TemporaryFolder folder_;
 };
 
-std::size_t productions_length(const PlantDescription& plant) {
+std::size_t productions_length(const Plant& plant) {
     return source_of(*plant.model).main().productions.front().successor.size();
 }
 
@@ -49,7 +51,8 @@ TEST_CASE_METHOD(ScenesWithTree, "a scene of one plant needs nothing but its mod
     const Scene scene = read("[[plant]]\nmodel = 'tree.l'\n");
     REQUIRE(scene.plants.size() == 1);
     CHECK(scene.plants[0].name == "tree");
-    CHECK(scene.steps == 3);
+    CHECK_FALSE(scene.steps);
+    CHECK(World(scene).last_step() == 3);
     CHECK(scene.seed == 0);
     CHECK(scene.plants[0].turtle.pose.heading == glm::dvec3(0, 1, 0));
     CHECK(productions_length(scene.plants[0]) == 6);
@@ -122,7 +125,7 @@ TEST_CASE_METHOD(ScenesWithTree, "overrides reach the simulation, a plant's defi
                              {{{"plant.0.define.LENGTH", "7"}, {"environment.light.voxel", "0.5"}}, 9, 11});
     CHECK(scene.steps == 9);
     CHECK(scene.seed == 11);
-    CHECK(scene.processes.at(0).second.number("voxel") == 0.5);
+    CHECK(scene.environment.processes.at(0).second.number("voxel") == 0.5);
     Derivation derivation(scene.plants[0].model);
     ModuleString string, next;
     derivation.start(string);
@@ -135,10 +138,10 @@ TEST_CASE_METHOD(ScenesWithTree, "processes keep the order of the file", "[simul
     const Scene scene = read(
         "[[plant]]\nmodel = 'tree.l'\n[environment]\ndefault = 'alpha'\n"
         "[environment.zeta]\nprocess = 'x'\n[environment.alpha]\nprocess = 'y'\n");
-    REQUIRE(scene.processes.size() == 2);
-    CHECK(scene.processes[0].first == "zeta");
-    CHECK(scene.processes[1].first == "alpha");
-    CHECK(scene.default_process == "alpha");
+    REQUIRE(scene.environment.processes.size() == 2);
+    CHECK(scene.environment.processes[0].first == "zeta");
+    CHECK(scene.environment.processes[1].first == "alpha");
+    CHECK(scene.environment.default_process == "alpha");
 }
 
 TEST_CASE_METHOD(ScenesWithTree, "every mistake of a scene is reported at once, with place and nearest name",
@@ -184,12 +187,6 @@ TEST_CASE_METHOD(ScenesWithTree, "what a scene may not say is named with its pla
     CHECK_THAT(message(plant + "[environment]\ndefault = 'lamp'\n[environment.light]\nprocess = 'x'\n"),
                Contains("'lamp'"));
     CHECK_THAT(message(plant + "[environment]\nlight = 3\n"), Contains("'light' must be a table"));
-}
-
-TEST_CASE_METHOD(ScenesWithTree, "steps nobody gives are resolved, so that the record of the run has them",
-                 "[simulation]") {
-    const Scene scene = read("[[plant]]\nmodel = 'tree.l'\n");
-    CHECK_THAT(scene.root.resolved_json(), Contains("\"steps\": 3"));
 }
 
 TEST_CASE("a model on its own is a scene", "[simulation]") {

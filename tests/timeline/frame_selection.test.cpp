@@ -28,7 +28,7 @@ Frames recorded(
     const std::vector<PlantFrame> plants{plant.frame()};
     const Fields fields;
     for (int step = 0; step <= last; ++step) {
-        timeline.record({step, double(step), plants, &fields}, step == last);
+        timeline.record({step, double(step), plants, &fields, step == last});
     }
     timeline.finish();
     Frames frames;

@@ -17,8 +17,7 @@ using namespace espalier;
 namespace {
 
 void add(FrameWriter& writer, int step, const HandmadePlant& plant, bool due = true, const Fields& fields = {}) {
-    const PlantFrame frame = plant.frame();
-    writer.add({step, 0.5 * step, {&frame, 1}, &fields}, due);
+    writer.add({step, 0.5 * step, {plant.frame()}, &fields}, due);
 }
 
 /// A gate that holds the writing thread until it is opened.

@@ -24,7 +24,7 @@ vtkSmartPointer<vtkPolyData> recorded(const HandmadePlant& plant, const Palette*
     const Fields fields;
     PlantFrame frame = plant.frame();
     frame.palette = palette;
-    timeline.record({0, 0, {&frame, 1}, &fields});
+    timeline.record({0, 0, {frame}, &fields});
     return read_vtp(folder.path / "plants/0000.vtp");
 }
 

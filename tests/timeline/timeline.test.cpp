@@ -203,8 +203,7 @@ TEST_CASE("frames are written beside the run, each as the plant was at its step"
         HandmadePlant plant = branched_plant();
         const Fields fields;
         for (int step = 0; step < 100; ++step) {
-            const PlantFrame frame = plant.frame();
-            timeline.record({step, double(step), {&frame, 1}, &fields});
+            timeline.record({step, double(step), {plant.frame()}, &fields});
             plant.add_triangle(Identity(100 + step));
         }
     }
@@ -226,8 +225,7 @@ TEST_CASE("a folder that disappears in the middle ends the run with the reason, 
     int step = 0;
     const auto record_one = [&] {
         plant.add_triangle(Identity(100 + step));
-        const PlantFrame frame = plant.frame();
-        timeline.record({step, double(step), {&frame, 1}, &fields});
+        timeline.record({step, double(step), {plant.frame()}, &fields});
         ++step;
     };
     while (step < 5) record_one();

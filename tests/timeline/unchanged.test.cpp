@@ -6,6 +6,7 @@
 #include "timeline/frames.h"
 
 #include <functional>
+#include <sstream>
 
 using namespace espalier;
 namespace fs = std::filesystem;
@@ -100,7 +101,9 @@ TEST_CASE("a run that goes on from before its first frame writes what does not c
     {
         Timeline timeline(folder.path, timeline_table("first = 2"), 9);
         record(timeline, 0, {&plant});
-        checkpoint = timeline.save();
+        std::ostringstream saved;
+        timeline.save(saved);
+        checkpoint = saved.str();
     }
     Timeline timeline(folder.path, timeline_table("first = 2"), 9, checkpoint);
     for (int step = 1; step <= 4; ++step) record(timeline, step, {&plant});

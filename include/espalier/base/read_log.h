@@ -14,7 +14,9 @@ namespace espalier {
 /// `before`: the digest of the bytes before these.
 std::uint64_t digest(std::string_view bytes, std::uint64_t before = 0xCBF29CE484222325);
 
-/// While it lives, it notes every file that read_text() reads, from any thread. One at a time.
+/// While it lives, it notes every file that read_text() reads on its own thread, and on others within a Scope of it. A
+/// world notes what its plants read in the log of the thread that made it. A second log of a thread takes over from the
+/// first until it ends.
 class ReadLog {
 public:
     struct File {
@@ -33,6 +35,21 @@ public:
     /// By their paths, absolute and without `.` and `..`. A file read twice is what it was first.
     std::map<std::filesystem::path, File> files() const;
 
+    /// The log of this thread; null if there is none.
+    static ReadLog* current();
+
+    /// While it lives, `log` (may be null) notes what this thread reads.
+    class Scope {
+    public:
+        explicit Scope(ReadLog* log);
+        ~Scope();
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+    private:
+        ReadLog* before_;
+    };
+
     /// Called by read_text().
     static void note(const std::filesystem::path& path, std::string_view bytes);
 
@@ -43,6 +60,7 @@ private:
     std::size_t kept_ = 0;
     mutable std::mutex mutex_;
     std::map<std::filesystem::path, File> files_;
+    Scope scope_{this};
 };
 
 }  // namespace espalier

@@ -1,4 +1,4 @@
-// A scene: an experiment as a TOML file describes it. Plants, processes, timeline.
+// A scene: an experiment, described by a program or by a TOML file. Plants, processes, timeline.
 #pragma once
 
 #include "espalier/base/settings.h"
@@ -17,45 +17,60 @@
 
 namespace espalier {
 
-/// One plant of the world: a model growing at a place with a seed.
-struct PlantDescription {
-    std::string name;
-    std::shared_ptr<const CompiledModel> model;  ///< plants with the same model and defines share it
-    TurtleSettings turtle;                       ///< its pose is the plant's place and orientation
-    std::uint32_t stream = 0;                    ///< which random numbers it draws; default: its number in the scene
-    std::shared_ptr<const Palette> palette;      ///< what colour indices look like; null if nobody says
-    std::shared_ptr<const View> view;            ///< its view file; null if it has none
+/// One plant of a scene: a model growing at a place with a seed. The world makes a GrowingPlant of it.
+struct Plant {
+    std::string name = {};                            ///< default: the model's
+    std::shared_ptr<const CompiledModel> model = {};  ///< plants with the same model and defines share it
+    TurtleSettings turtle = {};                       ///< its pose is the plant's place and orientation
+    std::optional<std::uint32_t> stream = {};     ///< which random numbers it draws; default: its number in the scene
+    std::shared_ptr<const Palette> palette = {};  ///< what colour indices look like; null if unknown
+    std::shared_ptr<const View> view = {};        ///< its view file; null if it has none
 };
 
-/// What was noticed in the files of a scene and did not keep it from being read.
-struct SceneNotes {
-    std::vector<Diagnostic> diagnostics;       ///< errors are what `check` refuses and a run passes over
-    std::vector<std::string> unused;           ///< "plant.v: twist, font": read, without meaning outside a window
-    std::vector<std::filesystem::path> files;  ///< side files that were read, in the order of reading
-};
+/// The model of a file, or of a text in the same language, ready to grow. Throws UserError with every mistake found.
+Plant plant_of_file(const std::filesystem::path& model, const Defines& defines = {});
+Plant plant_of_text(std::string_view model, const std::string& name = "plant", const Defines& defines = {});
 
-struct Scene {
-    std::filesystem::path path;  ///< the file, empty if the scene was read from text
-    std::string name;
-    std::string text;                                            ///< as it was read, before overrides
-    std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, and --steps and --seed
-    int steps = 0;  ///< as planned; a model may change its derivation length
-    /// Where the run ends whatever the derivation lengths are (an animation's last frame); none: at the longest of
-    /// them.
-    std::optional<int> last_frame;
-    std::optional<FrameSelection> frames;  ///< an animation's, instead of the timeline's `first` and `every`
-    bool sets_length = true;               ///< the plants' derivation length is `steps`
-    std::uint64_t seed = 0;
-    double dt = 1;  ///< time one derivation step stands for
-    std::string time_unit = "step";
-    std::optional<Box> domain;
-    std::vector<PlantDescription> plants;
+/// What answers the plants' queries: processes by name, in the order in which they advance.
+struct SceneEnvironment {
+    /// `process`: what it is, one of `espalier list processes` or registered by this program.
+    void add(const std::string& name, const std::string& process, const Settings& parameters = {});
+
     std::vector<std::pair<std::string, Settings>> processes;  ///< [environment.<name>] in the file's order
     std::string default_process;                              ///< who answers ?E, "" = the only one
     bool routed = false;                                      ///< the first parameter of ?E counts the processes from 0
     bool keeps_unanswered = false;                            ///< queries nobody answers keep their parameters
-    Settings timeline;
-    Settings root;  ///< the whole file, for `resolved_json` and `reject_unread`
+};
+
+/// What was noticed in the files of a scene and did not keep it from being read.
+struct SceneNotes {
+    std::vector<Diagnostic> diagnostics;       ///< errors are what `check` refuses and a run ignores
+    std::vector<std::string> unused;           ///< "plant.v: twist, font": read, without meaning outside a window
+    std::vector<std::filesystem::path> files;  ///< side files that were read, in the order of reading
+};
+
+/// Fill it in, or read it from a file. `World` grows it, `run` grows and records it.
+struct Scene {
+    std::string name;
+    std::vector<Plant> plants;
+    SceneEnvironment environment;
+    /// The derivation length of all plants, which a model may change; none: the longest of theirs.
+    std::optional<int> steps;
+    std::uint64_t seed = 0;
+    double dt = 1;  ///< time one derivation step stands for
+    std::string time_unit = "step";
+    std::optional<Box> domain;  ///< metres; none: grows with the plants
+    Settings timeline;          ///< what `run` records; see `espalier list recorders`
+
+    // An animation's. Without `steps` it leaves the plants' derivation lengths alone.
+    std::optional<FrameSelection> frames;  ///< instead of the timeline's `first` and `every`
+    std::optional<int> last_frame;         ///< where the run ends, whatever the derivation lengths are
+
+    // Of a scene that was read.
+    std::filesystem::path path;                                  ///< the file, empty if the scene was read from text
+    std::string text;                                            ///< as it was read, before overrides
+    std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, and --steps and --seed
+    Settings root;                                               ///< the whole file, for `resolved_json`
     SceneNotes notes;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/simulation/scene.h"
-#include "espalier/timeline/frame.h"
+#include "espalier/timeline/recorder.h"
 
 #include <filesystem>
 #include <iosfwd>
@@ -10,8 +10,6 @@
 #include <vector>
 
 namespace espalier {
-
-class Timeline;
 
 /// The folder of the model's file, where it reads files of its own.
 std::filesystem::path folder_with(const Model& model);
@@ -21,22 +19,31 @@ struct StageTimes {
     double derive = 0, interpret = 0, exchange = 0, record = 0;
 };
 
+/// Worlds share nothing: several may grow at once, each on a thread of its own.
 class World {
 public:
-    /// Throws UserError for processes that cannot be made or queries nobody answers. What models write goes into
-    /// `files`, below a folder of the plant's name if there are several; without it nothing is kept.
-    World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {});
+    /// `memory` in bytes. Throws UserError for processes that cannot be made or queries nobody answers. What models
+    /// write goes into `files`, below a folder of the plant's name if there are several; without it nothing is kept.
+    explicit World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {});
     ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
 
-    /// What recording takes counts against the memory, too. The timeline outlives the world's steps.
-    void count_recording(const Timeline& timeline);
-    /// How much of the memory is for frames that wait to be recorded.
-    std::size_t bytes_for_frames() const;
+    /// The recorder sees the frames of every step from now on, and what it takes counts against the memory. It outlives
+    /// the steps; after the last of them call its finish().
+    void attach(Recorder& recorder);
 
-    /// Frame 0: every axiom, interpreted and exchanged.
+    /// Frame 0: every axiom, interpreted, exchanged and recorded.
     void start();
-    /// derive -> interpret -> exchange, for every plant; frame k is k steps.
+    /// derive -> interpret -> exchange -> record, for every plant; frame k is k steps.
     void step();
+
+    // The stages of start() and step(), to look at what one of them leaves.
+    void write_axioms();
+    void derive();
+    void interpret();
+    void exchange();
+    void record();
 
     /// Everything that lasts from step to step, as bytes, after a step; for this machine and the same scene.
     void save(std::ostream& out) const;
@@ -44,27 +51,26 @@ public:
     /// Throws RunError or UserError for bytes of another scene, or for bytes that are damaged.
     void restore(std::istream& in);
 
-    // The parts of start() and step(), for who wants to see a string before its queries are answered.
-    void plant_axioms();
-    void derive();
-    void exchange();
-
     int steps_done() const;
-    /// Where the run ends: an animation's last frame, or the longest derivation length, which models may change.
+    /// Where the run ends: the scene's last frame, or the longest derivation length, which models may change.
     int last_step() const;
     bool stopped() const;  ///< a model called stop()
+    /// Stopped, or at the last step. Ask after every step.
+    bool at_end() const { return stopped() || steps_done() >= last_step(); }
     std::size_t modules() const;
     const StageTimes& times() const;
-    /// The frame of the current step; valid until the next.
+    /// The frame of the current step. Its fields are valid until the next.
     Frame frame() const;
-    // Valid until the next step or frame().
+    // Valid until the next step.
     const ModuleString& string(std::size_t plant) const;
     const Interpretation& interpretation(std::size_t plant) const;
     const Model& model(std::size_t plant) const;
     const Environment& environment() const;
-    /// What the processes passed over in their parameter files.
+    /// The scene with what it left open decided: names, random streams, the values that processes use.
+    const Scene& scene() const;
+    /// What the processes ignored in their parameter files.
     const std::vector<Diagnostic>& warnings() const;
-    std::size_t size() const;
+    std::size_t size() const;  ///< number of plants
 
 private:
     struct State;

@@ -8,17 +8,17 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace espalier {
 
+/// One plant of a frame. It shares the values of its step, so that a recorder may keep them while the world goes on;
+/// a process sees the same plant as a PlantView, which only borrows them for the exchange.
 struct PlantFrame {
     std::uint32_t plant = 0;
     std::string name;
     const Model* model = nullptr;
-    // Whoever keeps one of these keeps its values: the world goes on in other memory.
     std::shared_ptr<const ModuleString> string;
     std::shared_ptr<const Interpretation> interpretation;
     std::vector<Quantity> quantities;  ///< "light.mean", ... of this plant, the same names in every frame
@@ -28,8 +28,9 @@ struct PlantFrame {
 struct Frame {
     int step = 0;     ///< frame k is k derivations
     double time = 0;  ///< scene's unit
-    std::span<const PlantFrame> plants;
-    const Fields* fields = nullptr;
+    std::vector<PlantFrame> plants;
+    const Fields* fields = nullptr;  ///< as they are until the next step
+    bool is_last = false;            ///< no step follows in this run
 };
 
 }  // namespace espalier

@@ -14,8 +14,9 @@ namespace espalier {
 
 class FrameWriter;
 
-/// Frames are written by a thread of their own, in order, while the run goes on; a few may wait.
-class Timeline {
+/// Frames are written by a thread of their own, in order, while the run goes on; a few may wait. It is a recorder made
+/// of others: attach it to a World.
+class Timeline final : public Recorder {
 public:
     /// Locks the folder (two runs into one are refused) and makes the recorders `table` asks for.
     /// A folder that already holds a timeline is refused, unless `overwrite`: then that timeline's files are removed.
@@ -24,33 +25,33 @@ public:
     /// Goes on with the timeline in the folder where save() left it; frames that came behind are written over. After
     /// choose(), if that is called. Throws RunError if the files are not those of the checkpoint.
     Timeline(const std::filesystem::path& folder, Settings table, int last_step, const std::string& checkpoint);
-    ~Timeline();
+    ~Timeline() override;
 
     const std::filesystem::path& folder() const { return folder_; }
     /// Exactly these steps become frames, instead of those that the table's `first` and `every` choose.
     void choose(FrameSelection frames);
-    /// Frames come in the order of their steps, `is_last` being the end of the run. Recorders see those chosen; by
-    /// `first` and `every` the last one too, by `choose` only if it would be the only one.
-    /// The first frame chosen is on disk when this returns, so that a mistake in the table is told at once. What goes
-    /// wrong with a later one is thrown by the next call, of this or of another; nothing is recorded after it.
-    void record(const Frame& frame, bool is_last = false);
-    /// What all recorders take for a plant's sake at this step; see Recorder::memory.
-    RecordedMemory memory(int step, const ModuleString& string, const Interpretation& interpretation) const;
+    /// Frames come in the order of their steps. Recorders see those chosen; by `first` and `every` the run's last one
+    /// too, by `choose` only if it would be the only one.
+    /// The first frame chosen is on disk when this returns, so that a mistake in the table is reported at once. What
+    /// goes wrong with a later one is thrown by the next call, of this or of another; nothing is recorded after it.
+    void record(const Frame& frame) override;
+    /// The sum over its recorders.
+    RecordedMemory memory(int step, const ModuleString& string, const Interpretation& interpretation) const override;
     /// Frames that wait to be written take no more than so many bytes, or 256 MiB, from now on; one frame always may.
     void keep_at_most(std::size_t bytes);
     /// Returns when every frame recorded is on disk.
     void wait();
-    /// Waits; then what the frames to come depend on, as bytes.
-    std::string save();
+    /// Waits; then what the frames to come depend on.
+    void save(std::ostream& out) const override;
     /// Waits, then every recorder finishes, whatever becomes of the others; then the first failure is thrown.
-    void finish();
+    void finish() override;
 
     /// Writes run.json (complete or not at all). `json` is what the run says of itself.
     void write_run(const std::string& json) const;
 
 private:
     void make_recorders(Settings& table);
-    void restore(const std::string& checkpoint);
+    void restore(std::istream& in) override;
 
     std::filesystem::path folder_;
     FolderLock lock_;

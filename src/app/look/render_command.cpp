@@ -192,7 +192,7 @@ private:
         std::vector<std::string> colours = colours_of_every_run(), plants;
         for (const std::string& name : scene.timeline.table("parameters").keys()) colours.push_back(name);
         for (const std::string& name : fields) colours.insert(colours.end(), {name, "field." + name});
-        for (const PlantDescription& plant : scene.plants) plants.push_back(plant.name);
+        for (const Plant& plant : scene.plants) plants.push_back(plant.name);
         const bool has_all_fields = fields == std::vector<std::string>{"all"};
         for (const std::string& look : looks) {
             if (!has_all_fields)

@@ -1,0 +1,62 @@
+// One stage of a step for every plant of a world, in parallel.
+#pragma once
+
+#include "espalier/base/error.h"
+#include "espalier/base/read_log.h"
+
+#include "growing_plant.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <span>
+
+namespace espalier {
+
+/// What went wrong first, in the order of the plants, whichever thread failed first.
+class FirstFailure {
+public:
+    explicit FirstFailure(std::size_t plants) : plant_(plants) {}
+
+    void note(std::size_t plant, std::exception_ptr error) {
+        const std::lock_guard lock(mutex_);
+        if (plant >= plant_) return;
+        plant_ = plant;
+        error_ = std::move(error);
+    }
+    /// A plant that is not alone is named.
+    void throw_if_any(std::span<const GrowingPlant> plants) const {
+        if (!error_) return;
+        try {
+            std::rethrow_exception(error_);
+        } catch (const RunError& error) {
+            if (plants.size() == 1) throw;
+            throw RunError(fmt::format("plant '{}': {}", plants[plant_].description->name, error.what()));
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::size_t plant_;
+    std::exception_ptr error_;
+};
+
+/// `reads` notes the files that models read; may be null.
+template <class Stage>
+void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, const Stage& stage) {
+    FirstFailure failure(plants.size());
+    tbb::parallel_for(std::size_t{0}, plants.size(), [&](std::size_t i) {
+        const ReadLog::Scope scope(reads);
+        try {
+            stage(plants[i]);
+        } catch (...) {
+            failure.note(i, std::current_exception());
+        }
+    });
+    failure.throw_if_any(plants);
+}
+
+}  // namespace espalier

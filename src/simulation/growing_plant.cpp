@@ -1,0 +1,51 @@
+#include "growing_plant.h"
+
+#include <utility>
+
+namespace espalier {
+
+GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_ptr<const SymbolTable> symbols,
+                           const DerivationSettings& settings)
+    : number(plant), description(&from), derivation(from.model, settings), symbols_(std::move(symbols)) {
+    note_end();
+}
+
+void GrowingPlant::note_end() {
+    length = derivation.length();
+    stopped = derivation.stopped();
+}
+
+void GrowingPlant::set_length(int steps) {
+    derivation.set_length(steps);
+    note_end();
+}
+
+void GrowingPlant::write_axiom() {
+    derivation.start(string.for_writing());
+    note_end();
+}
+
+void GrowingPlant::derive() {
+    derivation.step(*string, previous_.for_writing());
+    std::swap(string, previous_);
+    note_end();
+}
+
+void GrowingPlant::interpret() {
+    Interpretation& result = interpretation.for_writing();
+    const Derivation* pictures = derivation.has_homomorphism() ? &derivation : nullptr;
+    espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number}, result);
+    asks_ = result.asks();
+}
+
+PlantFrame GrowingPlant::frame(std::vector<Quantity> quantities) const {
+    return {number,
+            description->name,
+            &model(),
+            string.share(),
+            interpretation.share(),
+            std::move(quantities),
+            description->palette.get()};
+}
+
+}  // namespace espalier

@@ -1,0 +1,57 @@
+#include "plant_memory.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace espalier {
+
+void PlantMemory::set_strings(const ModuleString& before, const ModuleString& now, std::size_t working) {
+    // New columns have an eighth more room than they need: of large ones it stays untouched.
+    constexpr std::size_t large = 8192;
+    const std::size_t content = before.content() + now.content();
+    const std::size_t room = std::min(before.size(), now.size()) <= large ? content / 8 : 0;
+    strings = content + room + working;
+}
+
+void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plants) {
+    // Memory that grows by doubling.
+    const auto held = [](const auto& column) {
+        return column.empty() ? 0 : std::bit_ceil(column.size()) * sizeof(column[0]);
+    };
+    // Of large plants these are counted before they are written.
+    constexpr std::size_t large = 8192;
+    const auto written = [&](const auto& column) {
+        return column.size() < large ? held(column) : column.size() * sizeof(column[0]);
+    };
+    const PlantGeometry& geometry = interpretation.geometry;
+    const DrawnMesh& mesh = geometry.mesh;
+    const std::size_t query = sizeof(Answer) + 2 * sizeof(double) + (many_plants ? sizeof(Query) : 0);
+    drawn = written(geometry.internodes) + written(interpretation.queries) + written(interpretation.answers) +
+            held(interpretation.directions) + held(geometry.polygons) + held(geometry.vertices) +
+            held(geometry.organs) + held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) +
+            held(geometry.labels) + held(geometry.textures) + interpretation.queries.size() * query;
+}
+
+void PlantMemory::set_recorded(const RecordedMemory& now, std::size_t before) {
+    drawn_before = before;
+    recorded = {now.frame, recorded.kept + now.kept, recorded.finish + now.finish};
+}
+
+void PlantMemory::add(const PlantMemory& plant) {
+    strings += plant.strings;
+    drawn += plant.drawn;
+    drawn_before += plant.drawn_before;
+    recorded += plant.recorded;
+}
+
+PlantMemory PlantMemory::grown(double factor, bool is_recorded) const {
+    const auto times = [&](std::size_t bytes) { return static_cast<std::size_t>(static_cast<double>(bytes) * factor); };
+    return {strings, times(drawn), is_recorded ? drawn : 0,
+            RecordedMemory{times(recorded.frame), times(recorded.kept), times(recorded.finish)}};
+}
+
+std::size_t PlantMemory::total() const {
+    return strings + drawn + drawn_before + recorded.kept + std::max(recorded.frame, recorded.finish);
+}
+
+}  // namespace espalier
