@@ -2,11 +2,13 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/base/prefetch.h"
 #include "espalier/base/read_log.h"
 
 #include "growing_plant.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <cstddef>
@@ -44,16 +46,27 @@ private:
     std::exception_ptr error_;
 };
 
+/// Hints that the stage will soon come to the plants after this one. Many small plants take half the time with them:
+/// without, each would wait for its lines of memory one by one.
+inline void prefetch_ahead(std::span<const GrowingPlant> plants) {
+    if (plants.size() > 6) prefetch(&plants[6], sizeof(GrowingPlant));
+    if (plants.size() > 4) plants[4].prefetch_values();
+    if (plants.size() > 2) plants[2].prefetch_columns();
+}
+
 /// `reads` notes the files that models read; may be null.
 template <class Stage>
 void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, const Stage& stage) {
     FirstFailure failure(plants.size());
-    tbb::parallel_for(std::size_t{0}, plants.size(), [&](std::size_t i) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plants.size()), [&](const auto& range) {
         const ReadLog::Scope scope(reads);
-        try {
-            stage(plants[i]);
-        } catch (...) {
-            failure.note(i, std::current_exception());
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            prefetch_ahead(plants.subspan(i, range.end() - i));
+            try {
+                stage(plants[i]);
+            } catch (...) {
+                failure.note(i, std::current_exception());
+            }
         }
     });
     failure.throw_if_any(plants);

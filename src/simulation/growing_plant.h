@@ -30,6 +30,10 @@ public:
     /// After its derivation was restored from a checkpoint.
     void note_end();
 
+    // Hints that a stage will soon come to this plant; the first some time before the second.
+    void prefetch_values() const;
+    void prefetch_columns() const;
+
     const Model& model() const { return source_of(*description->model); }
     const ModuleString& modules_before() const { return *previous_; }
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_}; }

@@ -179,6 +179,6 @@ TEST_CASE("plants of a program are individuals by their place in the scene, unle
 
 TEST_CASE("a mistake in a program's process names the process", "[simulation]") {
     Scene scene = made_by_program();
-    scene.environment.add("water", "soil-water", {{"voxle", 0.25}});
-    CHECK_THROWS_WITH(World(scene), Contains("environment.water: ") && Contains("voxle"));
+    scene.environment.add("shadow", "voxel-shade", {{"voxle", 0.25}});
+    CHECK_THROWS_WITH(World(scene), Contains("environment.shadow: ") && Contains("voxle"));
 }
