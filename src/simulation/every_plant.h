@@ -46,24 +46,29 @@ private:
     std::exception_ptr error_;
 };
 
+using PrefetchPlant = void (GrowingPlant::*)() const;
+
 /// Hints that the stage will soon come to the plants after this one. Many small plants take half the time with them:
 /// without, each would wait for its lines of memory one by one.
-inline void prefetch_ahead(std::span<const GrowingPlant> plants) {
+inline void prefetch_ahead(std::span<const GrowingPlant> plants, PrefetchPlant prefetch_columns) {
     if (plants.size() > 6) prefetch(&plants[6], sizeof(GrowingPlant));
     if (plants.size() > 4) plants[4].prefetch_values();
-    if (plants.size() > 2) plants[2].prefetch_columns();
+    if (plants.size() > 2) (plants[2].*prefetch_columns)();
 }
 
-/// `reads` notes the files that models read; may be null.
+/// A stage gets a string, too, whose memory the plants of a thread pass on to each other. `reads` notes the files that
+/// models read; may be null.
 template <class Stage>
-void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, const Stage& stage) {
+void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, PrefetchPlant prefetch_columns,
+                     const Stage& stage) {
     FirstFailure failure(plants.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plants.size()), [&](const auto& range) {
         const ReadLog::Scope scope(reads);
+        ModuleString spare;
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            prefetch_ahead(plants.subspan(i, range.end() - i));
+            prefetch_ahead(plants.subspan(i, range.end() - i), prefetch_columns);
             try {
-                stage(plants[i]);
+                stage(plants[i], spare);
             } catch (...) {
                 failure.note(i, std::current_exception());
             }

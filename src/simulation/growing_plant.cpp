@@ -19,54 +19,76 @@ void prefetch_column(const Column& column) {
 
 GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_ptr<const SymbolTable> symbols,
                            const DerivationSettings& settings)
-    : number(plant), description(&from), derivation(from.model, settings), symbols_(std::move(symbols)) {
-    note_end();
+    : number(plant),
+      description(&from),
+      derivation(from.model, settings),
+      model_(&source_of(*from.model)),
+      symbols_(std::move(symbols)),
+      has_pictures_(derivation.has_homomorphism()) {
+    note_derived();
 }
 
-void GrowingPlant::note_end() {
+void GrowingPlant::note_derived() {
+    modules = string->size();
     length = derivation.length();
     stopped = derivation.stopped();
 }
 
 void GrowingPlant::set_length(int steps) {
     derivation.set_length(steps);
-    note_end();
+    note_derived();
 }
 
-void GrowingPlant::write_axiom() {
-    derivation.start(string.for_writing());
-    note_end();
+void GrowingPlant::write_axiom(ModuleString* spare) {
+    rewrite([&](const ModuleString&, ModuleString& to) { derivation.start(to); }, spare);
 }
 
-void GrowingPlant::derive() {
-    derivation.step(*string, previous_.for_writing());
-    std::swap(string, previous_);
-    note_end();
+void GrowingPlant::derive(ModuleString* spare) {
+    rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
+}
+
+template <class Rewrite>
+void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
+    modules_before = modules;
+    if (spare && modules <= PlantMemory::most_of_small && !string.is_shared()) {
+        // What a large plant left is too much for a small one.
+        if (spare->letters.capacity() > 64 + 4 * modules) *spare = {};
+        if (std::exchange(keeps_previous_, false)) previous_ = {};
+        rewrite(*string, *spare);
+        std::swap(*string, *spare);
+    } else {
+        rewrite(*string, previous_.for_writing());
+        std::swap(string, previous_);
+        keeps_previous_ = true;
+    }
+    note_derived();
 }
 
 void GrowingPlant::interpret() {
     Interpretation& result = interpretation.for_writing();
-    const Derivation* pictures = derivation.has_homomorphism() ? &derivation : nullptr;
+    const Derivation* pictures = has_pictures_ ? &derivation : nullptr;
     espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number}, result);
     asks_ = result.asks();
 }
 
 void GrowingPlant::prefetch_values() const {
     prefetch(&*string, sizeof(ModuleString));
-    prefetch(&*previous_, sizeof(ModuleString));
     prefetch(&*interpretation, sizeof(Interpretation));
     prefetch(description, sizeof(Plant));
 }
 
-void GrowingPlant::prefetch_columns() const {
+void GrowingPlant::prefetch_for_derivation() const {
     derivation.prefetch();
-    for (const ModuleString* modules : {&*string, &*previous_}) {
-        prefetch_column(modules->letters);
-        prefetch_column(modules->parameters);
-        prefetch_column(modules->identities);
-        prefetch_column(modules->parents);
-        prefetch_column(modules->births);
-    }
+    prefetch_column(string->letters);
+    prefetch_column(string->parameters);
+    prefetch_column(string->identities);
+    prefetch_column(string->parents);
+    prefetch_column(string->births);
+}
+
+void GrowingPlant::prefetch_for_interpretation() const {
+    prefetch_column(string->letters);
+    prefetch_column(string->parameters);
     prefetch_column(interpretation->geometry.internodes);
 }
 

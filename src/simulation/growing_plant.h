@@ -23,26 +23,31 @@ public:
     GrowingPlant(std::uint32_t number, const Plant& description, std::shared_ptr<const SymbolTable> symbols,
                  const DerivationSettings& settings);
 
-    void write_axiom();
-    void derive();
+    // These write the next string in `spare`, which gets the memory of the old one, if the plant is small and no frame
+    // reads its string; else, or if `spare` is null, in memory of the plant's own.
+    void write_axiom(ModuleString* spare);
+    void derive(ModuleString* spare);
     void interpret();
     void set_length(int steps);
-    /// After its derivation was restored from a checkpoint.
-    void note_end();
+    /// After its string and its derivation were restored from a checkpoint.
+    void note_derived();
 
-    // Hints that a stage will soon come to this plant; the first some time before the second.
+    // Hints that a stage will soon come to this plant: of its values first, then of the columns in them.
     void prefetch_values() const;
-    void prefetch_columns() const;
+    void prefetch_for_derivation() const;
+    void prefetch_for_interpretation() const;
 
-    const Model& model() const { return source_of(*description->model); }
-    const ModuleString& modules_before() const { return *previous_; }
+    const Model& model() const { return *model_; }
+    /// The string of the step before; null if its memory was passed on.
+    const ModuleString* string_before() const { return keeps_previous_ ? &*previous_ : nullptr; }
     PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_}; }
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
     std::uint32_t number;
     const Plant* description;
     Derivation derivation;
-    // As derivation leaves them: asking it again would cost a step of many small plants more.
+    // As derivation leaves them: to look them up elsewhere would cost much of a small plant's step.
+    std::size_t modules = 0, modules_before = 0;
     int length = 0;
     bool stopped = false;
     Reusable<ModuleString> string;
@@ -50,8 +55,14 @@ public:
     PlantMemory memory;
 
 private:
+    template <class Rewrite>
+    void rewrite(const Rewrite& rewrite, ModuleString* spare);
+
+    const Model* model_;
     std::shared_ptr<const SymbolTable> symbols_;
     Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory
+    bool keeps_previous_ = false;
+    bool has_pictures_;
     bool asks_ = false;
 };
 

@@ -47,7 +47,8 @@ void MemoryBudget::limit_strings(GrowingPlant& plant) const {
 
 void MemoryBudget::count_strings(GrowingPlant& plant) {
     const std::size_t before = plant.memory.strings;
-    plant.memory.set_strings(plant.modules_before(), *plant.string, plant.derivation.working_memory(*plant.string));
+    plant.memory.set_strings(plant.string_before(), plant.modules_before, *plant.string,
+                             plant.derivation.working_memory(*plant.string));
     if (plant.memory.strings != before) strings_ += plant.memory.strings - before;
 }
 
@@ -82,7 +83,7 @@ void MemoryBudget::sum(std::span<const GrowingPlant> plants) {
     modules_ = 0;
     for (const GrowingPlant& plant : plants) {
         held_.add(plant.memory);
-        modules_ += plant.string->size();
+        modules_ += plant.modules;
     }
     strings_ = held_.strings;
     besides_ = held_.total() - held_.strings;
@@ -91,29 +92,33 @@ void MemoryBudget::sum(std::span<const GrowingPlant> plants) {
 // Which plants were rewritten when the others were given up depends on the threads: the message is about the strings
 // before.
 void MemoryBudget::refuse_strings(std::span<const GrowingPlant> plants, int step, std::size_t modules) const {
-    const auto before = [&](const GrowingPlant& plant) -> const ModuleString& {
-        return plant.derivation.steps_done() == step ? plant.modules_before() : *plant.string;
+    const auto is_done = [&](const GrowingPlant& plant) { return plant.derivation.steps_done() == step; };
+    const auto before = [&](const GrowingPlant& plant) {
+        return is_done(plant) ? plant.modules_before : plant.modules;
     };
-    const GrowingPlant& largest = *std::max_element(
-        plants.begin(), plants.end(),
-        [&](const GrowingPlant& a, const GrowingPlant& b) { return before(a).size() < before(b).size(); });
+    const GrowingPlant& largest =
+        *std::max_element(plants.begin(), plants.end(),
+                          [&](const GrowingPlant& a, const GrowingPlant& b) { return before(a) < before(b); });
+    // Of a string whose memory may have been passed on, the commonest module is not known.
+    const bool is_kept = step > 0 && (!is_plentiful() || before(largest) > PlantMemory::most_of_small);
+    const ModuleString* string = is_done(largest) ? largest.string_before() : &*largest.string;
     throw RunError(
         fmt::format("step {}: {} modules grow beyond the {} MiB that --memory leaves for plants; the largest was '{}' "
                     "with {} modules{}",
-                    step, modules, bytes_ >> 20, largest.description->name, before(largest).size(),
-                    commonest_module(largest.model(), before(largest))));
+                    step, modules, bytes_ >> 20, largest.description->name, before(largest),
+                    is_kept && string ? commonest_module(largest.model(), *string) : ""));
 }
 
 void MemoryBudget::require(const PlantMemory& needed, std::span<const GrowingPlant> plants, int step) const {
     if (needed.total() <= bytes_) return;
-    const GrowingPlant& largest = *std::max_element(
-        plants.begin(), plants.end(),
-        [](const GrowingPlant& a, const GrowingPlant& b) { return a.string->size() < b.string->size(); });
+    const GrowingPlant& largest =
+        *std::max_element(plants.begin(), plants.end(),
+                          [](const GrowingPlant& a, const GrowingPlant& b) { return a.modules < b.modules; });
     throw RunError(
         fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
                     "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
-                    step, modules_, needed.total() >> 20, bytes_ >> 20, largest.description->name,
-                    largest.string->size(), commonest_module(largest.model(), *largest.string)));
+                    step, modules_, needed.total() >> 20, bytes_ >> 20, largest.description->name, largest.modules,
+                    commonest_module(largest.model(), *largest.string)));
 }
 
 }  // namespace espalier

@@ -32,6 +32,8 @@ public:
 
     // Around derivation. Strings never give memory back: as soon as some take too much, the others need not be made.
     bool has_room() const { return strings_ + besides_ <= bytes_; }
+    /// So plentiful is memory that the strings of the step before need not be kept for a message about their growth.
+    bool is_plentiful() const { return held_.total() <= bytes_ / 16; }
     void limit_strings(GrowingPlant& plant) const;
     void count_strings(GrowingPlant& plant);
     void check_strings(std::span<const GrowingPlant> plants, int step);

@@ -5,12 +5,13 @@
 
 namespace espalier {
 
-void PlantMemory::set_strings(const ModuleString& before, const ModuleString& now, std::size_t working) {
-    // New columns have an eighth more room than they need: of large ones it stays untouched.
-    constexpr std::size_t large = 8192;
-    const std::size_t content = before.content() + now.content();
-    const std::size_t room = std::min(before.size(), now.size()) <= large ? content / 8 : 0;
-    strings = content + room + working;
+// Of small strings always as if there were two that fit: when memory gets scarce there will be.
+void PlantMemory::set_strings(const ModuleString* before, std::size_t modules_before, const ModuleString& now,
+                              std::size_t working) {
+    const bool is_small = !before || modules_before <= most_of_small || now.size() <= most_of_small;
+    const std::size_t content = now.content() + (is_small ? now.content() : before->content());
+    // New columns have an eighth more room than they need: much memory at once stays untouched, little does not.
+    strings = content + (is_small ? content / 8 : 0) + working;
 }
 
 void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plants) {

@@ -17,10 +17,11 @@ public:
     T* operator->() { return now_.get(); }
     const T* operator->() const { return now_.get(); }
     std::shared_ptr<const T> share() const { return now_; }
+    bool is_shared() const { return now_.use_count() > 1; }
 
     /// A value that no frame reads, its content left over from an earlier step.
     T& for_writing() {
-        if (now_.use_count() > 1) set_aside();
+        if (is_shared()) set_aside();
         return *now_;
     }
 

@@ -63,8 +63,7 @@ struct World::State {
     void set_lengths();
     DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
     double time() const { return step * scene.dt; }
-    template <class Rewrite>
-    void rewrite(const Rewrite& rewrite);
+    void rewrite(void (GrowingPlant::*rewrite)(ModuleString*));
     void note_ends();
 
     Scene scene;
@@ -96,23 +95,24 @@ void World::step() {
 }
 
 void World::write_axioms() {
-    state_->rewrite([](GrowingPlant& plant) { plant.write_axiom(); });
+    state_->rewrite(&GrowingPlant::write_axiom);
 }
 
 void World::derive() {
     ++state_->step;
-    state_->rewrite([](GrowingPlant& plant) { plant.derive(); });
+    state_->rewrite(&GrowingPlant::derive);
 }
 
-template <class Rewrite>
-void World::State::rewrite(const Rewrite& rewrite) {
+void World::State::rewrite(void (GrowingPlant::*rewrite)(ModuleString*)) {
     const Stopwatch stopwatch(times.derive);
-    for_every_plant(plants, reads, [&](GrowingPlant& plant) {
-        if (!memory.has_room()) return;
-        memory.limit_strings(plant);
-        rewrite(plant);
-        memory.count_strings(plant);
-    });
+    const bool is_plentiful = memory.is_plentiful();
+    for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
+                    [&](GrowingPlant& plant, ModuleString& spare) {
+                        if (!memory.has_room()) return;
+                        memory.limit_strings(plant);
+                        (plant.*rewrite)(is_plentiful ? &spare : nullptr);
+                        memory.count_strings(plant);
+                    });
     memory.check_strings(plants, step);
     note_ends();
 }
@@ -128,10 +128,11 @@ void World::State::note_ends() {
 
 void World::interpret() {
     const Stopwatch stopwatch(state_->times.interpret);
-    for_every_plant(state_->plants, state_->reads, [&](GrowingPlant& plant) {
-        plant.interpret();
-        state_->memory.count_drawn(plant, state_->step, size() > 1);
-    });
+    for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
+                    [&](GrowingPlant& plant, ModuleString&) {
+                        plant.interpret();
+                        state_->memory.count_drawn(plant, state_->step, size() > 1);
+                    });
     state_->memory.check_drawn(state_->plants, state_->step);
 }
 
@@ -257,8 +258,8 @@ void World::restore(std::istream& in) {
     if (get<std::uint64_t>(in) != size()) throw RunError("the checkpoint is of another scene");
     for (GrowingPlant& plant : state_->plants) {
         plant.derivation.restore(in);
-        plant.note_end();
         restore_string(*plant.string, state_->memory.bytes(), in);
+        plant.note_derived();
         plant.memory = get<PlantMemory>(in);
     }
     state_->environment->restore(in);
