@@ -1,8 +1,7 @@
 #include "timeline/plant_mesh.h"
 
 #include "espalier/base/error.h"
-
-#include "timeline/polygon_triangles.h"
+#include "espalier/geometry/polygon_triangles.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-#include "timeline/polygon_triangles.h"
+#include "espalier/geometry/polygon_triangles.h"
 
 #include <glm/geometric.hpp>
 #include <vtkIdList.h>
