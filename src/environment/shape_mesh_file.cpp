@@ -2,64 +2,22 @@
 
 #include "espalier/base/file.h"
 #include "espalier/base/picture_bytes.h"
+#include "espalier/geometry/polygon_triangles.h"
 
 #include "shape_mesh_formats.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <vtkCellArray.h>
-#include <vtkCleanPolyData.h>
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkImageReader2.h>
-#include <vtkImageReader2Factory.h>
-#include <vtkLogger.h>
-#include <vtkNew.h>
-#include <vtkOutputWindow.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkTriangleFilter.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <unistd.h>
+#include <unordered_map>
 
 namespace espalier {
 namespace {
-
-/// VTK reports faults to a window and goes on. While this lives it reports here, and nothing is printed.
-class VtkReports {
-public:
-    VtkReports() : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
-        vtkOutputWindow::SetInstance(listener_);
-        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-    }
-    ~VtkReports() {
-        vtkLogger::SetStderrVerbosity(verbosity_);
-        vtkOutputWindow::SetInstance(before_);
-    }
-    VtkReports(const VtkReports&) = delete;
-    VtkReports& operator=(const VtkReports&) = delete;
-
-    bool any() const { return listener_->heard; }
-
-private:
-    class Listener : public vtkOutputWindow {
-    public:
-        static Listener* New() { return new Listener; }
-        void DisplayText(const char*) override { heard = true; }
-        void DisplayErrorText(const char*) override { heard = true; }
-        void DisplayWarningText(const char*) override { heard = true; }
-        void DisplayGenericWarningText(const char*) override { heard = true; }
-        bool heard = false;
-    };
-
-    vtkSmartPointer<vtkOutputWindow> before_;
-    vtkNew<Listener> listener_;
-    vtkLogger::Verbosity verbosity_;
-};
 
 std::string lower_case_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
@@ -118,52 +76,51 @@ void require_sound(const PolygonMesh& mesh, const std::filesystem::path& file, c
     }
 }
 
-vtkSmartPointer<vtkPolyData> to_vtk(const PolygonMesh& mesh) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const glm::dvec3& point : mesh.points) points->InsertNextPoint(point.x, point.y, point.z);
-    vtkNew<vtkCellArray> polygons;
-    std::vector<vtkIdType> corners;
-    std::size_t begin = 0;
-    for (std::size_t end : mesh.ends) {
-        corners.assign(mesh.corners.begin() + static_cast<std::ptrdiff_t>(begin),
-                       mesh.corners.begin() + static_cast<std::ptrdiff_t>(end));
-        if (corners.size() >= 3) polygons->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
-        begin = end;
+/// Numbers points in the order they first come in; those that coincide have one number.
+class PointNumbers {
+public:
+    std::uint32_t number(const glm::dvec3& point) {
+        const auto [at, is_new] = numbers_.try_emplace(point, static_cast<std::uint32_t>(points_.size()));
+        if (is_new) points_.push_back(point);
+        return at->second;
     }
-    vtkSmartPointer<vtkPolyData> surface = vtkSmartPointer<vtkPolyData>::New();
-    surface->SetPoints(points);
-    surface->SetPolys(polygons);
-    return surface;
-}
+    std::vector<glm::dvec3> points() && { return std::move(points_); }
 
-/// Triangles between points that are merged where they coincide: STL and OBJ repeat them.
-TriangleMesh triangulated(vtkPolyData& surface) {
-    const VtkReports reports;  // of degenerate polygons, which simply vanish
-    vtkNew<vtkTriangleFilter> triangles;
-    triangles->SetInputData(&surface);
-    triangles->PassVertsOff();
-    triangles->PassLinesOff();
-    vtkNew<vtkCleanPolyData> merged;
-    merged->SetInputConnection(triangles->GetOutputPort());
-    merged->SetTolerance(0);
-    merged->ConvertPolysToLinesOff();
-    merged->ConvertLinesToPointsOff();
-    merged->Update();
-    vtkPolyData* result = merged->GetOutput();
+private:
+    struct Hash {
+        std::size_t operator()(const glm::dvec3& point) const {
+            std::size_t hash = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto bits = std::bit_cast<std::uint64_t>(point[axis] + 0.0);  // -0 is 0
+                hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
+                hash ^= hash >> 32;
+            }
+            return hash;
+        }
+    };
+
+    std::unordered_map<glm::dvec3, std::uint32_t, Hash> numbers_;
+    std::vector<glm::dvec3> points_;
+};
+
+/// Triangles between points that are merged where they coincide: STL and OBJ repeat them. Degenerate ones are left out.
+TriangleMesh triangulated(const PolygonMesh& polygons) {
     TriangleMesh mesh;
-    for (vtkIdType i = 0; i < result->GetNumberOfPoints(); ++i) {
-        const double* point = result->GetPoint(i);
-        mesh.points.push_back({point[0], point[1], point[2]});
+    PointNumbers numbers;
+    std::vector<glm::dvec3> corners;
+    std::size_t begin = 0;
+    for (const std::size_t end : polygons.ends) {
+        corners.clear();
+        for (; begin < end; ++begin)
+            corners.push_back(polygons.points[static_cast<std::size_t>(polygons.corners[begin])]);
+        const std::vector<std::uint32_t> cut = cut_ears(corners).triangles;
+        for (std::size_t i = 0; i < cut.size(); i += 3) {
+            const std::uint32_t a = numbers.number(corners[cut[i]]), b = numbers.number(corners[cut[i + 1]]),
+                                c = numbers.number(corners[cut[i + 2]]);
+            if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
+        }
     }
-    const vtkNew<vtkIdList> corners;
-    for (vtkIdType i = 0; i < result->GetNumberOfPolys(); ++i) {
-        result->GetPolys()->GetCellAtId(i, corners);
-        if (corners->GetNumberOfIds() != 3) continue;
-        const auto corner = [&](int k) { return static_cast<std::uint32_t>(corners->GetId(k)); };
-        if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) continue;
-        mesh.triangles.push_back({corner(0), corner(1), corner(2)});
-    }
+    mesh.points = std::move(numbers).points();
     return mesh;
 }
 
@@ -206,7 +163,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& plac
     require_file(file, place);
     const PolygonMesh polygons = read_polygons(file, place);
     require_sound(polygons, file, place);
-    TriangleMesh mesh = triangulated(*to_vtk(polygons));
+    TriangleMesh mesh = triangulated(polygons);
     if (mesh.triangles.empty()) throw UserError(place, fmt::format("{} has no triangle with an area", file.string()));
     if (const std::size_t open = open_edges(mesh)) {
         throw UserError(place, fmt::format("{} is not closed: {} of its edges {} open, so it has no inside",
@@ -218,9 +175,7 @@ TriangleMesh read_mesh_file(const std::filesystem::path& file, const Place& plac
 
 namespace {
 
-// Not by VTK's reader, which libpng's complaints crash.
-HeightImage read_height_png(const PictureBytes& bytes) {
-    const PngPicture picture = read_png(bytes);
+HeightImage heights_of(const PngPicture& picture) {
     HeightImage image{picture.width, {}};
     for (std::size_t y = 0; y < picture.height; ++y) {
         for (std::size_t x = 0; x < picture.width; ++x) {
@@ -232,37 +187,29 @@ HeightImage read_height_png(const PictureBytes& bytes) {
     return image;
 }
 
+HeightImage heights_of(const Picture& picture) {
+    HeightImage image{picture.width, {}};
+    for (std::size_t row = picture.height; row-- > 0;) {
+        for (std::size_t column = 0; column < picture.width; ++column) {
+            const auto& [red, green, blue] = picture.pixels[row * picture.width + column];
+            image.brightness.push_back((red + green + blue) / (3.0 * 255));
+        }
+    }
+    return image;
+}
+
 }  // namespace
 
 HeightImage read_height_image(const std::filesystem::path& file, const Place& place) {
     require_file(file, place);
+    const std::string extension = lower_case_extension(file);
     const PictureBytes bytes(file);
-    if (file.extension() == ".png" || bytes.begins_with("\x89PNG")) return read_height_png(bytes);
-    const VtkReports silence;  // of readers that are asked in turn whether they know this file
-    const vtkSmartPointer<vtkImageReader2> reader =
-        vtkSmartPointer<vtkImageReader2>::Take(vtkImageReader2Factory::CreateImageReader2(file.c_str()));
-    if (!reader) throw UserError(place, fmt::format("{} is no image that can be read", file.string()));
-    const VtkReports reports;
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    vtkDataArray* values = reader->GetOutput()->GetPointData()->GetScalars();
-    if (reports.any() || !values || values->GetNumberOfTuples() == 0) {
-        throw UserError(place, fmt::format("{} is not a whole image", file.string()));
-    }
-    int size[3];
-    reader->GetOutput()->GetDimensions(size);
-    const bool real = values->GetDataType() == VTK_FLOAT || values->GetDataType() == VTK_DOUBLE;
-    const double white = real ? 1 : values->GetDataTypeMax();
-    const int colours = std::min(values->GetNumberOfComponents(), 3);
-    HeightImage image{static_cast<std::size_t>(size[0]), {}};
-    for (int row = size[1] - 1; row >= 0; --row) {  // VTK's first row is the picture's last
-        for (int column = 0; column < size[0]; ++column) {
-            double sum = 0;
-            for (int k = 0; k < colours; ++k) sum += values->GetComponent(vtkIdType{row} * size[0] + column, k);
-            image.brightness.push_back(sum / (colours * white));
-        }
-    }
-    return image;
+    if (extension == ".png" || bytes.begins_with("\x89PNG")) return heights_of(read_png(bytes));  // with all 16 bits
+    if (extension == ".rgb" || extension == ".tga") return heights_of(read_picture(file));
+    throw UserError(place,
+                    fmt::format("{} is no picture of heights that can be read: its name must end in .png, .rgb or "
+                                ".tga",
+                                file.string()));
 }
 
 }  // namespace espalier

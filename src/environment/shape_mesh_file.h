@@ -18,7 +18,7 @@ struct HeightImage {
     std::vector<double> brightness;  ///< 0 black to 1 white, row after row from the top of the picture
 };
 
-/// Throws UserError if the file is no image that VTK knows (PNG, TIFF, JPEG, BMP, PNM).
+/// A PNG of 8 or 16 bits a channel, or an SGI (.rgb) or Targa (.tga) picture. Throws UserError if the file is none.
 HeightImage read_height_image(const std::filesystem::path& file, const Place& place);
 
 }  // namespace espalier

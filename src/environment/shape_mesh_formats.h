@@ -1,5 +1,4 @@
-// OBJ, STL and PLY as polygons. Readers of our own, because VTK 9.1's end the program on some files that are cut short
-// or not what they say.
+// OBJ, STL and PLY as polygons.
 #pragma once
 
 #include <glm/vec3.hpp>

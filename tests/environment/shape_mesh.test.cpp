@@ -2,65 +2,24 @@
 #include "espalier/environment/shape.h"
 
 #include "catch.h"
+#include "mesh_files.h"
+#include "picture_bytes.h"
 #include "shape_tables.h"
+#include "temporary_folder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <vtkCubeSource.h>
-#include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkOBJWriter.h>
-#include <vtkPLYWriter.h>
-#include <vtkPNGWriter.h>
-#include <vtkPolyData.h>
-#include <vtkSTLWriter.h>
-#include <vtkSphereSource.h>
-#include <vtkTriangleFilter.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <unistd.h>
 
 using namespace espalier;
 using Catch::Matchers::Contains;
 
 namespace {
-
-/// A folder that goes away with the test.
-class TemporaryFolder {
-public:
-    TemporaryFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("espalier-shapes-{}", getpid())) {
-        std::filesystem::create_directories(path_);
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
-
-template <class Writer>
-std::filesystem::path write(const std::filesystem::path& file, vtkAlgorithmOutput* surface) {
-    vtkNew<vtkTriangleFilter> triangles;
-    triangles->SetInputConnection(surface);
-    vtkNew<Writer> writer;
-    writer->SetInputConnection(triangles->GetOutputPort());
-    writer->SetFileName(file.c_str());
-    REQUIRE(writer->Write() == 1);
-    return file;
-}
-
-vtkSmartPointer<vtkSphereSource> unit_sphere(int resolution) {
-    auto sphere = vtkSmartPointer<vtkSphereSource>::New();
-    sphere->SetRadius(1);
-    sphere->SetThetaResolution(resolution);
-    sphere->SetPhiResolution(resolution);
-    return sphere;
-}
 
 std::string mesh_table(const std::filesystem::path& file, double voxel) {
     return fmt::format("shape = 'mesh'\nfile = '{}'\nvoxel = {}", file.string(), voxel);
@@ -81,7 +40,7 @@ const char* const tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 
 
 TEST_CASE("a sphere mesh is a sphere to within half a voxel, near and far", "[shape]") {
     const TemporaryFolder folder;
-    const auto file = write<vtkPLYWriter>(folder / "sphere.ply", unit_sphere(80)->GetOutputPort());
+    const auto file = folder.write("sphere.ply", binary_ply(unit_sphere(80)));
     const double voxel = 0.05;
     const auto mesh = shape_of(mesh_table(file, voxel));
     double largest = 0;
@@ -100,13 +59,12 @@ TEST_CASE("a sphere mesh is a sphere to within half a voxel, near and far", "[sh
 
 TEST_CASE("a box mesh is the box to within half a voxel, from OBJ, STL and PLY alike", "[shape]") {
     const TemporaryFolder folder;
-    vtkNew<vtkCubeSource> cube;
-    cube->SetBounds(-1, 0.5, -0.5, 1.5, -2, 1);
+    const TestMesh cube = box_of_squares({-1, -0.5, -2}, {0.5, 1.5, 1});
     const double voxel = 0.1;
     const auto exact = shape_of("shape = 'box'\nlower = [-1, -0.5, -2]\nupper = [0.5, 1.5, 1]");
-    const std::filesystem::path files[] = {write<vtkPLYWriter>(folder / "box.ply", cube->GetOutputPort()),
-                                           write<vtkSTLWriter>(folder / "box.STL", cube->GetOutputPort()),
-                                           write<vtkOBJWriter>(folder / "box.obj", cube->GetOutputPort())};
+    const std::filesystem::path files[] = {
+        folder.write("box.ply", binary_ply(triangulated(cube))), folder.write("box.STL", text_stl(cube)),
+        folder.write("box.obj", text_obj(triangulated(cube))), folder.write("squares.obj", text_obj(cube))};
     for (const auto& file : files) {
         INFO(file);
         const auto mesh = shape_of(mesh_table(file, voxel));
@@ -120,7 +78,7 @@ TEST_CASE("a box mesh is the box to within half a voxel, from OBJ, STL and PLY a
 
 TEST_CASE("a level set too large for a dense copy reads the same", "[shape]") {
     const TemporaryFolder folder;
-    const auto file = write<vtkPLYWriter>(folder / "sphere.ply", unit_sphere(100)->GetOutputPort());
+    const auto file = folder.write("sphere.ply", binary_ply(unit_sphere(100)));
     const auto mesh = shape_of(mesh_table(file, 0.0076));  // 263 voxels across
     for (const glm::dvec3& point : random_points(5000, 1.2)) {
         REQUIRE(std::abs(mesh->distance(point) - (glm::length(point) - 1)) < 0.0038);
@@ -129,7 +87,7 @@ TEST_CASE("a level set too large for a dense copy reads the same", "[shape]") {
 
 TEST_CASE("mesh distances are the same bits with one thread and with many", "[shape]") {
     const TemporaryFolder folder;
-    const auto file = write<vtkPLYWriter>(folder / "sphere.ply", unit_sphere(40)->GetOutputPort());
+    const auto file = folder.write("sphere.ply", binary_ply(unit_sphere(40)));
     const std::vector<glm::dvec3> points = random_points(20000, 1.5);
     const auto distances = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -144,12 +102,12 @@ TEST_CASE("mesh distances are the same bits with one thread and with many", "[sh
 TEST_CASE("a bad mesh is refused with its name and what is wrong", "[shape]") {
     const TemporaryFolder folder;
     const auto file = [&](const char* name, const std::string& text) {
-        write_text(folder / name, text);
-        return folder / name;
+        write_text(folder.path() / name, text);
+        return folder.path() / name;
     };
-    CHECK_THAT(message_of(folder / "none.ply"),
+    CHECK_THAT(message_of(folder.path() / "none.ply"),
                Contains("test.toml:2") && Contains("there is no file") && Contains("none.ply"));
-    CHECK_THAT(message_of(folder / ""), Contains("cannot be read"));
+    CHECK_THAT(message_of(folder.path()), Contains("cannot be read"));
     CHECK_THAT(message_of(file("text.ply", "Dear reader,\nno mesh here.\n")),
                Contains("text.ply") && Contains("not a whole"));
     CHECK_THAT(message_of(file("text.obj", "Dear reader,\nno mesh here.\n")), Contains("text.obj"));
@@ -165,10 +123,11 @@ TEST_CASE("a bad mesh is refused with its name and what is wrong", "[shape]") {
     CHECK_THAT(message_of(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), Contains("index.obj"));
     CHECK_THAT(message_of(file("zero_index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n")), Contains("zero_index.obj"));
     CHECK_THAT(message_of(file("good.obj", tetrahedron)), Contains("accepted"));
-    CHECK_THAT(message_of(folder / "good.obj", "voxel = 1e-9"), Contains("test.toml:3") && Contains("too small"));
-    CHECK_THAT(message_of(folder / "good.obj", "voxel = 1e-6"), Contains("GB"));
-    CHECK_THAT(message_of(folder / "good.obj", "voxel = 10"), Contains("thinner"));
-    CHECK_THAT(message_of(folder / "good.obj", "voxel = 0"), Contains("'voxel' must be greater than 0"));
+    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 1e-9"),
+               Contains("test.toml:3") && Contains("too small"));
+    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 1e-6"), Contains("GB"));
+    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 10"), Contains("thinner"));
+    CHECK_THAT(message_of(folder.path() / "good.obj", "voxel = 0"), Contains("'voxel' must be greater than 0"));
 }
 
 TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is refused", "[shape]") {
@@ -178,8 +137,8 @@ TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is re
         "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
     const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     const auto message = [&](const std::string& text) {
-        write_text(folder / "mesh.ply", text);
-        return message_of(folder / "mesh.ply");
+        write_text(folder.path() / "mesh.ply", text);
+        return message_of(folder.path() / "mesh.ply");
     };
     CHECK(message(header + points + faces) == "accepted");
     CHECK_THAT(message(header + "0 0 0\n1 0 0\n0 nan 0\n0 0 1\n" + faces),
@@ -195,30 +154,18 @@ TEST_CASE("a PLY with a point that is not a number, or cut short anywhere, is re
 
 TEST_CASE("a height field read from an image has the picture's rows along z", "[shape]") {
     const TemporaryFolder folder;
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(2, 3, 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 2; ++column) {
-            // VTK counts rows from the bottom: the picture is white above and black below.
-            *static_cast<unsigned char*>(image->GetScalarPointer(column, row, 0)) = row == 2 ? 255 : 0;
-        }
-    }
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(image);
-    writer->SetFileName((folder / "hill.png").c_str());
-    writer->Write();
+    write_png(folder.path() / "hill.png", 2, std::vector<std::uint8_t>{255, 255, 0, 0, 0, 0}, PNG_COLOR_TYPE_GRAY);
     const std::string table = "shape = 'height-field'\nlowest = 1\nhighest = 3\nsize = [1, 2]\nfile = '";
-    const auto field = shape_of(table + (folder / "hill.png").string() + "'");
+    const auto field = shape_of(table + (folder.path() / "hill.png").string() + "'");
     CHECK(field->inside({0.5, 2.9, 0.01}));
     CHECK_FALSE(field->inside({0.5, 1.1, 1.5}));
     CHECK(field->inside({0.5, 0.9, 1.5}));
 
-    const std::string whole = read_text(folder / "hill.png");
+    const std::string whole = read_text(folder.path() / "hill.png");
     for (std::size_t length = 0; length < whole.size(); ++length) {
-        write_text(folder / "cut.png", whole.substr(0, length));
-        CHECK_THROWS_AS(shape_of(table + (folder / "cut.png").string() + "'"), UserError);
+        write_text(folder.path() / "cut.png", whole.substr(0, length));
+        CHECK_THROWS_AS(shape_of(table + (folder.path() / "cut.png").string() + "'"), UserError);
     }
-    write_text(folder / "no.png", "no image");
-    CHECK_THROWS_AS(shape_of(table + (folder / "no.png").string() + "'"), UserError);
+    write_text(folder.path() / "no.png", "no image");
+    CHECK_THROWS_AS(shape_of(table + (folder.path() / "no.png").string() + "'"), UserError);
 }
