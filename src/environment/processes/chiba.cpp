@@ -3,10 +3,10 @@
 // and dormancy break.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
+#include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
-#include "environment/sky_directions.h"
-#include "environment/sphere_tree.h"
+#include "environment/shade/sky_directions.h"
+#include "environment/shade/sphere_tree.h"
 
 #include <tbb/parallel_for.h>
 

@@ -2,8 +2,8 @@
 // Bell 1986, The simulation of branching patterns in modular organisms; Mech & Prusinkiewicz 1996, section 4.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
-#include "environment/ground_grid.h"
+#include "environment/exchange/answer_statistics.h"
+#include "environment/neighbours/ground_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Cohen 1967, Computer simulation of biological pattern generation processes.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
+#include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,7 @@
 // After Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
+#include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 
 #include <fmt/format.h>

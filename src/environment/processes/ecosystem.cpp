@@ -3,8 +3,8 @@
 // of plant ecosystems, section 4.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
-#include "environment/disc_overlap.h"
+#include "environment/exchange/answer_statistics.h"
+#include "environment/neighbours/disc_overlap.h"
 #include "environment/parameter_file.h"
 
 #include <tbb/parallel_for.h>

@@ -3,9 +3,9 @@
 // botanical trees.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
+#include "environment/exchange/answer_statistics.h"
+#include "environment/neighbours/point_grid.h"
 #include "environment/parameter_file.h"
-#include "environment/point_grid.h"
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>

@@ -2,8 +2,8 @@
 // Wong, Zongker & Salesin 1998, Computer-generated floral ornament.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
-#include "environment/ground_grid.h"
+#include "environment/exchange/answer_statistics.h"
+#include "environment/neighbours/ground_grid.h"
 
 #include <algorithm>
 

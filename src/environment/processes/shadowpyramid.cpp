@@ -4,7 +4,7 @@
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 
-#include "environment/answer_statistics.h"
+#include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 
 #include <fmt/format.h>

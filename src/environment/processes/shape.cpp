@@ -15,7 +15,7 @@
 
 #include "espalier/environment/environment_process.h"
 
-#include "../shape_field.h"
+#include "environment/shapes/field.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

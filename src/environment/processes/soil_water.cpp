@@ -3,14 +3,14 @@
 #include "espalier/base/text.h"
 #include "espalier/environment/environment_process.h"
 
-#include "environment/water_diffusion.h"
-#include "environment/water_direction.h"
-#include "environment/water_field.h"
-#include "environment/water_parameters.h"
-#include "environment/water_solids.h"
-#include "environment/water_steady.h"
-#include "environment/water_stock.h"
-#include "environment/water_uptake.h"
+#include "environment/water/diffusion.h"
+#include "environment/water/direction.h"
+#include "environment/water/field.h"
+#include "environment/water/parameters.h"
+#include "environment/water/solids.h"
+#include "environment/water/steady.h"
+#include "environment/water/stock.h"
+#include "environment/water/uptake.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

@@ -3,9 +3,9 @@
 // environment.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
+#include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
-#include "environment/sphere_tree.h"
+#include "environment/shade/sphere_tree.h"
 
 #include <tbb/parallel_for.h>
 

@@ -2,8 +2,8 @@
 // Ulam 1962, On some mathematical problems connected with patterns of growth of figures; Schrandt & Ulam 1967.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/answer_statistics.h"
-#include "environment/point_grid.h"
+#include "environment/exchange/answer_statistics.h"
+#include "environment/neighbours/point_grid.h"
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>

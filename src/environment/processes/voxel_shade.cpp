@@ -2,8 +2,8 @@
 // Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3.
 #include "espalier/environment/environment_process.h"
 
-#include "environment/shade_grids.h"
-#include "environment/shade_light.h"
+#include "environment/shade/grids.h"
+#include "environment/shade/light.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -1,0 +1,95 @@
+#include "espalier/environment/shape.h"
+
+#include "espalier/base/text.h"
+
+#include "environment/shapes/kinds.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier {
+namespace {
+
+struct Kind {
+    const char* name;
+    ShapePointer (*read)(Settings&);
+};
+
+constexpr Kind kinds[] = {
+    {"box", read_box},
+    {"sphere", read_sphere},
+    {"ellipsoid", read_ellipsoid},
+    {"cylinder", read_cylinder},
+    {"cone", read_cone},
+    {"tube", read_tube},
+    {"half-space", read_half_space},
+    {"height-field", read_height_field},
+    {"mesh", read_mesh},
+    {"union", read_union},
+    {"intersection", read_intersection},
+    {"difference", read_difference},
+};
+
+const Kind& kind_of(const Settings& table) {
+    const std::string name = table.text("shape");
+    std::vector<std::string> names;
+    for (const Kind& kind : kinds) {
+        if (name == kind.name) return kind;
+        names.push_back(kind.name);
+    }
+    throw UserError(table.place("shape"), fmt::format("'{}' is no kind of shape{}; there are {}", name,
+                                                      did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+std::shared_ptr<const Shape> read_shape(Settings& table) {
+    return place(kind_of(table).read(table), table);
+}
+
+Shape::Sample sample_of(const glm::dvec3& point, const glm::dvec3& nearest, bool inside,
+                        const glm::dvec3& surface_normal) {
+    const glm::dvec3 away = point - nearest;
+    const double distance = glm::length(away);
+    const double sign = inside ? -1 : 1;
+    // Closer than rounding, the direction between the two points is noise.
+    const bool coincide = distance <= 1e-14 * (1 + glm::length(point));
+    return {sign * distance, coincide ? surface_normal : away * (sign / distance), nearest};
+}
+
+glm::dvec3 perpendicular(const glm::dvec3& unit) {
+    const glm::dvec3 other = std::abs(unit.y) < 0.9 ? glm::dvec3{0, 1, 0} : glm::dvec3{1, 0, 0};
+    return glm::normalize(glm::cross(unit, other));
+}
+
+void require_apart(const Settings& table, const char* key, const glm::dvec3& first, const glm::dvec3& second) {
+    if (!(glm::length(second - first) > 0)) {
+        throw UserError(table.place(key), fmt::format("'{}' must differ from the other end", key));
+    }
+}
+
+const char* shape_help() {
+    return R"(shape = one of (metres and degrees; distance is negative inside):
+  box          center and size, or lower and upper; with two numbers each, [x, y], it has no end along z
+  sphere       center, radius
+  ellipsoid    center, radii = [x, y, z]
+  cylinder     base, tip (centres of the end faces), radius
+  cone         base, tip, base_radius, tip_radius (0)
+  tube         points = [[x, y, z], ...], radius: a rounded pipe along a poly-line
+  half-space   point ([0, 0, 0]), normal: solid on the side the normal points away from
+  height-field heights = [..] row after row along z with columns = n, or file = an image with
+               lowest, highest = heights of black and white; size = [x, z], corner ([0, 0, 0]),
+               floor (lowest height minus the shorter side): solid from floor up to the heights
+  mesh         file (OBJ, STL, PLY; closed), voxel of its level set (longest side / 128)
+  union        of = [{...}, ...], blend (0): how far from each other surfaces begin to melt together
+  intersection of = [{...}, ...]
+  difference   of = [{...}, ...]: the first without the others
+Every shape may have, applied in this order:
+  scale (1), rotate = { axis = [x, y, z], angle = degrees }, translate ([0, 0, 0]),
+  offset (0): grown by so many metres, shrunk if negative)";
+}
+
+}  // namespace espalier

@@ -1,0 +1,84 @@
+#include "environment/water/field.h"
+
+#include "espalier/geometry/openvdb_grid.h"
+
+#include <openvdb/tree/LeafManager.h>
+
+#include <atomic>
+
+namespace espalier {
+namespace {
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+openvdb::CoordBBox box_of(const WaterGrid& grid) {
+    const glm::ivec3 size = grid.size();
+    return {openvdb::Coord(0, 0, 0), openvdb::Coord(size.x - 1, size.y - 1, size.z - 1)};
+}
+
+/// Calls visit(offset in the leaf, cell of the brick) for every voxel of the leaf in the box.
+template <class Visit>
+void for_voxels(const Leaf& leaf, const WaterGrid& grid, Visit visit) {
+    openvdb::CoordBBox box = leaf.getNodeBoundingBox();
+    box.intersect(box_of(grid));
+    for (int x = box.min().x(); x <= box.max().x(); ++x) {
+        for (int y = box.min().y(); y <= box.max().y(); ++y) {
+            for (int z = box.min().z(); z <= box.max().z(); ++z) {
+                visit(Leaf::coordToOffset(openvdb::Coord(x, y, z)), grid.cell({x, y, z}));
+            }
+        }
+    }
+}
+
+void write(const WaterBrick& contents, const WaterGrid& grid, openvdb::FloatTree& tree) {
+    openvdb::tree::LeafManager<openvdb::FloatTree> leaves(tree);
+    leaves.foreach ([&](Leaf& leaf, std::size_t) {
+        float* values = leaf.buffer().data();
+        for_voxels(leaf, grid, [&](openvdb::Index offset, std::size_t cell) {
+            values[offset] = static_cast<float>(contents[cell]);
+        });
+    });
+}
+
+}  // namespace
+
+WaterField::WaterField(std::string name, std::string unit, const WaterGrid& grid)
+    : name_(std::move(name)), unit_(std::move(unit)), grid_(grid) {
+    initialize_openvdb();
+}
+
+void WaterField::set_faces(const WaterFaces& faces) {
+    auto grid = openvdb::FloatGrid::create(0);
+    grid->setName(name_);
+    grid->setTransform(cell_centred_transform(grid_.voxel(), grid_.lower()));
+    grid->tree().denseFill(box_of(grid_), 0, true);
+    openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
+    leaves.foreach ([&](Leaf& leaf, std::size_t) {
+        for_voxels(leaf, grid_, [&](openvdb::Index offset, std::size_t cell) {
+            if (!faces.free(cell)) leaf.setValueOff(offset);
+        });
+    });
+    topology_ = std::make_shared<FieldGrid>(FieldGrid{grid, box_of(grid_)});
+    published_.reset();
+    stale_ = true;
+}
+
+void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fields) {
+    contents_ = std::move(contents);
+    fields.provide({name_, unit_, "content of the soil", current(), true, [this] { return current(); }});
+}
+
+std::shared_ptr<const FieldGrid> WaterField::current() {
+    if (!stale_) return published_;
+    // With more holders than the field and ourselves, someone reads the grid of a step before: it is left to them.
+    if (published_ == nullptr || published_.use_count() > 2 || published_->grid.use_count() > 1) {
+        published_ = std::make_shared<FieldGrid>(FieldGrid{topology_->grid->deepCopy(), topology_->box});
+    } else {
+        std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
+    }
+    write(contents_(), grid_, published_->grid->tree());
+    stale_ = false;
+    return published_;
+}
+
+}  // namespace espalier

@@ -1,0 +1,36 @@
+// The content of a brick as an OpenVDB grid that others may read.
+#pragma once
+
+#include "espalier/geometry/field.h"
+
+#include "environment/water/grid.h"
+
+#include <functional>
+#include <memory>
+
+namespace espalier {
+
+class WaterField {
+public:
+    WaterField(std::string name, std::string unit, const WaterGrid& grid);
+
+    /// The voxels that are free from now on; the others are inactive and 0.
+    void set_faces(const WaterFaces& faces);
+    /// Provides the contents as a grid, made or written over when someone asks for it. Whoever keeps one keeps its
+    /// values.
+    void provide(std::function<const WaterBrick&()> contents, Fields& fields);
+    /// The contents are others now.
+    void change() { stale_ = true; }
+
+private:
+    std::shared_ptr<const FieldGrid> current();
+
+    std::string name_, unit_;
+    WaterGrid grid_;
+    std::shared_ptr<FieldGrid> topology_;  ///< active voxels without values
+    std::shared_ptr<FieldGrid> published_;
+    std::function<const WaterBrick&()> contents_;
+    bool stale_ = true;
+};
+
+}  // namespace espalier

@@ -1,0 +1,83 @@
+// The water there is, and the account of where it came from and went.
+#pragma once
+
+#include "environment/water/diffusion.h"
+#include "environment/water/grid.h"
+#include "environment/water/parameters.h"
+#include "environment/water/uptake.h"
+
+#include <iosfwd>
+#include <span>
+#include <vector>
+
+namespace espalier {
+
+/// In content times voxels; all but `total` add up from the beginning.
+struct WaterBalance {
+    double start = 0;
+    double added = 0;     ///< by sources
+    double boundary = 0;  ///< net, inwards through the sides
+    double drunk = 0;
+    double displaced = 0;  ///< out of voxels that a moving obstacle filled
+    double total = 0;      ///< what there is now
+    double minimum = 0, maximum = 0;
+
+    /// What the account misses, relative to its largest entry.
+    double relative_error() const;
+};
+
+class WaterStock {
+public:
+    /// `free`: one flag per voxel, x fastest.
+    WaterStock(const WaterGrid& grid, const WaterParameters& parameters, std::vector<std::uint8_t> free);
+
+    const WaterBrick& contents() const { return contents_; }
+    const WaterFaces& faces() const { return faces_; }
+    const WaterBalance& balance() const { return balance_; }
+
+    /// Obstacles have moved: what stood in their new voxels is displaced; voxels they left begin empty.
+    void set_free(std::vector<std::uint8_t> free);
+
+    /// Begins anew at the steady state of diffusion.
+    void settle(const WaterDiffusion& diffusion);
+
+    void diffuse(WaterDiffusion& diffusion, double dt);
+    void relax(double dt);
+
+    /// Takes what the wishes obtain together.
+    std::vector<double> share(std::span<const WaterWish> wishes);
+    /// What each obtains alone; takes nothing.
+    std::vector<double> lend(std::span<const WaterWish> wishes) const;
+
+    /// Brings total, minimum and maximum of the balance up to date.
+    void measure();
+
+    void save(std::ostream& out) const;
+    /// Throws RunError if the bytes are of another grid.
+    void restore(std::istream& in);
+
+private:
+    void paint();
+    void find_sources();
+    void hold();
+    void gain(double dt);
+
+    struct Source {
+        WaterSource source;
+        std::vector<std::size_t> cells;
+    };
+
+    WaterGrid grid_;
+    WaterParameters parameters_;
+    std::vector<std::uint8_t> free_;
+    WaterFaces faces_;
+    WaterBrick contents_, spare_;
+    std::vector<Source> sources_;
+    WaterBalance balance_;
+};
+
+void write_doubles(std::ostream& out, std::span<const double> values);
+/// Throws RunError if the stream ends early.
+void read_doubles(std::istream& in, std::span<double> values);
+
+}  // namespace espalier

@@ -1,0 +1,95 @@
+#include "espalier/geometry/openvdb_grid.h"
+
+#include "catch.h"
+#include "environment/exchange_plants.h"
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace espalier;
+
+namespace {
+
+std::vector<double> answers(const std::string& lines, const std::vector<Asked>& questions) {
+    Environment environment = environment_of("[light]\nprocess = \"shadowpyramid\"\n" + lines);
+    AskingPlants plants;
+    plants.add(questions).exchange(environment);
+    return plants.parameters();
+}
+
+}  // namespace
+
+TEST_CASE("a caster has 0.42 itself, 0.668 one unit below and 0.916 two below, as measured", "[shadowpyramid]") {
+    const std::vector<double> light =
+        answers("", {{{0, 0, 0}, {1}}, {{0, -1, 0}, {0}}, {{0, -2, 0}, {0}}, {{0, 3, 0}, {0}}});
+    CHECK(light[0] == Approx(0.42).epsilon(1e-6));
+    CHECK(light[1] == Approx(0.668).margin(5e-4));
+    CHECK(light[2] == Approx(0.916).margin(5e-4));
+    CHECK(light[3] == 1);
+}
+
+TEST_CASE("layer i has (2i + 1)^2 voxels times 1 - a b^-d, and the shadows of two multiply", "[shadowpyramid]") {
+    Environment environment = environment_of("[light]\nprocess = \"shadowpyramid\"\nshadow_depth = 4\n");
+    AskingPlants plants;
+    plants.add({{{4, 10, -6}, {1}}, {{4, 10, -6}, {2}}}).exchange(environment);
+    const auto& grid = *environment.fields().need("light").grid->grid;
+    CHECK(grid.activeVoxelCount() == 1 + 9 + 25 + 49);
+    int wrong = 0;
+    for (auto value = grid.cbeginValueOn(); value; ++value) {
+        const openvdb::Coord at = value.getCoord() - openvdb::Coord(2, 5, -3);
+        const double away = std::sqrt(double(at.x() * at.x() + at.y() * at.y() + at.z() * at.z()));
+        wrong += std::abs(*value - std::pow(1 - 0.58 * std::pow(6.9, -away), 2)) > 1e-6;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("the gradient points out of the shadow, with bias and chance added where they are asked for",
+          "[shadowpyramid]") {
+    const std::vector<Asked> beside{{{0, 0, 0}, {1}}, {{1, 0, 0}, {0, 0, 0, 0, 6}}};
+    const std::vector<double> light = answers("", beside);
+    CHECK(light[2] > 0.05);
+    CHECK(std::abs(light[4]) < 1e-7);
+    CHECK(light[5] == 6);
+    const std::vector<double> biased = answers("light_vertical_bias = 0.25\n", beside);
+    CHECK(biased[3] - light[3] == Approx(0.25));
+    const std::vector<double> chance = answers("light_randomness = 0.1\n", beside);
+    CHECK(chance[2] != light[2]);
+    CHECK(std::abs(chance[2] - light[2]) <= 0.1);
+    CHECK(chance == answers("light_randomness = 0.1\n", beside));
+}
+
+TEST_CASE("light among pyramids is the same bytes in any order of queries and on any number of threads",
+          "[shadowpyramid]") {
+    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    std::vector<Asked> questions;
+    for (int i = 0; i < 500; ++i) {
+        questions.push_back(
+            {{20 * draws.uniform() - 10, 20 * draws.uniform(), 20 * draws.uniform() - 10}, {i % 3 - 1.0}});
+    }
+    std::vector<double> light = answers("", questions);
+    {
+        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+        CHECK(answers("", questions) == light);
+    }
+    std::reverse(questions.begin(), questions.end());
+    std::reverse(light.begin(), light.end());
+    CHECK(answers("", questions) == light);
+}
+
+TEST_CASE("outside the grid is full light, and casts from there shade nothing", "[shadowpyramid]") {
+    const std::string small = "grid_size = 11\ngrid_span = 10\n";
+    CHECK(answers(small, {{{0, 25, 0}, {1}}, {{0, 24, 0}, {0}}, {{1e200, 0, 0}, {1}}}) == std::vector<double>{1, 1, 1});
+    CHECK(answers(small, {{{0, -10, 0}, {1}}})[0] == Approx(0.42));
+}
+
+TEST_CASE("more shadow than memory holds ends the run with its reason", "[shadowpyramid]") {
+    EnvironmentContext context;
+    context.memory = 10000;
+    Environment environment = environment_of("[light]\nprocess = \"shadowpyramid\"\nshadow_depth = 60\n", context);
+    AskingPlants plants;
+    plants.add({{{0, 0, 0}, {1}}});
+    CHECK(lacks(message_of([&] { plants.exchange(environment); }), {"1 shadows of 60 layers", "memory"}) == "");
+    CHECK(lacks(message_of([] { answers("grid_size = 1\n", {}); }), {"grid_size"}) == "");
+}
