@@ -2,8 +2,8 @@
 
 #include "espalier/base/file.h"
 
-#include "language/model_parser.h"
-#include "language/preprocessor.h"
+#include "language/parser/model.h"
+#include "language/preprocessor/preprocessor.h"
 #include "language/source.h"
 
 namespace espalier {

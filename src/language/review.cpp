@@ -3,8 +3,8 @@
 #include "espalier/base/text.h"
 #include "espalier/language/reader.h"
 
-#include "language/constant.h"
-#include "language/walk.h"
+#include "language/parser/constant.h"
+#include "language/parser/visit.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #include "catch.h"
-#include "language/constant.h"
+#include "language/parser/constant.h"
 #include "reading.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "language/preprocessor.h"
+#include "language/preprocessor/preprocessor.h"
 
 #include "espalier/language/preprocessor.h"
 

@@ -1,5 +1,5 @@
 // What is counted from letters alone, against a count letter by letter.
-#include "turtle/letter_counts.h"
+#include "turtle/walk/letter_counts.h"
 
 #include "catch.h"
 #include "turtle/drawing.h"

@@ -3,7 +3,7 @@
 
 #include "catch.h"
 #include "turtle/drawing.h"
-#include "turtle/parallel_walk.h"
+#include "turtle/walk/parallel_walk.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -1,0 +1,14 @@
+#include "language/parser/constant.h"
+
+#include "espalier/lsystem/constant.h"
+
+#include <cmath>
+
+namespace espalier::language {
+
+std::optional<double> constant_value(const Expression& expression) {
+    const std::optional<double> value = espalier::constant_value(expression, /*quirks=*/false);
+    return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+}  // namespace espalier::language

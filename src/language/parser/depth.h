@@ -1,0 +1,23 @@
+// A bound on how deep the parsers call themselves.
+#pragma once
+
+#include "language/parser/expressions.h"
+
+namespace espalier::language {
+
+class ExpressionParser::Deeper {
+public:
+    Deeper(int& depth, const Scanner& in) : depth_(depth) {
+        if (depth_ >= deepest) throw SyntaxError{in.here(), "this is nested too deeply (more than 500 levels)"};
+        ++depth_;
+    }
+    ~Deeper() { --depth_; }
+    Deeper(const Deeper&) = delete;
+    Deeper& operator=(const Deeper&) = delete;
+
+private:
+    static constexpr int deepest = 500;
+    int& depth_;
+};
+
+}  // namespace espalier::language

@@ -1,0 +1,335 @@
+#include "language/preprocessor/preprocessor.h"
+
+#include "espalier/base/characters.h"
+#include "espalier/base/file.h"
+#include "espalier/base/text.h"
+
+#include "language/preprocessor/comments.h"
+#include "language/preprocessor/macros.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace espalier::language {
+namespace {
+
+constexpr std::array<std::string_view, 12> directive_words{"define", "undef", "include", "if",    "ifdef", "ifndef",
+                                                           "elif",   "else",  "endif",   "error", "line",  "pragma"};
+constexpr std::size_t deepest_inclusion = 64;
+constexpr std::size_t most_inclusions = 10'000;
+
+/// One #if and what follows it.
+struct Conditional {
+    Location begin;
+    bool outer_active;
+    bool active;
+    bool taken;  // one of its branches was
+    bool else_seen = false;
+};
+
+class Preprocessor {
+public:
+    Preprocessor(Sources& sources, const ReadOptions& options, Mistakes& mistakes)
+        : sources_(sources), options_(options), mistakes_(mistakes) {
+        for (const auto& [name, text] : options.predefined) define_from_outside(name, text, false);
+        for (const auto& [name, text] : options.defines) define_from_outside(name, text, true);
+    }
+
+    Preprocessed run(std::uint32_t file, const std::filesystem::path& folder, Overrides overrides) {
+        read_file(file, folder);
+        if (overrides == Overrides::must_be_known) reject_unknown_overrides(file);
+        return std::move(result_);
+    }
+
+private:
+    void define_from_outside(const std::string& name, const std::string& text, bool overridden) {
+        Macro macro;
+        macro.body = trimmed(text);
+        macro.overridden = overridden;
+        macros_.define(name, std::move(macro));
+    }
+
+    void reject_unknown_overrides(std::uint32_t file) {
+        const std::vector<std::string> known(result_.macro_names.begin(), result_.macro_names.end());
+        for (const auto& [name, text] : options_.defines) {
+            if (result_.macro_names.contains(name)) continue;
+            mistakes_.error({file, 0, 0}, fmt::format("'{}' cannot be overridden: the model never defines it{}", name,
+                                                      did_you_mean(name, known)));
+        }
+    }
+
+    void read_file(std::uint32_t file, const std::filesystem::path& folder) {
+        const MappedText clean = without_comments(sources_, file, mistakes_);
+        const std::size_t outer_conditionals = conditionals_.size();
+        files_.push_back(sources_.name(file));
+        for (std::size_t position = 0; position < clean.size();) {
+            const std::size_t end = std::min(clean.text().find('\n', position), clean.size());
+            if (directive(clean, position, end, folder, outer_conditionals)) {
+                result_.text.append_at("\n", clean.location(end == clean.size() ? position : end));
+                position = end + 1;
+            } else if (!active()) {
+                position = end + 1;
+            } else {
+                position = copy_line(clean, position);
+            }
+        }
+        files_.pop_back();
+        while (conditionals_.size() > outer_conditionals) {
+            mistakes_.error(conditionals_.back().begin, "this condition is never closed: '#endif' is missing");
+            conditionals_.pop_back();
+        }
+        if (result_.text.size() > 0 && result_.text.text().back() != '\n') {
+            result_.text.append('\n', clean.location(clean.size()));
+        }
+    }
+
+    bool active() const { return conditionals_.empty() || conditionals_.back().active; }
+
+    // Copies up to and including the end of the line, or further where the arguments of a macro do.
+    std::size_t copy_line(const MappedText& clean, std::size_t position) {
+        const std::string_view text = clean.text();
+        std::size_t copied = position;
+        while (position < text.size() && text[position] != '\n') {
+            const std::size_t start = position;
+            position = end_of_token(text, position);
+            if (text[start] == '\'' && position == start + 1) {
+                // A quote that its line never closes: nothing after it is expanded.
+                position = std::min(text.find('\n', position), text.size());
+                break;
+            }
+            if (is_digit(text[start]) || text[start] == '"' || text[start] == '\'') continue;
+            const std::optional<std::string> expansion = expand(clean, start, position);
+            if (!expansion) continue;
+            result_.text.append(clean, copied, start);
+            append_expansion(*expansion, clean.location(start), position < text.size() ? text[position] : '\n');
+            copied = position;
+        }
+        if (position < text.size()) ++position;
+        result_.text.append(clean, copied, position);
+        return position;
+    }
+
+    std::optional<std::string> expand(const MappedText& clean, std::size_t start, std::size_t& position) {
+        const std::string_view name = std::string_view(clean.text()).substr(start, position - start);
+        if (!macros_.find(name)) return expand_builtin(name, clean, start);
+        const std::size_t after_name = position;
+        try {
+            return macros_.expand_use(name, clean.text(), position, clean.location(start));
+        } catch (const SyntaxError& mistake) {
+            mistakes_.error(mistake);
+            position = std::max(position, after_name);
+            return "0";
+        }
+    }
+
+    std::optional<std::string> expand_builtin(std::string_view name, const MappedText& clean, std::size_t start) {
+        if (name == "__LINE__") return std::to_string(clean.location(start).line);
+        if (name == "__FILE__") return '"' + files_.back() + '"';
+        return std::nullopt;
+    }
+
+    void append_expansion(const std::string& expansion, Location use, char next) {
+        const std::string& so_far = result_.text.text();
+        if (expansion.empty()) return;
+        if (!so_far.empty() && grow_together(so_far.back(), expansion.front())) result_.text.append_at(" ", use);
+        result_.text.append_at(expansion, use);
+        if (grow_together(expansion.back(), next)) result_.text.append_at(" ", use);
+    }
+
+    // --- directives ---------------------------------------------------------------------------------------------
+
+    /// Obeys the directive of a line, if it is one. A `#` before anything else is the turtle's symbol.
+    bool directive(const MappedText& clean, std::size_t begin, std::size_t end, const std::filesystem::path& folder,
+                   std::size_t outer_conditionals) {
+        const std::string_view line = std::string_view(clean.text()).substr(begin, end - begin);
+        std::size_t i = skip_blanks(line, 0);
+        if (i >= line.size() || line[i] != '#') return false;
+        const std::size_t hash = i;
+        i = skip_blanks(line, i + 1);
+        const std::string_view word = name_at(line, i);
+        if (std::find(directive_words.begin(), directive_words.end(), word) == directive_words.end()) return false;
+        at_ = clean.location(begin + hash);
+        const std::string_view rest = line.substr(i + word.size());
+        try {
+            if (!conditional(word, rest, outer_conditionals) && active()) {
+                if (word == "define") define(rest);
+                if (word == "undef") macros_.undefine(std::string(required_name(rest, "undef")));
+                if (word == "include") include(rest, folder);
+                if (word == "error") throw SyntaxError{at_, fmt::format("#error {}", trimmed(rest))};
+            }
+        } catch (const SyntaxError& mistake) {
+            mistakes_.error(mistake);
+        }
+        return true;
+    }
+
+    static std::size_t skip_blanks(std::string_view text, std::size_t i) {
+        while (i < text.size() && is_blank(text[i])) ++i;
+        return i;
+    }
+
+    static std::string_view name_at(std::string_view text, std::size_t start) {
+        std::size_t end = start;
+        while (end < text.size() && (is_name_part(text[end]) || text[end] == '$')) ++end;
+        if (end > start && is_digit(text[start])) end = start;
+        return text.substr(start, end - start);
+    }
+
+    std::string_view required_name(std::string_view rest, std::string_view directive) {
+        const std::string_view name = name_at(rest, skip_blanks(rest, 0));
+        if (name.empty()) throw SyntaxError{at_, fmt::format("#{} needs the name of a macro", directive)};
+        result_.macro_names.emplace(name);
+        return name;
+    }
+
+    bool conditional(std::string_view word, std::string_view rest, std::size_t outer_conditionals) {
+        if (word == "if" || word == "ifdef" || word == "ifndef") {
+            conditionals_.push_back({at_, active(), false, false});
+            Conditional& opened = conditionals_.back();
+            if (!opened.outer_active) return true;
+            opened.taken = true;  // should the condition be faulty, no branch is read
+            const bool holds = word == "if" ? condition(rest)
+                                            : (macros_.find(required_name(rest, word)) != nullptr) == (word == "ifdef");
+            opened.active = opened.taken = holds;
+            return true;
+        }
+        if (word != "elif" && word != "else" && word != "endif") return false;
+        if (conditionals_.size() <= outer_conditionals) throw SyntaxError{at_, fmt::format("#{} without #if", word)};
+        Conditional& current = conditionals_.back();
+        if (word == "endif") {
+            conditionals_.pop_back();
+            return true;
+        }
+        if (current.else_seen) throw SyntaxError{at_, fmt::format("#{} after #else", word)};
+        current.else_seen = word == "else";
+        const bool may_be_read = current.outer_active && !current.taken;
+        current.active = false;
+        current.active = may_be_read && (word == "else" || condition(rest));
+        current.taken = current.taken || current.active;
+        return true;
+    }
+
+    bool condition(std::string_view rest) {
+        return condition_value(macros_.expand_all(without_defined(rest), at_), at_) != 0;
+    }
+
+    // Replaces `defined NAME` and `defined(NAME)` by 0 or 1, before macros are expanded.
+    std::string without_defined(std::string_view text) {
+        std::string result;
+        for (std::size_t i = 0; i < text.size();) {
+            const std::size_t start = i;
+            i = end_of_token(text, i);
+            const std::string_view token = text.substr(start, i - start);
+            if (is_name_start(token.front()) && token != "defined") result_.macro_names.emplace(token);
+            if (token != "defined") {
+                result += token;
+                continue;
+            }
+            i = skip_blanks(text, i);
+            const bool parenthesis = i < text.size() && text[i] == '(';
+            if (parenthesis) i = skip_blanks(text, i + 1);
+            const std::string_view name = required_name(text.substr(i), "if defined");
+            i = skip_blanks(text, i + name.size());
+            if (parenthesis && (i >= text.size() || text[i++] != ')')) {
+                throw SyntaxError{at_, "expected ')' after 'defined(" + std::string(name) + "'"};
+            }
+            result += macros_.find(name) ? " 1 " : " 0 ";
+        }
+        return result;
+    }
+
+    void define(std::string_view rest) {
+        const std::string name(required_name(rest, "define"));
+        if (name == "defined") throw SyntaxError{at_, "'defined' cannot be the name of a macro"};
+        std::size_t i = skip_blanks(rest, 0) + name.size();
+        Macro macro;
+        macro.defined = at_;
+        if (i < rest.size() && rest[i] == '(') {
+            macro.function_like = true;
+            macro.parameters = parameters(name, rest, i);
+        }
+        macro.body = trimmed(rest.substr(i));
+        const Macro* before = macros_.find(name);
+        if (before && before->overridden) {
+            if (!macro.function_like) return;
+            throw SyntaxError{at_, fmt::format("'{}' takes arguments here and cannot be overridden", name)};
+        }
+        if (before && !before->same_meaning(macro)) {
+            const Place first = sources_.place(before->defined);
+            const std::string where = first.line > 0 ? to_string(first) : "the view file, as the name of a function";
+            mistakes_.warning(at_,
+                              fmt::format("'{}' is defined a second time, differently (first in {})", name, where));
+        }
+        macros_.define(name, std::move(macro));
+    }
+
+    std::vector<std::string> parameters(const std::string& name, std::string_view rest, std::size_t& i) {
+        std::vector<std::string> found;
+        i = skip_blanks(rest, i + 1);
+        if (i < rest.size() && rest[i] == ')') {
+            ++i;
+            return found;
+        }
+        while (true) {
+            const std::string_view parameter = name_at(rest, i);
+            if (parameter.empty()) {
+                throw SyntaxError{at_, fmt::format("expected the name of a parameter of macro '{}'", name)};
+            }
+            if (std::find(found.begin(), found.end(), parameter) != found.end()) {
+                throw SyntaxError{at_, fmt::format("macro '{}' has two parameters '{}'", name, parameter)};
+            }
+            found.emplace_back(parameter);
+            i = skip_blanks(rest, i + parameter.size());
+            const char next = i < rest.size() ? rest[i] : '\0';
+            if (next != ',' && next != ')') {
+                throw SyntaxError{at_, fmt::format("expected ',' or ')' among the parameters of macro '{}'", name)};
+            }
+            i = next == ',' ? skip_blanks(rest, i + 1) : i + 1;
+            if (next == ')') return found;
+        }
+    }
+
+    void include(std::string_view rest, const std::filesystem::path& folder) {
+        const std::string_view argument = trimmed(rest);
+        const char close = argument.starts_with('"') ? '"' : argument.starts_with('<') ? '>' : '\0';
+        if (!close || argument.size() < 3 || argument.back() != close) {
+            throw SyntaxError{at_, "#include needs a file name: #include \"file\""};
+        }
+        const std::filesystem::path path = folder / std::string(argument.substr(1, argument.size() - 2));
+        const Location place = at_;
+        if (files_.size() >= deepest_inclusion) {
+            throw SyntaxError{place,
+                              fmt::format("files include one another more than {} deep; does '{}' include itself?",
+                                          deepest_inclusion, path.string())};
+        }
+        if (++inclusions_ > most_inclusions) throw SyntaxError{place, "more than 10,000 files are included"};
+        std::string text;
+        try {
+            text = read_text(path);
+        } catch (const UserError& error) {
+            throw SyntaxError{place, error.what()};
+        }
+        read_file(sources_.add(path.string(), std::move(text)), path.parent_path());
+    }
+
+    Sources& sources_;
+    const ReadOptions& options_;
+    Mistakes& mistakes_;
+    Macros macros_;
+    Preprocessed result_;
+    std::vector<Conditional> conditionals_;
+    std::vector<std::string> files_;  // being read, outermost first
+    std::size_t inclusions_ = 0;
+    Location at_;  // of the directive at hand
+};
+
+}  // namespace
+
+Preprocessed preprocess(Sources& sources, std::uint32_t file, const std::filesystem::path& folder,
+                        const ReadOptions& options, Mistakes& mistakes, Overrides overrides) {
+    return Preprocessor(sources, options, mistakes).run(file, folder, overrides);
+}
+
+}  // namespace espalier::language
