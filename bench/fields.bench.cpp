@@ -69,7 +69,7 @@ depth = 8
                                                  "scene.toml");
         EnvironmentContext context;
         context.name = "light";
-        process_ = ProcessRegistry::entries().at("voxel-shade").make(settings, context, fields_);
+        process_ = registered<ProcessType>().at("voxel-shade")->make(settings, context, fields_);
         parameters_.resize(count);
         answers_.resize(count);
         for (const Asked& asked : crown(count, 1)) {

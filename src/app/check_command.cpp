@@ -28,7 +28,7 @@ struct CheckArguments {
 
 std::vector<std::string> turtle_symbols() {
     std::vector<std::string> names;
-    for (const auto& entry : symbols()) names.push_back(entry.first);
+    for (const auto& entry : registered<Symbol>()) names.push_back(entry.first);
     return names;
 }
 

@@ -36,9 +36,16 @@ Parts parts_of() {
     return parts;
 }
 
+template <class Kind>
+Parts parts_of_kind() {
+    Parts parts;
+    for (const auto& [name, part] : registered<Kind>()) parts.push_back({name, part->summary, part->help});
+    return parts;
+}
+
 Parts symbol_parts() {
     Parts parts;
-    for (const auto& [name, symbol] : symbols()) parts.push_back({name, symbol->help, ""});
+    for (const auto& [name, symbol] : registered<Symbol>()) parts.push_back({name, symbol->help, ""});
     return parts;
 }
 
@@ -64,7 +71,7 @@ struct Kind {
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all{
         {"processes", "the environment of the plants: [environment.<name>] process = \"...\"",
-         parts_of<ProcessRegistry>},
+         parts_of_kind<ProcessType>},
         {"symbols", "the symbols of the turtle and what they do", symbol_parts},
         {"recorders", "the files of a run: [timeline]", parts_of<RecorderRegistry>},
         {"exporters", "formats of `espalier export`",

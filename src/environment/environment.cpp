@@ -10,13 +10,13 @@
 namespace espalier {
 namespace {
 
-const ProcessRegistry::Entry& registered_process(const Settings& settings) {
+const ProcessType& process_type(const Settings& settings) {
     const std::string kind = settings.text("process");
-    const auto& entries = ProcessRegistry::entries();
-    const auto found = entries.find(kind);
-    if (found != entries.end()) return found->second;
+    const auto& types = registered<ProcessType>();
+    const auto found = types.find(kind);
+    if (found != types.end()) return *found->second;
     std::vector<std::string> kinds;
-    for (const auto& entry : entries) kinds.push_back(entry.first);
+    for (const auto& type : types) kinds.push_back(type.first);
     throw UserError(settings.place("process"), fmt::format("there is no process '{}'{}; there are: {}", kind,
                                                            did_you_mean(kind, kinds), fmt::join(kinds, ", ")));
 }
@@ -67,10 +67,10 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
         communications_.emplace_back(table);
         EnvironmentContext own = context;
         own.name = name;
-        const ProcessRegistry::Entry& entry = registered_process(settings);
-        processes_.push_back(entry.make(settings, own, fields_));
+        const ProcessType& type = process_type(settings);
+        processes_.push_back(type.make(settings, own, fields_));
         names_.push_back(name);
-        kinds_.push_back(entry.description.name);
+        kinds_.push_back(type.name);
         arities_.push_back(processes_.back()->query_arity());
     }
     if (processes_.size() == 1) default_ = 0;

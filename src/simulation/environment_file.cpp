@@ -134,7 +134,7 @@ Command command_of(const Lines& lines, std::vector<Diagnostic>& diagnostics) {
 
 std::vector<std::string> known_programs() {
     std::vector<std::string> names{"multiple"};
-    for (const auto& entry : ProcessRegistry::entries()) names.push_back(entry.first);
+    for (const auto& entry : registered<ProcessType>()) names.push_back(entry.first);
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -219,7 +219,7 @@ private:
     }
 
     void add_process(const std::string& name, const Lines& lines, const Command& command, const fs::path& path) {
-        const auto& entries = ProcessRegistry::entries();
+        const auto& entries = registered<ProcessType>();
         if (entries.find(command.program) == entries.end()) {
             const std::vector<std::string> known = known_programs();
             throw UserError(lines.command_place,

@@ -21,7 +21,7 @@ constexpr int steps = 3;
 const std::vector<std::string>& turtle_symbols() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
-        for (const auto& [name, symbol] : symbols()) all.push_back(name);
+        for (const auto& [name, symbol] : registered<Symbol>()) all.push_back(name);
         return all;
     }();
     return names;

@@ -37,12 +37,12 @@ TEST_CASE("every symbol in the open folder is registered, and nothing else", "[t
             CHECK(defined.insert(name).second);  // defined once
         }
     }
-    for (const auto& [name, symbol] : symbols()) registered.insert(name);
+    for (const auto& [name, symbol] : registered<Symbol>()) registered.insert(name);
     CHECK(defined == registered);
 }
 
 TEST_CASE("every symbol says what it does, beginning with its name", "[turtle]") {
-    for (const auto& [name, symbol] : symbols()) {
+    for (const auto& [name, symbol] : registered<Symbol>()) {
         INFO(name);
         CHECK(symbol->name == name);
         CHECK(symbol->action != nullptr);
@@ -54,7 +54,7 @@ TEST_CASE("every symbol says what it does, beginning with its name", "[turtle]")
 
 TEST_CASE("docs/turtle.md lists every symbol", "[turtle]") {
     const std::string page = read_text(ESPALIER_SOURCE_DIR "/docs/turtle.md");
-    for (const auto& [name, symbol] : symbols()) {
+    for (const auto& [name, symbol] : registered<Symbol>()) {
         std::string shown = name.back() == '*' ? name.substr(0, name.size() - 1) : name;
         if (shown == "|") shown = "\\|";  // as a table's cell writes it
         INFO(name);

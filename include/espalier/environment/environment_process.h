@@ -7,6 +7,7 @@
 #include "espalier/geometry/field.h"
 #include "espalier/turtle/interpretation.h"
 
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -57,37 +58,30 @@ class EnvironmentProcess {
 public:
     virtual ~EnvironmentProcess() = default;
 
-    /// Brings the fields to this step. `queries` are this process's own, of all plants, in plant and string order.
-    virtual void advance(const WorldView& world, std::span<const Query> queries, Fields& fields) = 0;
+    /// Brings the fields to this step. The queries are this process's own, of all plants, in plant and string order.
+    virtual void advance(const WorldView&, std::span<const Query>, Fields&) {}
 
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
     virtual void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers,
                         Fields& fields) = 0;
 
-    /// This step's figures for one plant. Quantities of the whole world repeat for every plant.
-    virtual std::vector<Quantity> statistics(std::uint32_t plant) const = 0;
+    /// This step's figures for a plant, by number. Quantities of the whole world repeat for every plant.
+    virtual std::vector<Quantity> statistics(std::uint32_t) const { return {}; }
 
     /// Fewest and most parameters a query to this process may have, for `check` and for a clear error.
     virtual std::pair<int, int> query_arity() const = 0;
 
     /// What lasts from step to step, as bytes, for a checkpoint.
-    virtual void save(std::ostream& out) const = 0;
-    virtual void restore(std::istream& in) = 0;
+    virtual void save(std::ostream&) const {}
+    virtual void restore(std::istream&) {}
 };
 
-using ProcessRegistry = Registry<EnvironmentProcess, Settings&, const EnvironmentContext&, Fields&>;
-
-/// Defining one registers a process:
-///   const RegisteredProcess<Height> entry{{"height", "height above ground", "ground (m, 0): ..."}};
-template <class Process>
-struct RegisteredProcess {
-    explicit RegisteredProcess(PartDescription description) {
-        const std::string name = description.name;
-        ProcessRegistry::entries()[name] = {
-            std::move(description), [](Settings& settings, const EnvironmentContext& context, Fields& fields) {
-                return std::unique_ptr<EnvironmentProcess>(std::make_unique<Process>(settings, context, fields));
-            }};
-    }
+/// What a file of src/environment/processes/ registers.
+struct ProcessType {
+    std::string name;     ///< what scenes say: process = "..."
+    std::string summary;  ///< a line
+    std::string help;     ///< what a query is answered; parameters with units and defaults
+    std::function<std::unique_ptr<EnvironmentProcess>(Settings&, const EnvironmentContext&, Fields&)> make;
 };
 
 }  // namespace espalier

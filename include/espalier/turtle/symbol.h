@@ -2,9 +2,9 @@
 // src/turtle/symbols/ is all a new symbol needs.
 #pragma once
 
+#include "espalier/base/registry.h"
 #include "espalier/turtle/walk.h"
 
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,18 +13,13 @@ namespace espalier {
 
 using SymbolAction = void (*)(Walk& walk, std::span<const double> parameters);
 
-/// Defining one registers it. `name` is what stands in the string ("F", "@o", "+"); its characters are modules of their
-/// own, of which only the last may have parameters. A final `*` stands for any character ("~*"). `arities` are the
-/// numbers of parameters it acts on, any if empty; with other numbers it is skipped.
+/// `name` is what stands in the string ("F", "@o", "+"); its characters are modules of their own, of which only the
+/// last may have parameters. A final `*` stands for any character ("~*"). `arities` are the numbers of parameters it
+/// acts on, any if empty; with other numbers it is skipped. A constant `Registered<Symbol>` registers it.
 struct Symbol {
     /// Rows of result that are counted before a string is walked: an internode, a query, an answer of the turtle's. A
     /// symbol that says less than it does costs time, nothing else.
     enum class Effect : std::uint8_t { other, draws, asks, answers };
-
-    Symbol(std::string name, std::vector<int> arities, std::string help, SymbolAction action,
-           Effect effect = Effect::other);
-    Symbol(const Symbol&) = delete;
-    Symbol& operator=(const Symbol&) = delete;
 
     bool accepts(int arity) const;
 
@@ -32,10 +27,7 @@ struct Symbol {
     std::vector<int> arities;
     std::string help;
     SymbolAction action;
-    Effect effect;
+    Effect effect = Effect::other;
 };
-
-/// Every registered symbol, by name, with its help: what `espalier list symbols` prints.
-const std::map<std::string, const Symbol*>& symbols();
 
 }  // namespace espalier

@@ -68,8 +68,6 @@ public:
         by_area_ = file.flag("estimate intersection area", false);
     }
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         std::vector<SphereTree::Sphere> clusters;
         for (std::uint32_t i = 0; i < queries.size(); ++i) {
@@ -87,10 +85,6 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     static bool asks(const Query& query) { return query.parameters.size() == 1 || query.parameters.size() >= 4; }
@@ -139,7 +133,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Chiba> entry{
+const Registered<ProcessType> entry{
     {"chiba", "light among leaf clusters, and where it is brightest (Chiba, Ohkawa, Muraoka & Miura 1994)",
      R"(Every query is a ball of leaves that dims the light for all others.
 
@@ -162,7 +156,8 @@ parameters             a file with these keys in words, as cpfg's program chiba 
 
 Only clusters whose centres lie ahead dim the light. Answers do not depend on the order of the queries.
 Statistics of a plant: mean, min, max of the light, queries.
-)"}};
+)",
+     construct<Chiba>}};
 
 }  // namespace
 }  // namespace espalier

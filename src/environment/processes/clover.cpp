@@ -78,7 +78,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Clover> entry{
+const Registered<ProcessType> entry{
     {"clover", "patches of light on the ground, dimmed by leaves (Bell 1986; Mech & Prusinkiewicz 1996)",
      R"(?name(p)         -> light at the place: green of the image (0 to 1) times t^n under n leaves; 0 beside the grid
 ?name(action, a) -> light, and a = red of the image / 128. Action 0 asks only; with 1 a leaf of area a comes to stay,
@@ -95,7 +95,8 @@ z_is_up        true: the ground is x and y; false: x and z
 parameters     a file with these keys in words, as cpfg's program clover reads it
 
 A leaf is a disc over the cells whose middles it covers. Statistics of a plant: mean, min, max of the light, queries.
-)"}};
+)",
+     construct<Clover>}};
 
 }  // namespace
 }  // namespace espalier

@@ -38,8 +38,6 @@ public:
         for (const char* key : {"output image", "frame intervals"}) file.file(key);
     }
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         occupants_.clear();
         for (const Query& query : queries) {
@@ -63,10 +61,6 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
@@ -102,7 +96,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Density> entry{
+const Registered<ProcessType> entry{
     {"density", "how crowded a place of the plane is, and where it is less so (Cohen 1967)",
      R"(The density at a place is the sum of 1 / (1 + d^2) over all queries but sources and of v / (1 + d) over the sources,
 d being their distance in x and y.
@@ -119,7 +113,8 @@ range, position, output_image, frame_intervals, quantization_step, gamma
 parameters       a file with these keys in words, as cpfg's program density reads it
 
 Time grows with the square of the queries. Statistics of a plant: mean, min, max of r, queries.
-)"}};
+)",
+     construct<Density>}};
 
 }  // namespace
 }  // namespace espalier

@@ -36,8 +36,6 @@ public:
         }
     }
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     // One after the other, in string order: each finds what those before it left.
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -96,7 +94,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Density3d> entry{
+const Registered<ProcessType> entry{
     {"density3d", "counts what was ever put into each voxel of a box (after Greene 1989)",
      R"(?name(v) -> v is added to the voxel, and the answer is all that was ever added to it; 0 outside the box
 Further parameters (20 in all at most) stay as they are.
@@ -111,7 +109,8 @@ octree_level  0; 2^level voxels along each side, where no grid_size is given
 parameters    a file with these keys in words, as cpfg's program density3d reads it
 
 Statistics of a plant: mean, min, max of the answers, queries; total, all that is in the box.
-)"}};
+)",
+     construct<Density3d>}};
 
 }  // namespace
 }  // namespace espalier

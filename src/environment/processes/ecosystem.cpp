@@ -28,8 +28,6 @@ public:
         in_string_order_ = settings.choice_or("scan", usual, {"vigour", "string"}) == "string";
     }
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         centres_.clear();
         radii_.clear();
@@ -58,10 +56,6 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     // Without vigour: of two that overlap in one group the smaller loses, and two of one size both do.
@@ -119,7 +113,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Ecosystem> entry{
+const Registered<ProcessType> entry{
     {"ecosystem", "plants as discs of which the smaller or weaker lose where they overlap (Deussen et al. 1998)",
      R"(?name(radius)         -> 1, or 0 if the disc loses; two overlap at a distance up to the sum of their radii
 ?name(radius, group)  -> the same among the queries of this group only; without a group it is 0
@@ -136,7 +130,8 @@ parameters  a file with `vigor: on`, `3d case: on`, `grid size: n n n`, as cpfg'
 
 Without vigour two of equal radius that overlap both get 0.
 Statistics of a plant: winners and losers, the number of answers 1 and 0.
-)"}};
+)",
+     construct<Ecosystem>}};
 
 }  // namespace
 }  // namespace espalier

@@ -25,8 +25,6 @@ public:
         flat_ = !file.flag("3d case", false);
     }
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         points_.clear();
         std::map<double, std::vector<std::uint32_t>> groups;
@@ -44,10 +42,6 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     // A cell's diagonal is the radius, and within a cell the most vigorous come first. So all but the very first of a
@@ -77,7 +71,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Honda81> entry{
+const Registered<ProcessType> entry{
     {"honda81", "branches end near others of at least their vigour (Honda, Tomlinson & Fisher 1981)",
      R"(?name(vigour)        -> 0 if another query of the group with at least this vigour stands within `radius`, else 1
 ?name(vigour, group) -> the same among the queries of this group only; without a group it is 0
@@ -89,7 +83,8 @@ parameters  a file with `radius: r` and `3d case: on`, as cpfg's program honda81
 
 Two of equal vigour within the radius both get 0. Answers do not depend on the order of the queries.
 Statistics of a plant: free and dominated, the number of answers 1 and 0.
-)"}};
+)",
+     construct<Honda81>}};
 
 }  // namespace
 }  // namespace espalier

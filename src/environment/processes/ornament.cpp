@@ -36,10 +36,6 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
-
 private:
     Ornament(ParameterFile file, const EnvironmentContext& context)
         : ground_(file, context), statistics_(context.plants) {}
@@ -50,7 +46,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Ornament> entry{
+const Registered<ProcessType> entry{
     {"ornament", "how many discs lie over a place, for ornaments that fill a plane (Wong et al. 1998)",
      R"(?name(p, r) -> p = the number of discs over the place, 255 at most, the query's own of radius r among them,
                r = green of the image there, 0 to 1; both are 0 beside the grid
@@ -64,7 +60,8 @@ grid_range     [1, 1] m; from corner to corner
 parameters     a file with these keys in words, as cpfg's program ornament reads it
 
 Statistics of a plant: mean, min, max of the counts, queries.
-)"}};
+)",
+     construct<Ornament>}};
 
 }  // namespace
 }  // namespace espalier

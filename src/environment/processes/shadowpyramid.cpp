@@ -71,10 +71,6 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
-    // Shadows are made anew from the queries of every step: nothing lasts.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
-
 private:
     using Accessor = openvdb::FloatGrid::ConstAccessor;
 
@@ -169,7 +165,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<ShadowPyramid> entry{
+const Registered<ProcessType> entry{
     {"shadowpyramid", "light left by shadow pyramids that multiply (Palubicki et al. 2009, as cpfg's program has it)",
      R"(Every query with p > 0 casts a pyramid on its own voxel and the layers below: in layer i = 0 ... depth - 1, a square of
 half-width floor(spread i) voxels, each multiplied by 1 - min(1, weight * dissipation^-d), d its distance in voxels.
@@ -190,7 +186,8 @@ light_randomness    0; each part of the gradient is changed by up to this, at ra
 parameters          a file with these keys in words, as cpfg's program shadowpyramid reads it
 
 Outside the grid is full light. Field: name (the light). Statistics of a plant: mean, min, max of the light, queries.
-)"}};
+)",
+     construct<ShadowPyramid>}};
 
 }  // namespace
 }  // namespace espalier

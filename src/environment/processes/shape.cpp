@@ -117,10 +117,6 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 8}; }
 
-    // A shape is a function of the step: nothing lasts.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
-
 private:
     void answer_one(const glm::dvec3& position, Answer answer) const {
         if (answer.size() == 1) {
@@ -185,7 +181,8 @@ Answers ?name(inside) 1 or 0; (inside, distance); with five parameters also the 
 with eight also the nearest point of the surface.)";
 }
 
-const RegisteredProcess<ShapeProcess> entry{{"shape", "signed distance to bounding shapes and meshes", help()}};
+const Registered<ProcessType> entry{
+    {"shape", "signed distance to bounding shapes and meshes", help(), construct<ShapeProcess>}};
 
 }  // namespace
 }  // namespace espalier

@@ -170,9 +170,9 @@ private:
     std::vector<double> uptake_, wish_;  ///< per plant, this step
 };
 
-const RegisteredProcess<SoilWater> entry{
-    {"soil-water", "water or another substance in soil: diffusion, obstacles, layers, uptake by roots",
-     soil_water_help}};
+const Registered<ProcessType> entry{
+    {"soil-water", "water or another substance in soil: diffusion, obstacles, layers, uptake by roots", soil_water_help,
+     construct<SoilWater>}};
 
 }  // namespace
 }  // namespace espalier

@@ -69,8 +69,6 @@ public:
         sources_ = read_sources(file);
     }
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         std::vector<SphereTree::Sphere> clusters;
         for (std::uint32_t i = 0; i < queries.size(); ++i) {
@@ -87,10 +85,6 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     /// What passes straight down through a cluster spread over s^2 times its leaves' shadow.
@@ -126,9 +120,8 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Takenaka> entry{{"takenaka",
-                                         "production of leaf clusters that shade each other (Takenaka 1994)",
-                                         R"(Every query is a ball of leaves between the others and the light.
+const Registered<ProcessType> entry{{"takenaka", "production of leaf clusters that shade each other (Takenaka 1994)",
+                                     R"(Every query is a ball of leaves between the others and the light.
 
 ?name(A, w) -> w = e S (A s^2 / 4) a - w: what leaves of area A (cm2) produce, less the upkeep w. S is the light in a
                year that reaches the cluster, each ball before a source letting tau^2 of it through,
@@ -147,7 +140,8 @@ parameters     a file with these keys in words, as cpfg's program takenaka reads
 
 All sources together give 8.64 mol cm-2 in a year in the open (1000 umol m-2 s-1 for 12 h on 200 days).
 Statistics of a plant: mean, min, max of the answers, queries.
-)"}};
+)",
+                                     construct<Takenaka>}};
 
 }  // namespace
 }  // namespace espalier

@@ -33,8 +33,6 @@ public:
           tolerance_(0.01 * edge_),
           statistics_(context.plants) {}
 
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
-
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         find_cells(queries);
         const PointGrid grid(places_, numbers_up_to(places_.size()), edge_);
@@ -55,10 +53,6 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
-
-    // Every step begins anew.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     static std::vector<std::uint32_t> numbers_up_to(std::size_t count) {
@@ -159,7 +153,7 @@ private:
     AnswerStatistics statistics_;
 };
 
-const RegisteredProcess<Ulam> entry{
+const Registered<ProcessType> entry{
     {"ulam", "cells are born next to one living cell, where they touch no other (Ulam 1962)",
      R"(?name(s)       s > 0: a living cell stands here (s stays as it is); every living cell says so in every step.
                s <= 0: may a cell be born here? -> 1 or 0
@@ -177,7 +171,8 @@ corner  m, 1.4143 edges: greatest distance of cells that touch; at most 8 edges
 
 There is no grid: square, hexagonal, triangular and cubic patterns differ in where the turtle asks.
 Statistics of a plant: born and refused, the answers 1 and 0.
-)"}};
+)",
+     construct<Ulam>}};
 
 }  // namespace
 }  // namespace espalier

@@ -166,10 +166,6 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
-    // Shade is made anew from the queries of every step: nothing lasts.
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
-
 private:
     struct Totals {
         double light = 0, queries = 0, casts = 0;
@@ -226,7 +222,7 @@ private:
     std::vector<Totals> totals_;
 };
 
-const RegisteredProcess<VoxelShade> entry{
+const Registered<ProcessType> entry{
     {"voxel-shade", "light left by the shadow pyramids of all organs (Palubicki et al. 2009)",
      R"(Every query with s > 0 casts a pyramid: it shades its own voxel (layer q = 0) and, q = 1 ... depth layers below, a
 square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  What a query casts itself never shades it.
@@ -253,7 +249,8 @@ periodic        false; true: the domain repeats along x and z for ever
 
 Fields: name (light), name.shade (the sum, or the optical depth).
 Statistics of a plant: mean, min, max of its answers, queries, casts.
-)"}};
+)",
+     construct<VoxelShade>}};
 
 }  // namespace
 }  // namespace espalier

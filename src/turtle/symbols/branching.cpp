@@ -5,17 +5,17 @@
 namespace espalier {
 namespace {
 
-const Symbol open{"[", {}, "[: begin a branch", [](Walk& walk, std::span<const double>) { walk.push(); }};
+const Registered<Symbol> open{{"[", {}, "[: begin a branch", [](Walk& walk, std::span<const double>) { walk.push(); }}};
 
-const Symbol close{
-    "]", {}, "]: end a branch, back to where it began", [](Walk& walk, std::span<const double>) { walk.pop(); }};
+const Registered<Symbol> close{
+    {"]", {}, "]: end a branch, back to where it began", [](Walk& walk, std::span<const double>) { walk.pop(); }}};
 
-const Symbol cut{"%",
-                 {0},
-                 "%: cut the rest of the branch off in the next step; what follows may be left undrawn",
-                 [](Walk& walk, std::span<const double>) {
-                     if (!walk.settings().past_cut) walk.stopped = true;
-                 }};
+const Registered<Symbol> cut{{"%",
+                              {0},
+                              "%: cut the rest of the branch off in the next step; what follows may be left undrawn",
+                              [](Walk& walk, std::span<const double>) {
+                                  if (!walk.settings().past_cut) walk.stopped = true;
+                              }}};
 
 }  // namespace
 }  // namespace espalier

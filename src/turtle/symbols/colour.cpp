@@ -25,37 +25,39 @@ void change_back(Walk& walk, std::span<const double> parameters, int increment) 
     walk.turtle().back_colour = back;
 }
 
-const Symbol next{";",
-                  {},
-                  ";(index): set the colour index; without parameter, add the increment",
-                  [](Walk& walk, std::span<const double> parameters) {
-                      change_colour(walk, walk.turtle().colour, parameters, walk.settings().colour_increment);
-                  }};
+const Registered<Symbol> next{{";",
+                               {},
+                               ";(index): set the colour index; without parameter, add the increment",
+                               [](Walk& walk, std::span<const double> parameters) {
+                                   change_colour(walk, walk.turtle().colour, parameters,
+                                                 walk.settings().colour_increment);
+                               }}};
 
-const Symbol previous{",",
-                      {},
-                      ",(index): set the colour index; without parameter, subtract the increment",
-                      [](Walk& walk, std::span<const double> parameters) {
-                          change_colour(walk, walk.turtle().colour, parameters, -walk.settings().colour_increment);
-                      }};
+const Registered<Symbol> previous{{",",
+                                   {},
+                                   ",(index): set the colour index; without parameter, subtract the increment",
+                                   [](Walk& walk, std::span<const double> parameters) {
+                                       change_colour(walk, walk.turtle().colour, parameters,
+                                                     -walk.settings().colour_increment);
+                                   }}};
 
-const Symbol next_back{
-    "@;", {}, "@;(index): as ; for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
-        change_back(walk, parameters, walk.settings().back_colour_increment);
-    }};
+const Registered<Symbol> next_back{
+    {"@;", {}, "@;(index): as ; for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
+         change_back(walk, parameters, walk.settings().back_colour_increment);
+     }}};
 
-const Symbol previous_back{
-    "@,", {}, "@,(index): as , for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
-        change_back(walk, parameters, -walk.settings().back_colour_increment);
-    }};
+const Registered<Symbol> previous_back{
+    {"@,", {}, "@,(index): as , for the back of surfaces", [](Walk& walk, std::span<const double> parameters) {
+         change_back(walk, parameters, -walk.settings().back_colour_increment);
+     }}};
 
-const Symbol texture{"@Tx",
-                     {1},
-                     "@Tx(number): the texture of surfaces and cylinders from here on; 0 is none",
-                     [](Walk& walk, std::span<const double> parameters) {
-                         const bool possible = parameters[0] >= 0 && parameters[0] < 65536;
-                         walk.turtle().texture = possible ? std::uint16_t(parameters[0]) : 0;
-                     }};
+const Registered<Symbol> texture{{"@Tx",
+                                  {1},
+                                  "@Tx(number): the texture of surfaces and cylinders from here on; 0 is none",
+                                  [](Walk& walk, std::span<const double> parameters) {
+                                      const bool possible = parameters[0] >= 0 && parameters[0] < 65536;
+                                      walk.turtle().texture = possible ? std::uint16_t(parameters[0]) : 0;
+                                  }}};
 
 }  // namespace
 }  // namespace espalier

@@ -39,68 +39,70 @@ void set_radius_tangents(Walk& walk, std::span<const double> parameters) {
     });
 }
 
-const Symbol start{"@Gs", {0}, "@Gs: begin a generalized cylinder here", [](Walk& walk, std::span<const double>) {
-                       walk.begin_cylinder(GeneralizedCylinder::Curve::open_hermite, {});
-                   }};
+const Registered<Symbol> start{
+    {"@Gs", {0}, "@Gs: begin a generalized cylinder here", [](Walk& walk, std::span<const double>) {
+         walk.begin_cylinder(GeneralizedCylinder::Curve::open_hermite, {});
+     }}};
 
-const Symbol control_point{
-    "@Gc",
-    {0, 1},
-    "@Gc(strips): a control point of the open cylinder, so many strips from the one before; 1 without parameter",
-    [](Walk& walk, std::span<const double> parameters) { walk.control_point(first(parameters)); }};
+const Registered<Symbol> control_point{
+    {"@Gc",
+     {0, 1},
+     "@Gc(strips): a control point of the open cylinder, so many strips from the one before; 1 without parameter",
+     [](Walk& walk, std::span<const double> parameters) { walk.control_point(first(parameters)); }}};
 
-const Symbol end{"@Ge",
-                 {0, 1},
-                 "@Ge(strips): the last control point of the open cylinder, as @Gc",
-                 [](Walk& walk, std::span<const double> parameters) {
-                     walk.control_point(first(parameters));
-                     walk.end_cylinder(first(parameters));
-                 }};
+const Registered<Symbol> end{{"@Ge",
+                              {0, 1},
+                              "@Ge(strips): the last control point of the open cylinder, as @Gc",
+                              [](Walk& walk, std::span<const double> parameters) {
+                                  walk.control_point(first(parameters));
+                                  walk.end_cylinder(first(parameters));
+                              }}};
 
-const Symbol tangents{
-    "@Gt",
-    {1, 2},
-    "@Gt(start, end): tangents at the start and end of a stretch, in distances of its control points; "
-    "1.2 at first, end as start if left out",
-    [](Walk& walk, std::span<const double> parameters) {
-        if (!std::isfinite(parameters[0] + parameters.back())) walk.fail("a tangent of no length");
-        walk.change_brush([&](Brush& brush) {
-            brush.tangent_after = parameters[0];
-            brush.tangent_before = parameters.back();
-        });
-    }};
+const Registered<Symbol> tangents{
+    {"@Gt",
+     {1, 2},
+     "@Gt(start, end): tangents at the start and end of a stretch, in distances of its control points; "
+     "1.2 at first, end as start if left out",
+     [](Walk& walk, std::span<const double> parameters) {
+         if (!std::isfinite(parameters[0] + parameters.back())) walk.fail("a tangent of no length");
+         walk.change_brush([&](Brush& brush) {
+             brush.tangent_after = parameters[0];
+             brush.tangent_before = parameters.back();
+         });
+     }}};
 
-const Symbol radius_tangents{
-    "@Gr",
-    {1, 2, 4},
-    "@Gr(angle, length, angle, length): slopes of the radius at the start and end of a stretch; @Gr(1): their lengths "
-    "count in distances of the control points, @Gr(0): in themselves",
-    set_radius_tangents};
+const Registered<Symbol> radius_tangents{
+    {"@Gr",
+     {1, 2, 4},
+     "@Gr(angle, length, angle, length): slopes of the radius at the start and end of a stretch; @Gr(1): their lengths "
+     "count in distances of the control points, @Gr(0): in themselves",
+     set_radius_tangents}};
 
-const Symbol contour{"@#",
-                     {1},
-                     "@#(number): cross-section of cylinders from here on; 0 is the circle",
-                     [](Walk& walk, std::span<const double> parameters) {
-                         walk.change_brush([&](Brush& brush) { brush.contour = bounded(parameters[0], 0, 1 << 30); });
-                     }};
+const Registered<Symbol> contour{{"@#",
+                                  {1},
+                                  "@#(number): cross-section of cylinders from here on; 0 is the circle",
+                                  [](Walk& walk, std::span<const double> parameters) {
+                                      walk.change_brush(
+                                          [&](Brush& brush) { brush.contour = bounded(parameters[0], 0, 1 << 30); });
+                                  }}};
 
-const Symbol contour_sides{
-    "@!",
-    {1},
-    "@!(sides): polygons around cylinders and spheres from here on, 3 to 256",
-    [](Walk& walk, std::span<const double> parameters) {
-        walk.change_brush([&](Brush& brush) { brush.sides = bounded(parameters[0], 3, most_sides); });
-    }};
+const Registered<Symbol> contour_sides{
+    {"@!",
+     {1},
+     "@!(sides): polygons around cylinders and spheres from here on, 3 to 256",
+     [](Walk& walk, std::span<const double> parameters) {
+         walk.change_brush([&](Brush& brush) { brush.sides = bounded(parameters[0], 3, most_sides); });
+     }}};
 
-const Symbol least_twist{
-    "@Tp", {}, "@Tp: cylinders twist as little as they can from here on", [](Walk& walk, std::span<const double>) {
-        walk.change_brush([](Brush& brush) { brush.follows_roll = false; });
-    }};
+const Registered<Symbol> least_twist{
+    {"@Tp", {}, "@Tp: cylinders twist as little as they can from here on", [](Walk& walk, std::span<const double>) {
+         walk.change_brush([](Brush& brush) { brush.follows_roll = false; });
+     }}};
 
-const Symbol own_twist{
-    "@Tf", {}, "@Tf: cylinders follow the turtle's roll from here on", [](Walk& walk, std::span<const double>) {
-        walk.change_brush([](Brush& brush) { brush.follows_roll = true; });
-    }};
+const Registered<Symbol> own_twist{
+    {"@Tf", {}, "@Tf: cylinders follow the turtle's roll from here on", [](Walk& walk, std::span<const double>) {
+         walk.change_brush([](Brush& brush) { brush.follows_roll = true; });
+     }}};
 
 }  // namespace
 }  // namespace espalier

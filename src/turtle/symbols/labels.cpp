@@ -4,10 +4,10 @@
 namespace espalier {
 namespace {
 
-const Symbol label{"@L",
-                   {},
-                   "@L(\"format\", ...): write a text here, with the other parameters as printf would",
-                   [](Walk& walk, std::span<const double> parameters) { walk.write_label(parameters); }};
+const Registered<Symbol> label{{"@L",
+                                {},
+                                "@L(\"format\", ...): write a text here, with the other parameters as printf would",
+                                [](Walk& walk, std::span<const double> parameters) { walk.write_label(parameters); }}};
 
 }  // namespace
 }  // namespace espalier

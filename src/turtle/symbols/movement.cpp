@@ -8,29 +8,31 @@ double distance(std::span<const double> parameters) {
     return parameters.empty() ? 1 : parameters[0];
 }
 
-const Symbol draw{"F",
-                  {},
-                  "F(length): move forward and draw; marks a polygon vertex. Length 1, times the scale",
-                  [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); },
-                  Symbol::Effect::draws};
+const Registered<Symbol> draw{
+    {"F",
+     {},
+     "F(length): move forward and draw; marks a polygon vertex. Length 1, times the scale",
+     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); },
+     Symbol::Effect::draws}};
 
-const Symbol draw_unmarked{
-    "G",
-    {},
-    "G(length): move forward and draw, marking no vertex",
-    [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, false); },
-    Symbol::Effect::draws};
+const Registered<Symbol> draw_unmarked{
+    {"G",
+     {},
+     "G(length): move forward and draw, marking no vertex",
+     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, false); },
+     Symbol::Effect::draws}};
 
-const Symbol skip{"f",
-                  {},
-                  "f(length): move forward without drawing; marks a polygon vertex",
-                  [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, true); }};
+const Registered<Symbol> skip{
+    {"f",
+     {},
+     "f(length): move forward without drawing; marks a polygon vertex",
+     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, true); }}};
 
-const Symbol skip_unmarked{
-    "g",
-    {},
-    "g(length): move forward without drawing, marking no vertex",
-    [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); }};
+const Registered<Symbol> skip_unmarked{
+    {"g",
+     {},
+     "g(length): move forward without drawing, marking no vertex",
+     [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); }}};
 
 }  // namespace
 }  // namespace espalier

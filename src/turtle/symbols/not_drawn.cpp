@@ -7,12 +7,12 @@ namespace {
 
 void nothing(Walk&, std::span<const double>) {}
 
-const Symbol command{"@S", {}, "@S(\"command\"): a shell command; never run", nothing};
-const Symbol old_i{"@I", {}, "@I: an old symbol; draws nothing", nothing};
-const Symbol old_j{"@J", {}, "@J: an old symbol; draws nothing", nothing};
-const Symbol old_mo{"@mo", {}, "@mo: an old symbol; draws nothing", nothing};
-const Symbol old_mc{"@mc", {}, "@mc: an old symbol; draws nothing", nothing};
-const Symbol unknown{"@*", {}, "@x: unless listed, skipped together with its second character", nothing};
+const Registered<Symbol> command{{"@S", {}, "@S(\"command\"): a shell command; never run", nothing}};
+const Registered<Symbol> old_i{{"@I", {}, "@I: an old symbol; draws nothing", nothing}};
+const Registered<Symbol> old_j{{"@J", {}, "@J: an old symbol; draws nothing", nothing}};
+const Registered<Symbol> old_mo{{"@mo", {}, "@mo: an old symbol; draws nothing", nothing}};
+const Registered<Symbol> old_mc{{"@mc", {}, "@mc: an old symbol; draws nothing", nothing}};
+const Registered<Symbol> unknown{{"@*", {}, "@x: unless listed, skipped together with its second character", nothing}};
 
 }  // namespace
 }  // namespace espalier

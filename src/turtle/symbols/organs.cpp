@@ -23,35 +23,38 @@ void place_surface(Walk& walk, std::span<const double> parameters) {
     walk.place_surface(surface_id(walk.symbol()), factors);
 }
 
-const Symbol screen_disc{"@o",
-                         {},
-                         "@o(diameter): a disc that faces the screen; the line width without parameter",
-                         [](Walk& walk, std::span<const double> parameters) {
-                             walk.place(Organ::Shape::disc, facing_the_screen(walk), diameter(walk, parameters));
-                         }};
+const Registered<Symbol> screen_disc{{"@o",
+                                      {},
+                                      "@o(diameter): a disc that faces the screen; the line width without parameter",
+                                      [](Walk& walk, std::span<const double> parameters) {
+                                          walk.place(Organ::Shape::disc, facing_the_screen(walk),
+                                                     diameter(walk, parameters));
+                                      }}};
 
-const Symbol disc{"@c",
-                  {},
-                  "@c(diameter): a disc in the plane of heading and left",
-                  [](Walk& walk, std::span<const double> parameters) {
-                      walk.place(Organ::Shape::disc, walk.turtle().pose, diameter(walk, parameters));
-                  }};
+const Registered<Symbol> disc{{"@c",
+                               {},
+                               "@c(diameter): a disc in the plane of heading and left",
+                               [](Walk& walk, std::span<const double> parameters) {
+                                   walk.place(Organ::Shape::disc, walk.turtle().pose, diameter(walk, parameters));
+                               }}};
 
-const Symbol sphere{"@O", {}, "@O(diameter): a sphere", [](Walk& walk, std::span<const double> parameters) {
-                        walk.place(Organ::Shape::sphere, walk.turtle().pose, diameter(walk, parameters));
-                    }};
+const Registered<Symbol> sphere{
+    {"@O", {}, "@O(diameter): a sphere", [](Walk& walk, std::span<const double> parameters) {
+         walk.place(Organ::Shape::sphere, walk.turtle().pose, diameter(walk, parameters));
+     }}};
 
-const Symbol screen_circle{
-    "@bo", {}, "@bo(diameter): the outline of @o", [](Walk& walk, std::span<const double> parameters) {
-        walk.place(Organ::Shape::circle, facing_the_screen(walk), diameter(walk, parameters));
-    }};
+const Registered<Symbol> screen_circle{
+    {"@bo", {}, "@bo(diameter): the outline of @o", [](Walk& walk, std::span<const double> parameters) {
+         walk.place(Organ::Shape::circle, facing_the_screen(walk), diameter(walk, parameters));
+     }}};
 
-const Symbol circle{"@bc", {}, "@bc(diameter): the outline of @c", [](Walk& walk, std::span<const double> parameters) {
-                        walk.place(Organ::Shape::circle, walk.turtle().pose, diameter(walk, parameters));
-                    }};
+const Registered<Symbol> circle{
+    {"@bc", {}, "@bc(diameter): the outline of @c", [](Walk& walk, std::span<const double> parameters) {
+         walk.place(Organ::Shape::circle, walk.turtle().pose, diameter(walk, parameters));
+     }}};
 
-const Symbol surface{
-    "~*", {}, "~x(scale) or ~x(sx, sy, sz): draw the surface x and move to its end point", place_surface};
+const Registered<Symbol> surface{
+    {"~*", {}, "~x(scale) or ~x(sx, sy, sz): draw the surface x and move to its end point", place_surface}};
 
 }  // namespace
 }  // namespace espalier

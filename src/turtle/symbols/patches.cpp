@@ -4,30 +4,32 @@
 namespace espalier {
 namespace {
 
-const Symbol begin{
-    "@PS",
-    {1, 2},
-    "@PS(patch, basis): begin a patch of this number; 1 Bezier (also without basis), 2 B-spline, 3 Cardinal",
-    [](Walk& walk, std::span<const double> parameters) {
-        using enum BicubicPatch::Basis;
-        const double basis = parameters.size() > 1 ? parameters[1] : 1;
-        walk.begin_patch(parameters[0], basis == 2 ? b_spline : basis == 3 ? cardinal : bezier);
-    }};
+const Registered<Symbol> begin{
+    {"@PS",
+     {1, 2},
+     "@PS(patch, basis): begin a patch of this number; 1 Bezier (also without basis), 2 B-spline, 3 Cardinal",
+     [](Walk& walk, std::span<const double> parameters) {
+         using enum BicubicPatch::Basis;
+         const double basis = parameters.size() > 1 ? parameters[1] : 1;
+         walk.begin_patch(parameters[0], basis == 2 ? b_spline : basis == 3 ? cardinal : bezier);
+     }}};
 
-const Symbol point{"@PC",
-                   {3},
-                   "@PC(patch, row, column): the turtle's position is this control point; both count from 0, or from 1",
-                   [](Walk& walk, std::span<const double> parameters) {
-                       walk.patch_point(parameters[0], parameters[1], parameters[2]);
-                   }};
+const Registered<Symbol> point{
+    {"@PC",
+     {3},
+     "@PC(patch, row, column): the turtle's position is this control point; both count from 0, or from 1",
+     [](Walk& walk, std::span<const double> parameters) {
+         walk.patch_point(parameters[0], parameters[1], parameters[2]);
+     }}};
 
-const Symbol draw{"@PD",
-                  {1, 3},
-                  "@PD(patch, rows, columns): draw the patch, divided into so many quadrilaterals; 5 by 5 if left out",
-                  [](Walk& walk, std::span<const double> parameters) {
-                      const bool divided = parameters.size() == 3;
-                      walk.draw_patch(parameters[0], divided ? parameters[1] : 5, divided ? parameters[2] : 5);
-                  }};
+const Registered<Symbol> draw{
+    {"@PD",
+     {1, 3},
+     "@PD(patch, rows, columns): draw the patch, divided into so many quadrilaterals; 5 by 5 if left out",
+     [](Walk& walk, std::span<const double> parameters) {
+         const bool divided = parameters.size() == 3;
+         walk.draw_patch(parameters[0], divided ? parameters[1] : 5, divided ? parameters[2] : 5);
+     }}};
 
 }  // namespace
 }  // namespace espalier

@@ -12,34 +12,37 @@ std::optional<double> second(std::span<const double> parameters) {
     return parameters.size() > 1 ? std::optional(parameters[1]) : std::nullopt;
 }
 
-const Symbol open{"{",
-                  {},
-                  "{: begin a polygon. {(curve, strips): begin a generalized cylinder; 1 open Hermite curve, 2 closed, "
-                  "3 open B-spline, 4 closed",
-                  [](Walk& walk, std::span<const double> parameters) {
-                      const bool is_curve = !parameters.empty() && parameters[0] >= 1 && parameters[0] < 5;
-                      walk.open_polygon(!is_curve);
-                      if (!is_curve) return;
-                      walk.begin_cylinder(GeneralizedCylinder::Curve(int(parameters[0])), second(parameters));
-                  }};
+const Registered<Symbol> open{
+    {"{",
+     {},
+     "{: begin a polygon. {(curve, strips): begin a generalized cylinder; 1 open Hermite curve, 2 closed, "
+     "3 open B-spline, 4 closed",
+     [](Walk& walk, std::span<const double> parameters) {
+         const bool is_curve = !parameters.empty() && parameters[0] >= 1 && parameters[0] < 5;
+         walk.open_polygon(!is_curve);
+         if (!is_curve) return;
+         walk.begin_cylinder(GeneralizedCylinder::Curve(int(parameters[0])), second(parameters));
+     }}};
 
-const Symbol close{"}",
-                   {},
-                   "}: end the polygon and fill it; fewer than three vertices draw nothing. Ends a cylinder begun by {",
-                   [](Walk& walk, std::span<const double> parameters) {
-                       if (walk.in_cylinder_braces()) walk.end_cylinder(second(parameters));
-                       walk.close_polygon();
-                   }};
+const Registered<Symbol> close{
+    {"}",
+     {},
+     "}: end the polygon and fill it; fewer than three vertices draw nothing. Ends a cylinder begun by {",
+     [](Walk& walk, std::span<const double> parameters) {
+         if (walk.in_cylinder_braces()) walk.end_cylinder(second(parameters));
+         walk.close_polygon();
+     }}};
 
-const Symbol vertex{".",
-                    {},
-                    ".: mark a vertex of the open polygon where the turtle is; .(strips): a control point of the open "
-                    "cylinder",
-                    [](Walk& walk, std::span<const double> parameters) {
-                        if (!parameters.empty()) return walk.control_point(parameters[0]);
-                        if (walk.in_cylinder_braces()) return walk.control_point({});
-                        walk.record_vertex();
-                    }};
+const Registered<Symbol> vertex{
+    {".",
+     {},
+     ".: mark a vertex of the open polygon where the turtle is; .(strips): a control point of the open "
+     "cylinder",
+     [](Walk& walk, std::span<const double> parameters) {
+         if (!parameters.empty()) return walk.control_point(parameters[0]);
+         if (walk.in_cylinder_braces()) return walk.control_point({});
+         walk.record_vertex();
+     }}};
 
 }  // namespace
 }  // namespace espalier

@@ -4,12 +4,13 @@
 namespace espalier {
 namespace {
 
-const Symbol position{"@M",
-                      {2, 3},
-                      "@M(x, y, z): go to this position without drawing; z is 0 if left out",
-                      [](Walk& walk, std::span<const double> parameters) {
-                          walk.jump({parameters[0], parameters[1], parameters.size() > 2 ? parameters[2] : 0});
-                      }};
+const Registered<Symbol> position{
+    {"@M",
+     {2, 3},
+     "@M(x, y, z): go to this position without drawing; z is 0 if left out",
+     [](Walk& walk, std::span<const double> parameters) {
+         walk.jump({parameters[0], parameters[1], parameters.size() > 2 ? parameters[2] : 0});
+     }}};
 
 }  // namespace
 }  // namespace espalier

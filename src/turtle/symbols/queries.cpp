@@ -32,16 +32,19 @@ void ask(Walk& walk, std::span<const double>) {
 
 using enum Symbol::Effect;
 
-const Symbol position{"?P", {2, 3}, "?P(x, y, z): answered with the turtle's position", answer_position, answers};
-const Symbol heading{
-    "?H", {2, 3}, "?H(x, y, z): answered with the turtle's heading", answer_direction<&Pose::heading>, answers};
-const Symbol left{"?L", {2, 3}, "?L(x, y, z): answered with the turtle's left", answer_direction<&Pose::left>, answers};
-const Symbol up{"?U", {2, 3}, "?U(x, y, z): answered with the turtle's up", answer_direction<&Pose::up>, answers};
-const Symbol orientation{
-    "?Q", {4}, "?Q(w, x, y, z): answered with the turtle's orientation, a quaternion", answer_orientation, answers};
-const Symbol old_position{"s", {2, 3}, "s(x, y, z): the older name of ?P", answer_position, answers};
-const Symbol communication{
-    "?E", {}, "?E(...): asks the scene's default process; ?name(...) asks the process so named", ask, asks};
+const Registered<Symbol> position{
+    {"?P", {2, 3}, "?P(x, y, z): answered with the turtle's position", answer_position, answers}};
+const Registered<Symbol> heading{
+    {"?H", {2, 3}, "?H(x, y, z): answered with the turtle's heading", answer_direction<&Pose::heading>, answers}};
+const Registered<Symbol> left{
+    {"?L", {2, 3}, "?L(x, y, z): answered with the turtle's left", answer_direction<&Pose::left>, answers}};
+const Registered<Symbol> up{
+    {"?U", {2, 3}, "?U(x, y, z): answered with the turtle's up", answer_direction<&Pose::up>, answers}};
+const Registered<Symbol> orientation{
+    {"?Q", {4}, "?Q(w, x, y, z): answered with the turtle's orientation, a quaternion", answer_orientation, answers}};
+const Registered<Symbol> old_position{{"s", {2, 3}, "s(x, y, z): the older name of ?P", answer_position, answers}};
+const Registered<Symbol> communication{
+    {"?E", {}, "?E(...): asks the scene's default process; ?name(...) asks the process so named", ask, asks}};
 
 }  // namespace
 }  // namespace espalier

@@ -25,53 +25,56 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
     pose.left = glm::cross(pose.heading, pose.up);
 }
 
-const Symbol left{
-    "+", {}, "+(angle): turn left, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
-        turn_left(walk.turtle().pose, walk.rotation(parameters));
-    }};
+const Registered<Symbol> left{
+    {"+", {}, "+(angle): turn left, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
+         turn_left(walk.turtle().pose, walk.rotation(parameters));
+     }}};
 
-const Symbol right{
-    "-", {}, "-(angle): turn right, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
-        turn_left(walk.turtle().pose, walk.rotation(parameters).inverse());
-    }};
+const Registered<Symbol> right{
+    {"-", {}, "-(angle): turn right, about up. Degrees", [](Walk& walk, std::span<const double> parameters) {
+         turn_left(walk.turtle().pose, walk.rotation(parameters).inverse());
+     }}};
 
-const Symbol down{
-    "&",
-    {},
-    "&(angle): pitch the heading towards up, about left. Degrees",
-    [](Walk& walk, std::span<const double> parameters) { pitch_down(walk.turtle().pose, walk.rotation(parameters)); }};
+const Registered<Symbol> down{{"&",
+                               {},
+                               "&(angle): pitch the heading towards up, about left. Degrees",
+                               [](Walk& walk, std::span<const double> parameters) {
+                                   pitch_down(walk.turtle().pose, walk.rotation(parameters));
+                               }}};
 
-const Symbol up{"^",
-                {},
-                "^(angle): pitch the heading away from up, about left. Degrees",
-                [](Walk& walk, std::span<const double> parameters) {
-                    pitch_down(walk.turtle().pose, walk.rotation(parameters).inverse());
-                }};
+const Registered<Symbol> up{{"^",
+                             {},
+                             "^(angle): pitch the heading away from up, about left. Degrees",
+                             [](Walk& walk, std::span<const double> parameters) {
+                                 pitch_down(walk.turtle().pose, walk.rotation(parameters).inverse());
+                             }}};
 
-const Symbol roll{
-    "/",
-    {},
-    "/(angle): roll left towards up, about the heading. Degrees",
-    [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle().pose, walk.rotation(parameters)); }};
+const Registered<Symbol> roll{
+    {"/",
+     {},
+     "/(angle): roll left towards up, about the heading. Degrees",
+     [](Walk& walk, std::span<const double> parameters) { roll_left(walk.turtle().pose, walk.rotation(parameters)); }}};
 
-const Symbol roll_back{"\\",
-                       {},
-                       "\\(angle): roll left away from up, about the heading. Degrees",
-                       [](Walk& walk, std::span<const double> parameters) {
-                           roll_left(walk.turtle().pose, walk.rotation(parameters).inverse());
-                       }};
+const Registered<Symbol> roll_back{{"\\",
+                                    {},
+                                    "\\(angle): roll left away from up, about the heading. Degrees",
+                                    [](Walk& walk, std::span<const double> parameters) {
+                                        roll_left(walk.turtle().pose, walk.rotation(parameters).inverse());
+                                    }}};
 
-const Symbol turn_around{"|", {0}, "|: turn around, about up", [](Walk& walk, std::span<const double>) {
-                             turn_left(walk.turtle().pose, Rotation(std::numbers::pi));
-                         }};
+const Registered<Symbol> turn_around{{"|", {0}, "|: turn around, about up", [](Walk& walk, std::span<const double>) {
+                                          turn_left(walk.turtle().pose, Rotation(std::numbers::pi));
+                                      }}};
 
-const Symbol horizontal{"@v",
-                        {0},
-                        "@v: roll until left is horizontal; nothing if the heading is vertical",
-                        [](Walk& walk, std::span<const double>) { level(walk.turtle().pose); }};
+const Registered<Symbol> horizontal{{"@v",
+                                     {0},
+                                     "@v: roll until left is horizontal; nothing if the heading is vertical",
+                                     [](Walk& walk, std::span<const double>) { level(walk.turtle().pose); }}};
 
-const Symbol absolute{
-    "@R", {2, 3, 4, 5, 6}, "@R(x, y, z, ux, uy, uz): head to (x, y, z), up (ux, uy, uz) if perpendicular", set_heading};
+const Registered<Symbol> absolute{{"@R",
+                                   {2, 3, 4, 5, 6},
+                                   "@R(x, y, z, ux, uy, uz): head to (x, y, z), up (ux, uy, uz) if perpendicular",
+                                   set_heading}};
 
 }  // namespace
 }  // namespace espalier

@@ -8,23 +8,24 @@ double factor(const Walk& walk, std::span<const double> parameters) {
     return parameters.empty() ? walk.settings().scale_multiplier : parameters[0];
 }
 
-const Symbol set{"@D", {1}, "@D(scale): set the scale", [](Walk& walk, std::span<const double> parameters) {
-                     walk.set_scale(parameters[0]);
-                 }};
+const Registered<Symbol> set{
+    {"@D", {1}, "@D(scale): set the scale", [](Walk& walk, std::span<const double> parameters) {
+         walk.set_scale(parameters[0]);
+     }}};
 
-const Symbol multiply{"@Di",
-                      {},
-                      "@Di(factor): multiply the scale; by the scene's multiplier without parameter",
-                      [](Walk& walk, std::span<const double> parameters) {
-                          walk.set_scale(walk.turtle().scale * factor(walk, parameters));
-                      }};
+const Registered<Symbol> multiply{{"@Di",
+                                   {},
+                                   "@Di(factor): multiply the scale; by the scene's multiplier without parameter",
+                                   [](Walk& walk, std::span<const double> parameters) {
+                                       walk.set_scale(walk.turtle().scale * factor(walk, parameters));
+                                   }}};
 
-const Symbol divide{"@Dd",
-                    {},
-                    "@Dd(factor): divide the scale; by the scene's multiplier without parameter",
-                    [](Walk& walk, std::span<const double> parameters) {
-                        walk.set_scale(walk.turtle().scale / factor(walk, parameters));
-                    }};
+const Registered<Symbol> divide{{"@Dd",
+                                 {},
+                                 "@Dd(factor): divide the scale; by the scene's multiplier without parameter",
+                                 [](Walk& walk, std::span<const double> parameters) {
+                                     walk.set_scale(walk.turtle().scale / factor(walk, parameters));
+                                 }}};
 
 }  // namespace
 }  // namespace espalier

@@ -4,17 +4,18 @@
 namespace espalier {
 namespace {
 
-const Symbol enter{"?",
-                   {1, 2},
-                   "?(id, scale): enter sub-L-system id; lengths and widths are multiplied by scale until $",
-                   [](Walk& walk, std::span<const double> parameters) {
-                       walk.enter_system(parameters.size() > 1 ? parameters[1] : 1);
-                   }};
+const Registered<Symbol> enter{
+    {"?",
+     {1, 2},
+     "?(id, scale): enter sub-L-system id; lengths and widths are multiplied by scale until $",
+     [](Walk& walk, std::span<const double> parameters) {
+         walk.enter_system(parameters.size() > 1 ? parameters[1] : 1);
+     }}};
 
-const Symbol leave{
-    "$", {0}, "$: leave the sub-L-system; scale and width are as before it", [](Walk& walk, std::span<const double>) {
-        walk.leave_system();
-    }};
+const Registered<Symbol> leave{
+    {"$", {0}, "$: leave the sub-L-system; scale and width are as before it", [](Walk& walk, std::span<const double>) {
+         walk.leave_system();
+     }}};
 
 }  // namespace
 }  // namespace espalier

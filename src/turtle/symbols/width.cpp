@@ -8,19 +8,21 @@ void change_width(Walk& walk, std::span<const double> parameters, double increme
     walk.set_width(parameters.empty() ? walk.turtle().width + increment : parameters[0] * walk.turtle().scale);
 }
 
-const Symbol wider{"#",
-                   {},
-                   "#(width): set the line width, times the scale; without parameter, widen by the increment",
-                   [](Walk& walk, std::span<const double> parameters) {
-                       change_width(walk, parameters, walk.settings().line_width_increment);
-                   }};
+const Registered<Symbol> wider{
+    {"#",
+     {},
+     "#(width): set the line width, times the scale; without parameter, widen by the increment",
+     [](Walk& walk, std::span<const double> parameters) {
+         change_width(walk, parameters, walk.settings().line_width_increment);
+     }}};
 
-const Symbol narrower{"!",
-                      {},
-                      "!(width): set the line width, times the scale; without parameter, narrow by the increment",
-                      [](Walk& walk, std::span<const double> parameters) {
-                          change_width(walk, parameters, -walk.settings().line_width_increment);
-                      }};
+const Registered<Symbol> narrower{
+    {"!",
+     {},
+     "!(width): set the line width, times the scale; without parameter, narrow by the increment",
+     [](Walk& walk, std::span<const double> parameters) {
+         change_width(walk, parameters, -walk.settings().line_width_increment);
+     }}};
 
 }  // namespace
 }  // namespace espalier

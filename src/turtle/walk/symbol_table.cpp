@@ -8,20 +8,15 @@
 namespace espalier {
 namespace {
 
-std::map<std::string, const Symbol*>& registry() {
-    static std::map<std::string, const Symbol*> all;
-    return all;
-}
-
 const Symbol* find_symbol(const std::string& name) {
-    const auto found = registry().find(name);
-    return found == registry().end() ? nullptr : found->second;
+    const auto found = registered<Symbol>().find(name);
+    return found == registered<Symbol>().end() ? nullptr : found->second;
 }
 
 /// True if a longer symbol begins like this.
 bool begins_symbol(const std::string& beginning) {
-    const auto next = registry().upper_bound(beginning);
-    return next != registry().end() && next->first.starts_with(beginning);
+    const auto next = registered<Symbol>().upper_bound(beginning);
+    return next != registered<Symbol>().end() && next->first.starts_with(beginning);
 }
 
 /// A question without parameters is none.
@@ -31,17 +26,8 @@ Symbol::Effect effect_of(const Symbol& symbol, int arity) {
 
 }  // namespace
 
-Symbol::Symbol(std::string name_, std::vector<int> arities_, std::string help_, SymbolAction action_, Effect effect_)
-    : name(std::move(name_)), arities(std::move(arities_)), help(std::move(help_)), action(action_), effect(effect_) {
-    registry()[name] = this;
-}
-
 bool Symbol::accepts(int arity) const {
     return arities.empty() || std::find(arities.begin(), arities.end(), arity) != arities.end();
-}
-
-const std::map<std::string, const Symbol*>& symbols() {
-    return registry();
 }
 
 SymbolTable::SymbolTable(const Model& model) : processes(model.alphabet.size(), -1), pictured(model.alphabet.size()) {

@@ -21,7 +21,7 @@ public:
         context.name = "hedge";
         context.plants = 2;
         Settings settings = Settings::parse_toml(toml, "test.toml");
-        process = ProcessRegistry::entries().at("shape").make(settings, context, fields);
+        process = registered<ProcessType>().at("shape")->make(settings, context, fields);
         settings.reject_unread();
     }
 

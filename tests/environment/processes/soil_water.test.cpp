@@ -122,11 +122,11 @@ TEST_CASE("distance fields of other processes are obstacles and containers", "[e
     context.name = "water";
     context.plants = 1;
     Fields fields;
-    CHECK(mentions(user_error([&] { ProcessRegistry::entries().at("soil-water").make(settings, context, fields); }),
+    CHECK(mentions(user_error([&] { registered<ProcessType>().at("soil-water")->make(settings, context, fields); }),
                    "stone.distance"));
     fields.provide(sphere_field("stone.distance", {0, 0.3, 0}, 0.3f));
     fields.provide(sphere_field("pot.distance", {0, 0, 0}, 0.9f));
-    const auto process = ProcessRegistry::entries().at("soil-water").make(settings, context, fields);
+    const auto process = registered<ProcessType>().at("soil-water")->make(settings, context, fields);
     const auto active = [&] { return fields.need("water").grid->grid->activeVoxelCount(); };
     CHECK(active() == Approx((4.0 / 3 * M_PI * (0.729 - 0.027)) / 1e-3).epsilon(0.02));
 

@@ -27,7 +27,7 @@ struct Soil {
         if (context.name.empty()) context.name = "water";
         if (context.plants == 0) context.plants = 1;
         Settings settings = Settings::parse_toml(text, "soil.toml");
-        process = ProcessRegistry::entries().at("soil-water").make(settings, context, fields);
+        process = registered<ProcessType>().at("soil-water")->make(settings, context, fields);
         settings.reject_unread();
     }
 
