@@ -26,7 +26,7 @@ public:
     void save(std::ostream&) const override {}
     void restore(std::istream&) override {}
 };
-const RegisteredProcess<Echo> echo{{"bench-echo", "answers what it was asked", ""}};
+const Registered<ProcessType> echo{{"bench-echo", "answers what it was asked", "", construct<Echo>}};
 
 constexpr int edge = 256;
 

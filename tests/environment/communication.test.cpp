@@ -38,7 +38,7 @@ private:
     double mark_;
 };
 
-const RegisteredProcess<Where> where{{"test-where", "answers with the place", "mark"}};
+const Registered<ProcessType> where{{"test-where", "answers with the place", "mark", construct<Where>}};
 
 std::vector<double> rounded(const std::string& format, std::vector<double> numbers) {
     TurtleFormat::read(format, {"plant.e", 3, 1}).round(numbers);

@@ -69,8 +69,8 @@ private:
     std::string fault_;
 };
 
-const RegisteredProcess<Echo> echo{{"test-echo", "sends back what it was asked", "factor (1)"}};
-const RegisteredProcess<Faulty> faulty{{"test-faulty", "fails", "fault"}};
+const Registered<ProcessType> echo{{"test-echo", "sends back what it was asked", "factor (1)", construct<Echo>}};
+const Registered<ProcessType> faulty{{"test-faulty", "fails", "fault", construct<Faulty>}};
 
 }  // namespace
 
