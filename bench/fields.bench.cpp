@@ -17,14 +17,11 @@ namespace {
 class Echo : public EnvironmentProcess {
 public:
     Echo(Settings&, const EnvironmentContext&, Fields&) {}
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) answers[i][0] = queries[i].parameters[0];
     }
     std::vector<Quantity> statistics(std::uint32_t) const override { return {}; }
     std::pair<int, int> query_arity() const override { return {1, 1}; }
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 };
 const Registered<ProcessType> echo{{"bench-echo", "answers what it was asked", "", construct<Echo>}};
 

@@ -14,7 +14,6 @@ namespace {
 class Where final : public EnvironmentProcess {
 public:
     Where(Settings& settings, const EnvironmentContext&, Fields&) : mark_(settings.number_or("mark", 0)) {}
-    void advance(const WorldView&, std::span<const Query>, Fields&) override {}
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             seen.assign(queries[i].parameters.begin(), queries[i].parameters.end());
@@ -28,8 +27,6 @@ public:
     }
     std::vector<Quantity> statistics(std::uint32_t) const override { return {}; }
     std::pair<int, int> query_arity() const override { return {0, 9}; }
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
     static inline std::vector<double> seen;
     static inline LetterId following = no_letter;

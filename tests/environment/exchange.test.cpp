@@ -62,8 +62,6 @@ public:
     }
     std::vector<Quantity> statistics(std::uint32_t) const override { return {}; }
     std::pair<int, int> query_arity() const override { return {1, 1}; }
-    void save(std::ostream&) const override {}
-    void restore(std::istream&) override {}
 
 private:
     std::string fault_;
