@@ -15,7 +15,7 @@ namespace {
 /// The names of the symbols that a source file defines.
 std::set<std::string> defined_in(const std::filesystem::path& path) {
     const std::string text = read_text(path);
-    const std::regex definition(R"re(const Symbol\s+\w+\s*\{\s*"((?:[^"\\]|\\.)+)")re");
+    const std::regex definition(R"re(const Registered<Symbol>\s+\w+\s*\{\{\s*"((?:[^"\\]|\\.)+)")re");
     std::set<std::string> names;
     for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
         const std::string name = (*match)[1];
@@ -27,7 +27,7 @@ std::set<std::string> defined_in(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("every symbol in the open folder is registered, and nothing else", "[turtle]") {
-    std::set<std::string> defined, registered;
+    std::set<std::string> defined, found;
     for (const auto& entry : std::filesystem::directory_iterator(ESPALIER_SOURCE_DIR "/src/turtle/symbols")) {
         const std::set<std::string> names = defined_in(entry.path());
         INFO(entry.path());
@@ -37,8 +37,8 @@ TEST_CASE("every symbol in the open folder is registered, and nothing else", "[t
             CHECK(defined.insert(name).second);  // defined once
         }
     }
-    for (const auto& [name, symbol] : registered<Symbol>()) registered.insert(name);
-    CHECK(defined == registered);
+    for (const auto& [name, symbol] : registered<Symbol>()) found.insert(name);
+    CHECK(defined == found);
 }
 
 TEST_CASE("every symbol says what it does, beginning with its name", "[turtle]") {
