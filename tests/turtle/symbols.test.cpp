@@ -15,7 +15,7 @@ namespace {
 /// The names of the symbols that a source file defines.
 std::set<std::string> defined_in(const std::filesystem::path& path) {
     const std::string text = read_text(path);
-    const std::regex definition(R"re(const Registered<Symbol>\s+\w+\s*\{\{\s*"((?:[^"\\]|\\.)+)")re");
+    const std::regex definition(R"re(const Registered<Symbol>\s+\w+\s*\{\s*\{\s*"((?:[^"\\]|\\.)+)")re");
     std::set<std::string> names;
     for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
         const std::string name = (*match)[1];
