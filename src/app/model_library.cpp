@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "program_data.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,12 +39,6 @@ std::string without_trailing_blanks(const std::string& line) {
     return line.substr(0, line.find_last_not_of(" \t\r") + 1);
 }
 
-fs::path beside_program() {
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    return program.empty() ? fs::path() : program.parent_path().parent_path() / "share" / "espalier" / "models";
-}
-
 }  // namespace
 
 fs::path model_library(const fs::path& given) {
@@ -55,9 +51,7 @@ fs::path model_library(const fs::path& given) {
     for (fs::path here = fs::current_path(ignored); here.has_relative_path(); here = here.parent_path()) {
         if (fs::is_directory(here / "models")) return here / "models";
     }
-    for (const fs::path& folder : {fs::path(ESPALIER_SOURCE_MODELS), beside_program()}) {
-        if (!folder.empty() && fs::is_directory(folder)) return folder;
-    }
+    if (const fs::path data = program_data(); !data.empty()) return data / "models";
     throw UserError("no library of models found; name its folder with --models FOLDER");
 }
 

@@ -9,8 +9,8 @@
 
 namespace espalier {
 
-/// The folder given, or else the first there is of: `models` here or in a folder above, that of the sources this
-/// program was built from, and the one installed with it. Throws UserError if there is none.
+/// The folder given, or else the first there is of: `models` here or in a folder above, and the one that comes with the
+/// program. Throws UserError if there is none.
 std::filesystem::path model_library(const std::filesystem::path& given);
 
 /// Every model below a folder: its path, the first line of its leading comment without a number in front, and the rest

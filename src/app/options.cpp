@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "program_data.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -76,6 +78,7 @@ ModelOptions::ModelOptions(CLI::App& command, const std::string& name, const std
 
 ModelArguments ModelOptions::arguments() const {
     ModelArguments arguments = model_;
+    arguments.file = here_or_with_program(model_.file);
     arguments.defines = split(defines_, "--define");
     return arguments;
 }

@@ -1,0 +1,22 @@
+# What Espalier stands on.
+find_package(TBB CONFIG REQUIRED)  # before OpenVDB, whose own FindTBB leaves half an export set behind
+find_path(OPENVDB_CMAKE_DIR FindOpenVDB.cmake REQUIRED PATHS ${CMAKE_SYSTEM_PREFIX_PATH} PATH_SUFFIXES
+  lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB lib/cmake/OpenVDB lib64/cmake/OpenVDB)
+list(APPEND CMAKE_MODULE_PATH ${OPENVDB_CMAKE_DIR})
+find_package(OpenVDB REQUIRED)
+find_package(PNG REQUIRED)
+find_package(glm REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+
+if(ESPALIER_LOOK)
+  find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath
+    CommonTransforms FiltersCore FiltersGeneral FiltersSources IOXML IOGeometry IOPLY IOImage IOExport
+    IOOggTheora ChartsCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingCore RenderingContext2D
+    RenderingContextOpenGL2 RenderingFreeType RenderingOpenGL2 RenderingUI RenderingVolume RenderingVolumeOpenGL2)
+  find_package(OpenGL QUIET COMPONENTS EGL)  # pictures without a display
+endif()

@@ -1,0 +1,43 @@
+# What is installed, and how other projects find it.
+include(CMakePackageConfigHelpers)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Espalier)
+set(ESPALIER_DATA_DIR ${CMAKE_INSTALL_DATADIR}/espalier)
+file(RELATIVE_PATH to_libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+
+set_target_properties(espalier_library PROPERTIES EXPORT_NAME espalier)
+set(libraries espalier_library)
+if(ESPALIER_LOOK)
+  set_target_properties(espalier_look PROPERTIES EXPORT_NAME look)
+  list(APPEND libraries espalier_look)
+  # Beside the libraries, in a folder of its own: only the program opens it.
+  set_target_properties(espalier_look_commands PROPERTIES INSTALL_RPATH $ORIGIN/..)
+  install(TARGETS espalier_look_commands DESTINATION ${CMAKE_INSTALL_LIBDIR}/espalier)
+endif()
+
+# A minor version may change the interface until there is version 1.
+set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+foreach(library IN LISTS libraries)
+  set_target_properties(${library} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${soversion} INSTALL_RPATH $ORIGIN)
+  target_compile_features(${library} INTERFACE cxx_std_20)
+  target_include_directories(${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${library} INTERFACE $<INSTALL_INTERFACE:glm::glm>)
+endforeach()
+set_target_properties(espalier_program PROPERTIES INSTALL_RPATH $ORIGIN/${to_libraries})
+
+install(TARGETS espalier_program)
+install(TARGETS ${libraries} EXPORT EspalierTargets)
+install(EXPORT EspalierTargets NAMESPACE Espalier:: DESTINATION ${package})
+configure_file(cmake/version.h.in ${CMAKE_CURRENT_BINARY_DIR}/version.h)
+install(DIRECTORY include/espalier TYPE INCLUDE)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
+install(DIRECTORY models environments DESTINATION ${ESPALIER_DATA_DIR})
+
+configure_package_config_file(cmake/EspalierConfig.cmake.in EspalierConfig.cmake
+  INSTALL_DESTINATION ${package} PATH_VARS ESPALIER_DATA_DIR)
+write_basic_package_version_file(EspalierConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/EspalierConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/EspalierConfigVersion.cmake
+  DESTINATION ${package})
+
+file(RELATIVE_PATH ESPALIER_PREFIX_OF_PC ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(cmake/espalier.pc.in espalier.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/espalier.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
