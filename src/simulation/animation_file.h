@@ -14,7 +14,7 @@ namespace espalier {
 struct Animation {
     FrameSelection frames{1, 1, {}};
     std::optional<int> last;  ///< may be more than the derivation length; none: the derivation length
-    /// Lines that could not be understood and were passed over.
+    /// Lines that could not be understood and are ignored.
     std::vector<Diagnostic> diagnostics;
     std::vector<std::string> unused;  ///< what was read and has no meaning without a window
 };

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One .e file as it stands, before it is known who answers.
+/// One .e file as it stands, before its process is known.
 struct Lines {
     std::vector<std::string> command;
     Place command_place;
@@ -29,7 +29,7 @@ struct Lines {
     bool binary = false;
 };
 
-// What is told to a process that runs elsewhere, or to the window.
+// Meant for a process that runs elsewhere, or for the window.
 const std::vector<std::string> other_keywords{"communication type", "interpreted modules", "when interpret",
                                               "remote host",        "strings only",        "verbose"};
 
@@ -107,7 +107,7 @@ private:
     Lines lines_;
 };
 
-/// `honda81 -e plant.e density.spec`: who answers, and the file with its parameters.
+/// `honda81 -e plant.e density.spec`: the process, and the file with its parameters.
 struct Command {
     std::string program;
     std::optional<std::string> parameters;
@@ -124,9 +124,8 @@ Command command_of(const Lines& lines, std::vector<Diagnostic>& diagnostics) {
         } else if (!word.starts_with('-') && !command.parameters) {
             command.parameters = word;
         } else {
-            diagnostics.push_back(
-                {Diagnostic::Severity::error, lines.command_place,
-                 fmt::format("'{}' on the command line of {} is passed over", word, command.program)});
+            diagnostics.push_back({Diagnostic::Severity::error, lines.command_place,
+                                   fmt::format("'{}' on the command line of {} is ignored", word, command.program)});
         }
     }
     return command;

@@ -16,7 +16,7 @@ struct EnvironmentFile {
     std::vector<std::pair<std::string, Settings>> processes;
     bool routed = false;
     std::vector<std::filesystem::path> files;  ///< that were read or are named
-    std::vector<Diagnostic> diagnostics;       ///< lines that were passed over
+    std::vector<Diagnostic> diagnostics;       ///< lines that are ignored
     std::vector<std::string> unused;           ///< what was read and has no meaning inside one program
 };
 

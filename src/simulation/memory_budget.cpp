@@ -35,7 +35,7 @@ std::string commonest_module(const Model& model, const ModuleString& string) {
 MemoryShares share_memory(std::size_t budget, std::size_t processes) {
     const std::size_t fields = processes == 0 ? 0 : budget / 2;
     const std::size_t plants = budget - fields;
-    // The rest is for the program itself, and for what is drawn of a step's strings before anyone knows how much.
+    // The rest is for the program itself, and for what is drawn of a step's strings before it is counted.
     return {plants / 8 * 7, plants / 16, processes == 0 ? 0 : fields / processes};
 }
 

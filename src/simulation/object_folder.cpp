@@ -37,7 +37,7 @@ std::string folder_name(const fs::path& folder) {
     return name.empty() ? "object" : name;
 }
 
-/// Reads the switches of a `cpfg` command: those that name files are kept, those of the window passed over.
+/// Reads the switches of a `cpfg` command: those that name files are kept, those of the window ignored.
 class CommandReader {
 public:
     CommandReader(const MenuCommand& command, const fs::path& folder, ObjectFiles& object)
@@ -81,13 +81,13 @@ private:
         }
         if (word[1] == 'm' || word[1] == 'M') return read_set(word);
         if (word[1] == 'c' || word[1] == 's') return;  // colour set, window size
-        note(fmt::format("the switch '{}' is passed over", word));
+        note(fmt::format("the switch '{}' is ignored", word));
     }
 
     void read_set(const std::string& word) {
         const bool materials = word[1] == 'M';
         const std::optional<int> set = word.size() == 2 ? 1 : leading_integer(word.substr(2));
-        if (!set || *set < 0) return note(fmt::format("the switch '{}' is passed over", word));
+        if (!set || *set < 0) return note(fmt::format("the switch '{}' is ignored", word));
         if (materials != materials_) sets_.clear();
         materials_ = materials;
         sets_[*set] = value(word);
@@ -206,7 +206,7 @@ void take_by_specifications(const fs::path& folder, ObjectFiles& object) {
                         command->line);
     }
     object.diagnostics.push_back(
-        warning(path, "no command of the menu starts cpfg; the files are told by their extensions"));
+        warning(path, "no command of the menu starts cpfg; the files are recognised by their extensions"));
     take_by_extension(folder, object);
 }
 

@@ -61,7 +61,8 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options) {
         warning.severity = Diagnostic::Severity::warning;
         warning.place.file = model.path.string();
         warning.message =
-            "the model asks its environment and nobody answers: its queries keep their parameters. --environment names "
+            "the model queries its environment, but no process answers: its queries keep their parameters. "
+            "--environment names "
             "an environment file; a scene describes an environment";
         scene.notes.diagnostics.push_back(warning);
     }

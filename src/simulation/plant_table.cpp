@@ -168,7 +168,7 @@ private:
         return model;
     }
 
-    // A name given twice is a mistake; a name nobody gave is made from the model's.
+    // A name given twice is a mistake; a missing name is made from the model's.
     std::string read_name(const Settings& table, const Model& model) {
         std::string name = table.text_or("name", "");
         if (!name.empty() && !names_.insert(name).second) {

@@ -30,7 +30,7 @@ std::string to_hex(const std::string& bytes) {
     return text;
 }
 
-// Digits that are none end the bytes; the digest then tells.
+// The bytes end at the first character that is no digit; the digest then differs.
 std::string from_hex(const std::string& text) {
     std::string bytes;
     for (std::size_t i = 0; i + 1 < text.size(); i += 2) {

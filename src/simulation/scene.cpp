@@ -214,7 +214,7 @@ const char* scene_help() {
   default      the process that answers ?E; default: the only one
   file         an environment file (.e), whose process answers ?E
   folder       where its parameter file is looked for, if it is not beside it
-  unanswered   "error", or "keep": queries nobody answers keep their parameters
+  unanswered   "error", or "keep": queries without a process keep their parameters
 
 [environment.<name>]
   process      what it is: `espalier list processes`; its parameters stand beside it

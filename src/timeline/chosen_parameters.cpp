@@ -76,7 +76,7 @@ SymbolLetters letters_of(const std::string& symbol, const Alphabet& alphabet) {
     return letters;
 }
 
-// The most parameters a symbol has in any model; nothing if no model knows it.
+// The most parameters a symbol has in any model; nothing if no model has it.
 std::optional<int> most_parameters(const std::string& symbol, std::span<const PlantFrame> plants) {
     std::optional<int> most;
     for (const PlantFrame& plant : plants) {

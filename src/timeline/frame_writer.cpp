@@ -47,7 +47,7 @@ void FrameWriter::add(const Frame& frame, bool due) {
     changed_.notify_all();
 }
 
-// Before anything is in the queue: nobody may wait for a thread that there is not.
+// Before anything is in the queue: without a thread, waiting for it would never end.
 void FrameWriter::start() {
     if (thread_.joinable()) return;
     try {

@@ -205,7 +205,7 @@ std::size_t Lz4Blocks::compress_parts(const void* values, std::span<const std::u
         case 12:
             return compress_parts_of<12>(bytes, ends, first, part, out);
         default:
-            throw RunError("an array of parts with tuples of a width that nobody writes");
+            throw RunError("an array of parts with tuples of a width that is never written");
     }
 }
 
@@ -262,7 +262,7 @@ std::size_t Lz4Blocks::compress_runs(const void* values, std::span<const std::ui
         case 8:
             return compress_runs_of<8>(values, ends, first, last, run, out);
         default:
-            throw RunError("an array of runs with tuples of a width that nobody writes");
+            throw RunError("an array of runs with tuples of a width that is never written");
     }
 }
 

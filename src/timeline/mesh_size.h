@@ -1,4 +1,4 @@
-// How large a plant's mesh will be, told before it is made.
+// How large a plant's mesh will be, computed before it is made.
 #pragma once
 
 #include "espalier/turtle/interpretation.h"
@@ -20,7 +20,7 @@ struct MeshSize {
     void add(const MeshSize& other, std::size_t times = 1);
 };
 
-/// Sizes of the surfaces that view files describe. Each is meshed once, whoever asks first; thread safe.
+/// Sizes of the surfaces that view files describe. Each is meshed once; thread safe.
 class SurfaceSizes {
 public:
     /// Of all surfaces of a view file, by their ids; stays where it is.

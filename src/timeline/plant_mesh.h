@@ -131,7 +131,7 @@ private:
 class OrganSource {
 public:
     OrganMeshes plain;
-    /// Null if nobody described surfaces.
+    /// Null if there are no described surfaces.
     SurfaceMeshes* surfaces(const std::shared_ptr<const Shapes>& shapes);
 
 private:
@@ -147,7 +147,7 @@ void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& sou
 /// Generalized cylinders and patches. A ring between two pieces belongs to the first.
 void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
-/// The queries whose modules are `wanted`, whoever answered, as vertices in string order.
+/// The queries whose modules are `wanted`, as vertices in string order.
 void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
                  const std::function<bool(std::uint32_t module)>& wanted, std::uint32_t plant);
 

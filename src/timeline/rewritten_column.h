@@ -23,7 +23,7 @@ bool same_bits(T a, T b) {
         return a == b;
 }
 
-/// Knows whether the values are those of the frame before, so that nobody has to keep both.
+/// Detects whether the values are those of the frame before, without keeping both.
 template <class T>
 class RewrittenColumn {
 public:

@@ -65,7 +65,7 @@ void remove_half_written(const fs::path& folder) {
     for (const fs::path& path : halves) fs::remove(path);
 }
 
-// Indices first: what they no longer name is nobody's.
+// Indices first: what they no longer name is not part of a timeline.
 void remove_timeline(const fs::path& folder) {
     try {
         for (const char* name : indices) fs::remove(folder / name);

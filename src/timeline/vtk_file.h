@@ -40,7 +40,7 @@ private:
     struct Part {
         std::string markup;  ///< before the array
         DataArray array;
-        std::string values;    ///< the array's, if nobody else keeps them
+        std::string values;    ///< the array's, unless they are kept elsewhere
         Column<char> text;     ///< the array, encoded
         bool encoded = false;  ///< the text is that of the array
 

@@ -150,7 +150,7 @@ TEST_CASE_METHOD(Objects, "an environment file names who answers, and derive ask
 
     const Outcome alone = run("derive ask.l");
     CHECK(alone.out == "FFF?E(20)\n");
-    CHECK_THAT(alone.err, Contains("nobody answers"));
+    CHECK_THAT(alone.err, Contains("no process answers"));
     CHECK(run("derive ask.l --without-environment").err.empty());
     CHECK(run("run ask.l --quiet --output out").code == 0);
 }

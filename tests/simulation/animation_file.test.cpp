@@ -69,7 +69,7 @@ TEST_CASE("a blank before the minus makes a lone frame, and what follows is comp
     CHECK(frames_of("frame intervals: 2- 4\n") == Frames{2, 3, 4});
 }
 
-TEST_CASE("keywords are exact, unknown ones are passed over, and line ends may be those of Windows", "[simulation]") {
+TEST_CASE("keywords are exact, unknown ones are ignored, and line ends may be those of Windows", "[simulation]") {
     CHECK(frames_of("First frame: 5\n first frame: 6\nfirst frame : 7\nmin/max: 3\nnonsense\nlast frame: 2\r\n") ==
           Frames{1, 2});
     CHECK(read("first frame: 2 3 4\n").diagnostics.empty());

@@ -69,7 +69,7 @@ TEST_CASE_METHOD(EnvironmentFolder, "binary data is not rounded, and the followi
     CHECK(table.flag_or("following_module", true));
 }
 
-TEST_CASE_METHOD(EnvironmentFolder, "a keyword that is not exact is passed over and told of", "[simulation]") {
+TEST_CASE_METHOD(EnvironmentFolder, "a keyword that is not exact is ignored with a warning", "[simulation]") {
     const EnvironmentFile file = read("Executable: x\nexecutable: shape\nturtle position : %f %f %f\n");
     CHECK_FALSE(file.processes[0].second.has("turtle"));
     REQUIRE(file.diagnostics.size() == 2);

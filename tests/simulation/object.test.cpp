@@ -71,7 +71,7 @@ TEST_CASE_METHOD(ObjectFolder, "the first cpfg command of the menu says which fi
     CHECK(unused_files(object) == std::vector<std::string>{"other.l"});
 }
 
-TEST_CASE_METHOD(ObjectFolder, "switches stand in any order, and those of the window are passed over", "[simulation]") {
+TEST_CASE_METHOD(ObjectFolder, "switches stand in any order, and those of the window are ignored", "[simulation]") {
     folder().write("plant.e", "executable: shape\n");
     const ObjectFiles object = read(
         "cpfg -homo -wt title plant.l -e plant.e -rmode expose -wp 1 2 -c3 -M2 plant.mat -a plant.v -wnb -P none "
@@ -122,7 +122,7 @@ TEST_CASE_METHOD(ObjectFolder, "an object of lpfg is told apart", "[simulation]"
     CHECK(name_of(read("lpfg other.l\n\t\tcpfg plant.l plant.v").model) == "plant.l");
 }
 
-TEST_CASE_METHOD(ObjectFolder, "without specifications files are told by their extensions", "[simulation]") {
+TEST_CASE_METHOD(ObjectFolder, "without specifications files are recognised by their extensions", "[simulation]") {
     std::filesystem::remove(folder().path() / "other.l");
     std::filesystem::remove(folder().path() / "plant.mat");
     folder().write(".hidden.l", model);

@@ -285,7 +285,7 @@ TEST_CASE_METHOD(Worlds, "plants that fit one by one but not together end the ru
     CHECK(stand.steps_done() < 14);
 }
 
-TEST_CASE_METHOD(Worlds, "a process nobody defined, and one nobody answers for, are errors before step 0",
+TEST_CASE_METHOD(Worlds, "an unknown process, and a query without a process, are errors before step 0",
                  "[simulation]") {
     CHECK_THROWS_WITH(World(scene(doubling, "[environment.light]\nprocess = 'voxel-shde'\n")),
                       Contains("voxel-shde") && Contains("did you mean 'voxel-shade'?"));

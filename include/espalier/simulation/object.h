@@ -18,14 +18,14 @@ struct ObjectFiles {
     std::filesystem::path folder;  ///< where files are looked for that are not beside the one that names them
     Defines defines;
     bool quirks = false;              ///< --cpfg-quirks
-    bool warns_of_unanswered = true;  ///< that nobody answers ?E is worth a warning
-    bool keeps_unanswered = true;     ///< ?E keeps its parameters if nobody answers
+    bool warns_of_unanswered = true;  ///< warns if no process answers ?E
+    bool keeps_unanswered = true;     ///< queries without a process keep their parameters
     std::vector<std::string> listed;  ///< what the folder's own list says belongs to it
     std::vector<Diagnostic> diagnostics;
 };
 
 /// Reads a folder as the virtual laboratory keeps them: the first command `cpfg ...` of its file `specifications` says
-/// which files to take and how. Without that file they are told by their extensions. Throws UserError for files that
+/// which files to take and how. Without that file, extensions decide. Throws UserError for files that
 /// are missing or lead out of the folder, for a choice that is not clear, and for objects of lpfg.
 ObjectFiles read_object_folder(const std::filesystem::path& folder);
 

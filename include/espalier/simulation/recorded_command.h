@@ -1,4 +1,4 @@
-// How a run was started and what it read, as its run.json tells: enough to do it again.
+// How a run was started and what it read, from its run.json: enough to repeat it.
 #pragma once
 
 #include "espalier/base/read_log.h"
@@ -33,7 +33,7 @@ std::filesystem::path lay_out_inputs(const RecordedCommand& command, const std::
 std::vector<std::string> arguments_below(const RecordedCommand& command, const std::filesystem::path& root);
 
 /// Files of two timelines that are not the same bytes: "plants/0003.vtp differs from byte 117 on", "... is missing".
-/// run.json and timings.csv tell of the run, not of the growth, and are passed over.
+/// run.json and timings.csv describe the run, not the growth, and are ignored.
 std::vector<std::string> timeline_differences(const std::filesystem::path& before, const std::filesystem::path& after);
 
 }  // namespace espalier

@@ -37,9 +37,9 @@ struct SceneEnvironment {
     void add(const std::string& name, const std::string& process, const Settings& parameters = {});
 
     std::vector<std::pair<std::string, Settings>> processes;  ///< [environment.<name>] in the file's order
-    std::string default_process;                              ///< who answers ?E, "" = the only one
+    std::string default_process;                              ///< answers ?E; "": the only one
     bool routed = false;                                      ///< the first parameter of ?E counts the processes from 0
-    bool keeps_unanswered = false;                            ///< queries nobody answers keep their parameters
+    bool keeps_unanswered = false;                            ///< queries without a process keep their parameters
 };
 
 /// What was noticed in the files of a scene and did not keep it from being read.

@@ -26,12 +26,12 @@ struct RunOptions {
     bool resume = false;                           ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;                        ///< bytes; 0: half of the machine
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
-    /// What `espalier run` was told, without what does not change the timeline; goes to run.json.
+    /// The arguments of `espalier run` that change the timeline; for run.json.
     std::vector<std::string> arguments;
     /// What has been read so far and during the run; goes to run.json. Null: unknown.
     const ReadLog* inputs = nullptr;
     std::function<void(const Progress&)> progress = nullptr;
-    /// Told once, before anything grows, what the processes passed over in their parameter files.
+    /// Called once, before anything grows, with what the processes ignored in their parameter files.
     std::function<void(const std::vector<Diagnostic>&)> warn = nullptr;
 };
 
@@ -45,7 +45,7 @@ struct RunResult {
     std::size_t peak_memory = 0;  ///< bytes
 };
 
-/// What --memory is when nobody says: half of the machine, or of what its container may use, in bytes.
+/// The default of --memory: half of the machine, or of what its container may use, in bytes.
 std::size_t default_memory();
 /// The most memory this process ever held in the machine at once, in bytes.
 std::size_t peak_memory();

@@ -22,7 +22,7 @@ struct StageTimes {
 /// Worlds share nothing: several may grow at once, each on a thread of its own.
 class World {
 public:
-    /// `memory` in bytes. Throws UserError for processes that cannot be made or queries nobody answers. What models
+    /// `memory` in bytes. Throws UserError for processes that cannot be made or queries without a process. What models
     /// write goes into `files`, below a folder of the plant's name if there are several; without it nothing is kept.
     explicit World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {});
     ~World();

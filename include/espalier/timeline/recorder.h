@@ -40,15 +40,15 @@ public:
     virtual ~Recorder() = default;
     /// True for recorders that must see every step, whatever `every` says.
     virtual bool sees_every_step() const { return false; }
-    /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Making a field for nobody
-    /// would cost a step as much as the field itself, so frames hold no others.
+    /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Frames of a timeline hold no
+    /// others: to make a field that is not read would cost a step as much as the field itself.
     virtual std::vector<std::string> fields() const { return {}; }
-    /// The frame and what it points to are gone when this returns; grids of fields may be kept.
+    /// The frame is gone when this returns. Copies of its plants keep their values, and grids of fields may be kept.
     virtual void record(const Frame& frame) = 0;
-    /// After the last frame, also of an interrupted or failed run; lets go of memory that nobody needs then.
+    /// After the last frame, also of an interrupted or failed run; frees what is not needed any more.
     virtual void finish() = 0;
-    /// What recording a plant takes at this step, told from the plant alone: how far the recorder is depends on chance,
-    /// where a run runs out of memory must not. Called side by side, before the step is recorded.
+    /// What recording a plant takes at this step, computed from the plant alone: how far the recorder is depends on the
+    /// threads, where a run runs out of memory must not. Called in parallel, before the step is recorded.
     virtual RecordedMemory memory(int, const ModuleString&, const Interpretation&) const { return {}; }
 
     /// What the frames to come depend on, as bytes, when every frame so far is written; for a checkpoint.

@@ -250,7 +250,7 @@ private:
     std::vector<std::string> texture_files_;
     OrganSource organs_;
     PlantData data_;                         ///< what the last file shows
-    std::optional<std::uint64_t> restored_;  ///< what a checkpoint knows of the last file
+    std::optional<std::uint64_t> restored_;  ///< what a checkpoint holds of the last file
     std::string written_;                    ///< the last file, relative to the folder; empty before the first
     VtkFile file_;
 };
