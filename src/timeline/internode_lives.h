@@ -10,6 +10,8 @@
 
 namespace espalier {
 
+/// An Internode lasts a step and refers to a module of its string; this lasts for the run and holds what it needs
+/// itself.
 struct InternodeLife {
     Identity identity, parent;
     std::uint32_t part;  ///< a module may draw several internodes; this is its part-th
