@@ -184,9 +184,9 @@ Scene scene_of_model(const std::filesystem::path& model, const SceneOptions& opt
 
 const char* scene_help() {
     return R"([simulation]
-  steps        derivations; default: the longest derivation length of the models
+  steps        number of derivation steps; default: the longest derivation length of the models
   seed         0; the same seed gives the same bytes
-  dt           1; time one step stands for
+  dt           1; duration of a step
   time_unit    "step"
   domain       { lower = [x, y, z], upper = [x, y, z] } in metres; default: grows with the plants
 
@@ -196,16 +196,16 @@ const char* scene_help() {
   position     [0, 0, 0], metres
   positions    [[x, y, z], ...]: one plant at each
   grid         { columns, rows = 1, spacing (m), jitter = 0 (m) }: a stand around `position` on x and z
-  heading      [0, 1, 0]; where the turtle looks
+  heading      [0, 1, 0]; heading of the turtle
   roll         0 degrees about the heading
-  define       { NAME = value }: overrides #define NAME of the model
+  define       { NAME = value }: replaces #define NAME of the model
   cpfg_quirks  false; trunc rounds, x/0 = x, subscripts are clamped
-  view         a view file (.v): how the turtle starts, and surfaces, contours, functions, curves
+  view         view file (.v): settings of the turtle, surfaces, contours, functions, curves
   colour_map   a file (.map) for set 1, or { 1 = file, 2 = file }
   materials    the same with materials (.mat)
-  folder       where files are looked for that are not beside the file that names them
-  stream       its number in the scene; which random numbers it draws
-  turtle       over the view file: { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
+  folder       a second folder in which side files are looked for
+  stream       the plant's number in the scene; selects the random numbers
+  turtle       replaces values of the view file: { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
                  colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
                  tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0,
                               elasticity_step = 0, torque = false }] }
@@ -213,20 +213,20 @@ const char* scene_help() {
 [environment]
   default      the process that answers ?E; default: the only one
   file         an environment file (.e), whose process answers ?E
-  folder       where its parameter file is looked for, if it is not beside it
+  folder       a second folder in which its parameter file is looked for
   unanswered   "error", or "keep": queries without a process keep their parameters
 
 [environment.<name>]
-  process      what it is: `espalier list processes`; its parameters stand beside it
-  digits       0; so many significant digits carry a question and its answer, 0: all
-  turtle       { position = "%.4f %.4f %.4f", heading, left, up, line_width, scale_factor }: printf formats through
-               which the turtle's state reaches the process
+  process      kind of process: `espalier list processes`; its parameters follow
+  digits       0; significant digits of queries and answers, 0: all
+  turtle       { position = "%.4f %.4f %.4f", heading, left, up, line_width, scale_factor }: printf formats that
+               round the state of the turtle for the process
   following_module  true; the process sees the module that follows the query
 
 [timeline]     `espalier list recorders`
   first        0; the first frame
-  every        1; steps from frame to frame; the last step is always one
-  animation    an animation file (.a) that says which steps are frames, instead of `first` and `every`
+  every        1; steps between frames; the last step is always a frame
+  animation    animation file (.a) that selects the frames, instead of `first` and `every`
 )";
 }
 

@@ -88,6 +88,24 @@ TEST_CASE("Every header that an example of a page includes is there", "[docs]") 
     }
 }
 
+TEST_CASE("Every file that a page names in the tree is there", "[docs]") {
+    static const std::regex named("`((src|include|tests|models|environments|docs)/[A-Za-z0-9_./-]+)`");
+    const std::set<std::string> of_examples{"src/environment/processes/height.cpp",
+                                            "tests/environment/processes/height.test.cpp",
+                                            "src/timeline/recorders/sizes.cpp"};
+    std::size_t checked = 0;
+    for (const fs::path& page : all_pages()) {
+        for (const std::string& line : lines_of(page)) {
+            for (std::sregex_iterator at(line.begin(), line.end(), named), end; at != end; ++at) {
+                INFO(page.string() << " names " << (*at)[1]);
+                CHECK((of_examples.count((*at)[1]) == 1 || fs::exists(root / (*at)[1].str())));
+                ++checked;
+            }
+        }
+    }
+    CHECK(checked > 20);
+}
+
 TEST_CASE("The index of the manual names every page", "[docs]") {
     const std::vector<std::string> links = links_in("docs/README.md");
     for (const fs::path& page : all_pages()) {

@@ -79,22 +79,22 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"clover", "patches of light on the ground, dimmed by leaves (Bell 1986; Mech & Prusinkiewicz 1996)",
-     R"(?name(p)         -> light at the place: green of the image (0 to 1) times t^n under n leaves; 0 beside the grid
-?name(action, a) -> light, and a = red of the image / 128. Action 0 asks only; with 1 a leaf of area a comes to stay,
-                    with any other number one goes. All leaves of a step come, then go, then all are answered
-Further parameters (20 in all at most) stay as they are.
+    {"clover", "patches of light on the ground under leaves (Bell 1986; Mech & Prusinkiewicz 1996)",
+     R"(?name(p)         -> light at the place: green of the image (0 to 1) times t^n under n leaves; 0 outside the grid
+?name(action, a) -> light, and a = red of the image / 128. Action 0 only asks; 1 adds a leaf of area a;
+                    any other number removes one. In each step, leaves are added, then removed, then queries answered
+Further parameters (at most 20 in all) keep their values.
 
 transmittance  t, 0.6; 0 is taken as 0.0001
-input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without one all is white
+input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without a picture all is white
 grid_size      [512, 512]; cells
 grid_position  [0, 0] m; lower left corner
 grid_range     [1, 1] m; from corner to corner
-remove_old_leaves  false: leaves stay until they go; true: each step begins without leaves
+remove_old_leaves  false: leaves remain until they are removed; true: each step begins without leaves
 z_is_up        true: the ground is x and y; false: x and z
 parameters     a file with these keys in words, as cpfg's program clover reads it
 
-A leaf is a disc over the cells whose middles it covers. Statistics of a plant: mean, min, max of the light, queries.
+A leaf is a disc that covers the cells whose centres are inside it. Statistics of a plant: mean, min, max of the light, queries.
 )",
      construct<Clover>}};
 

@@ -1,4 +1,4 @@
-// density: how crowded a place of the plane is, and where it is less so.
+// density: density in the plane, and the direction in which it decreases.
 // Cohen 1967, Computer simulation of biological pattern generation processes.
 #include "espalier/environment/environment_process.h"
 
@@ -97,22 +97,22 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"density", "how crowded a place of the plane is, and where it is less so (Cohen 1967)",
+    {"density", "density in the plane, and the direction in which it decreases (Cohen 1967)",
      R"(The density at a place is the sum of 1 / (1 + d^2) over all queries but sources and of v / (1 + d) over the sources,
 d being their distance in x and y.
 
-?name(v)          a source of strength v, which may be negative; stays as it is
-?name(r, a, m) -> r: the density; a, m: where it falls most steeply, as an angle in degrees from +x towards +y and how
-                  much it falls over one unit, by differences over half a unit to either side
-Queries with other numbers of parameters only take room.
+?name(v)          a source of strength v, which may be negative; keeps its value
+?name(r, a, m) -> r: the density; a, m: the direction of steepest decrease, as an angle in degrees from +x towards +y, and how
+                  much it decreases over one unit, by differences over half a unit on either side
+Queries with other numbers of parameters only count as neighbours.
 
 one_point_value  false: r is the least of 6 x 6 places in the unit square around the query; true: at the query itself
 return_vector    false; true: a and m are the x and y of the fall
 range, position, output_image, frame_intervals, quantization_step, gamma
-                 accepted: they are about the picture that cpfg's program writes
+                 accepted and ignored: they concern the picture that cpfg's program writes
 parameters       a file with these keys in words, as cpfg's program density reads it
 
-Time grows with the square of the queries. Statistics of a plant: mean, min, max of r, queries.
+Time grows with the square of the number of queries. Statistics of a plant: mean, min, max of r, queries.
 )",
      construct<Density>}};
 

@@ -1,4 +1,4 @@
-// density3d: counts what was ever put into each voxel of a box.
+// density3d: sums everything that was ever added to each voxel of a box.
 // After Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space.
 #include "espalier/environment/environment_process.h"
 
@@ -95,12 +95,12 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"density3d", "counts what was ever put into each voxel of a box (after Greene 1989)",
-     R"(?name(v) -> v is added to the voxel, and the answer is all that was ever added to it; 0 outside the box
-Further parameters (20 in all at most) stay as they are.
+    {"density3d", "sums everything that was ever added to each voxel of a box (after Greene 1989)",
+     R"(?name(v) -> v is added to the voxel, and the answer is the sum of all that was added; 0 outside the box
+Further parameters (at most 20 in all) keep their values.
 
-Queries are answered one after the other in string order, each finding what those before it left: their order matters.
-Nothing is forgotten from step to step.
+Queries are answered one after the other in string order, and each sees the effect of those before it.
+Sums are kept from step to step.
 
 range         [1, 1, 1] m; of the box
 position      [0, 0, 0] m; its lower corner
@@ -108,7 +108,7 @@ grid_size     [1, 1, 1]; voxels
 octree_level  0; 2^level voxels along each side, where no grid_size is given
 parameters    a file with these keys in words, as cpfg's program density3d reads it
 
-Statistics of a plant: mean, min, max of the answers, queries; total, all that is in the box.
+Statistics of a plant: mean, min, max of the answers, queries; total, the sum over the box.
 )",
      construct<Density3d>}};
 

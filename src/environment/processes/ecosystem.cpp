@@ -114,18 +114,18 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"ecosystem", "plants as discs of which the smaller or weaker lose where they overlap (Deussen et al. 1998)",
+    {"ecosystem", "plants as discs; where two overlap, the smaller or weaker loses (Deussen et al. 1998)",
      R"(?name(radius)         -> 1, or 0 if the disc loses; two overlap at a distance up to the sum of their radii
 ?name(radius, group)  -> the same among the queries of this group only; without a group it is 0
-?name(radius, vigour) -> if `vigor` is on: the one of lower vigour loses, of equals the smaller
-Further parameters (20 in all at most) stay as they are.
+?name(radius, vigour) -> if `vigor` is on: the disc with less vigour loses; of equals, the smaller
+Further parameters (at most 20 in all) keep their values.
 
 vigor     false; true: the second parameter is a vigour, not a group
-scan      with vigour, who has lost ends nobody any more, so that the order matters:
-          "vigour": from the most vigorous down; equals end each other. Does not depend on the order of the queries
-          "string": in string order, of two equals the later stays: cpfg's ecosystem. Usual if `parameters` is given
-3d_case   false: heights do not matter, places are compared by x and z; true: balls in space
-grid_size [1, 1, 1]; accepted and not needed
+scan      with vigour, a disc that has lost no longer eliminates others, so the order matters:
+          "vigour": the most vigorous first; ties eliminate both. Independent of the order of the queries
+          "string": in string order; of two equals the later remains, as in cpfg. Default if `parameters` is given
+3d_case   false: heights are ignored, positions are compared by x and z; true: balls in space
+grid_size [1, 1, 1]; accepted and ignored
 parameters  a file with `vigor: on`, `3d case: on`, `grid size: n n n`, as cpfg's program ecosystem reads it
 
 Without vigour two of equal radius that overlap both get 0.

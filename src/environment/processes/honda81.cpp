@@ -72,13 +72,13 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"honda81", "branches end near others of at least their vigour (Honda, Tomlinson & Fisher 1981)",
-     R"(?name(vigour)        -> 0 if another query of the group with at least this vigour stands within `radius`, else 1
+    {"honda81", "branches end near others with the same or more vigour (Honda, Tomlinson & Fisher 1981)",
+     R"(?name(vigour)        -> 0 if another query of the group with at least this vigour is within `radius`, else 1
 ?name(vigour, group) -> the same among the queries of this group only; without a group it is 0
-Further parameters (20 in all at most) stay as they are.
+Further parameters (at most 20 in all) keep their values.
 
-radius    m, 0: distance of the two places themselves, not of discs around them. 0: only the very same place counts
-3d_case   false: heights do not matter, places are compared by x and z; true: in space
+radius    m, 0: distance between the two positions. 0: only exactly the same position counts
+3d_case   false: heights are ignored, positions are compared by x and z; true: in space
 parameters  a file with `radius: r` and `3d case: on`, as cpfg's program honda81 reads it
 
 Two of equal vigour within the radius both get 0. Answers do not depend on the order of the queries.

@@ -47,14 +47,14 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"ornament", "how many discs lie over a place, for ornaments that fill a plane (Wong et al. 1998)",
-     R"(?name(p, r) -> p = the number of discs over the place, 255 at most, the query's own of radius r among them,
-               r = green of the image there, 0 to 1; both are 0 beside the grid
+    {"ornament", "number of discs that cover a place, for ornaments that fill a plane (Wong et al. 1998)",
+     R"(?name(p, r) -> p = the number of discs that cover the place, at most 255, including the query's own disc of radius r,
+               r = green of the image there, 0 to 1; both are 0 outside the grid
 ?name(p)    -> p = the number of discs
-Further parameters (20 in all at most) stay as they are. Places are x and y.
+Further parameters (at most 20 in all) keep their values. Places are x and y.
 
-input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without one all is white
-grid_size      [512, 512]; cells. A disc lies over the cells whose middles it covers
+input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without a picture all is white
+grid_size      [512, 512]; cells. A disc covers the cells whose centres are inside it
 grid_position  [0, 0] m; lower left corner
 grid_range     [1, 1] m; from corner to corner
 parameters     a file with these keys in words, as cpfg's program ornament reads it

@@ -166,15 +166,15 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"shadowpyramid", "light left by shadow pyramids that multiply (Palubicki et al. 2009, as cpfg's program has it)",
+    {"shadowpyramid", "light under shadow pyramids that multiply (Palubicki et al. 2009, as in the program of cpfg)",
      R"(Every query with p > 0 casts a pyramid on its own voxel and the layers below: in layer i = 0 ... depth - 1, a square of
 half-width floor(spread i) voxels, each multiplied by 1 - min(1, weight * dissipation^-d), d its distance in voxels.
 
-?name(p)          -> light, 1 in the open. A query that casts stands in its own shadow
+?name(p)          -> light, 1 without shade. A query is also shaded by its own shadow
 ?name(p, x, y, z) -> light, and its gradient per metre by differences over the sample radius, not normalised
-Further parameters (20 in all at most) stay as they are.
+Further parameters (at most 20 in all) keep their values.
 
-grid_size           n, 201; voxels along each side, the middle one around the origin
+grid_size           n, 201; voxels along each side; the middle one contains the origin
 grid_span           X, 200 m; the grid reaches from -X to X, so that a voxel is 2 X / (n - 1) wide
 shadow_spread       1
 shadow_depth        6; layers
@@ -182,7 +182,7 @@ shadow_weight       0.58
 shadow_dissipation  6.9
 sample_radius       1.6 m
 light_vertical_bias 0; added to the y of the gradient
-light_randomness    0; each part of the gradient is changed by up to this, at random
+light_randomness    0; each component of the gradient is changed at random by up to this
 parameters          a file with these keys in words, as cpfg's program shadowpyramid reads it
 
 Outside the grid is full light. Field: name (the light). Statistics of a plant: mean, min, max of the light, queries.

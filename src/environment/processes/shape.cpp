@@ -176,7 +176,7 @@ std::string help() {
 Of the process:
   voxel        of the field <name>.distance and of a mesh's level set (m; longest side / 128)
   motion = { times = [steps], growth = [metres], movement = [[x, y, z], ...] }
-               grown, shrunk and moved as the steps go by, linearly between the times
+               changes size and position, linearly between the times
 Answers ?name(inside) 1 or 0; (inside, distance); with five parameters also the outward normal,
 with eight also the nearest point of the surface.)";
 }

@@ -121,24 +121,24 @@ private:
 };
 
 const Registered<ProcessType> entry{{"takenaka", "production of leaf clusters that shade each other (Takenaka 1994)",
-                                     R"(Every query is a ball of leaves between the others and the light.
+                                     R"(Every query is a ball of leaves that shades the others.
 
-?name(A, w) -> w = e S (A s^2 / 4) a - w: what leaves of area A (cm2) produce, less the upkeep w. S is the light in a
-               year that reaches the cluster, each ball before a source letting tau^2 of it through,
+?name(A, w) -> w = e S (A s^2 / 4) a - w: production of leaves of area A (cm2), less the upkeep w. S is the light in a
+               year at the cluster; each ball in front of a source transmits the fraction tau^2,
                tau = 1 - (1 - t) / s^2 and a = 1 - tau^2. A ball's radius is (s / 2) sqrt(A / pi)
-?name(A)    -> A: shades, and learns nothing
-Further parameters (20 in all at most) stay as they are.
+?name(A)    -> A: shades others, and gets no answer
+Further parameters (at most 20 in all) keep their values.
 
-parameter_s    s, 1.5; how far leaves are spread
+parameter_s    s, 1.5; how widely leaves are spread
 transmittance  t, 0.1; of a leaf
 efficiency     e, 0.015
 source         ["x y z intensity", ...]: places of lights, intensity 1; without any, straight above, 1e6 up
-disk_source    ["radius x y z", ...]: level discs of light, each as 100 points of intensity 1 in all
-beam_radius    b, 0; balls are larger by b times the radius of the one that asks
-grid_size      [1, 1, 1]; accepted and not needed: all clusters are tested
+disk_source    ["radius x y z", ...]: horizontal discs of light, each as 100 points of total intensity 1
+beam_radius    b, 0; balls are larger by b times the radius of the querying ball
+grid_size      [1, 1, 1]; accepted and ignored: all clusters are tested
 parameters     a file with these keys in words, as cpfg's program takenaka reads it
 
-All sources together give 8.64 mol cm-2 in a year in the open (1000 umol m-2 s-1 for 12 h on 200 days).
+All sources together give 8.64 mol cm-2 per year without shade (1000 umol m-2 s-1 for 12 h on 200 days).
 Statistics of a plant: mean, min, max of the answers, queries.
 )",
                                      construct<Takenaka>}};

@@ -1,4 +1,4 @@
-// ulam: cells are born next to one living cell, where they touch no other.
+// ulam: cells are born next to exactly one living cell.
 // Ulam 1962, On some mathematical problems connected with patterns of growth of figures; Schrandt & Ulam 1967.
 #include "espalier/environment/environment_process.h"
 
@@ -154,22 +154,22 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"ulam", "cells are born next to one living cell, where they touch no other (Ulam 1962)",
-     R"(?name(s)       s > 0: a living cell stands here (s stays as it is); every living cell says so in every step.
+    {"ulam", "cells are born next to exactly one living cell (Ulam 1962)",
+     R"(?name(s)       s > 0: a living cell is here (s keeps its value); every living cell must send this in every step.
                s <= 0: may a cell be born here? -> 1 or 0
 ?name(s, n)    n -> living edge neighbours
-?name(s, n, c) c -> corner neighbours that count: all but those that border the cell's parent too
-Further parameters (20 in all at most) stay as they are. Places nearer than a hundredth of an edge are one cell.
+?name(s, n, c) c -> corner neighbours that count: all except those that also touch the parent of the cell
+Further parameters (at most 20 in all) keep their values. Positions within a hundredth of an edge are the same cell.
 
 rule    "simple" (default): born where exactly one living cell is an edge neighbour (1, 5, 9, 21, 25, 37, 49, 85 ...)
-        "births": and no living cell, nor one that could be born in this step, touches a corner
+        "births": and no living cell, and no cell that could be born in this step, touches a corner
                   (... 85, 97, 117, 145, 157, 169, 181, 201 if the cells born last ask)
-        "wishes": and nothing that asks touches a corner either, born or not
+        "wishes": and no candidate touches a corner either, born or not
                   (... 145, 149, 161, 173, 193 if the cells born last ask; ... 173, 185 if all living cells ask)
 edge    m, 1: distance of cells that share an edge
 corner  m, 1.4143 edges: greatest distance of cells that touch; at most 8 edges
 
-There is no grid: square, hexagonal, triangular and cubic patterns differ in where the turtle asks.
+There is no grid: the positions of the queries make square, hexagonal, triangular or cubic patterns.
 Statistics of a plant: born and refused, the answers 1 and 0.
 )",
      construct<Ulam>}};

@@ -223,29 +223,29 @@ private:
 };
 
 const Registered<ProcessType> entry{
-    {"voxel-shade", "light left by the shadow pyramids of all organs (Palubicki et al. 2009)",
+    {"voxel-shade", "light under the shadow pyramids of all organs (Palubicki et al. 2009)",
      R"(Every query with s > 0 casts a pyramid: it shades its own voxel (layer q = 0) and, q = 1 ... depth layers below, a
-square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  What a query casts itself never shades it.
+square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  The shadow of a query never shades the query itself.
 
-?name(s)          -> light Q at the query's place; s is the strength it casts with, s <= 0 asks only
+?name(s)          -> light Q at the position; s is the strength of the shadow, s <= 0 only asks
 ?name(s, x, y, z) -> light, and its gradient per metre: the brightest direction, not normalised
-Further parameters (20 in all at most) stay as they are.
+Further parameters (at most 20 in all) keep their values.
 
 voxel           m, 0.5; edge of a voxel. Voxel (0, 0, 0) has its centre at the origin
 mode            "add" (default): Q = max(full_light - sum of shadows, 0)
                 "attenuate": Q = full_light times the product of 1 - min(1, shadow)
-strength        a, 0.2; what a query of strength 1 takes away in its own voxel
-dissipation     b >= 1, 2; each layer below takes b times less
-depth           q_max, 6; layers below the caster's own, 0 to 1000
-spread          1; voxels the half-width grows by per layer, 0 to 100
+strength        a, 0.2; shadow of a query of strength 1 in its own voxel
+dissipation     b >= 1, 2; the shadow is b times weaker in each layer below
+depth           q_max, 6; number of layers below, 0 to 1000
+spread          1; increase of the half-width per layer in voxels, 0 to 100
 full_light      C, 1
-sampling        "trilinear" (default): between the eight voxels around the query; "nearest": the voxel it is in
-gradient_radius m, one voxel; central differences reach so far
-dimensions      3; 2: one voxel thick, z does not matter
+sampling        "trilinear" (default): between the eight voxels around the query; "nearest": the voxel that contains it
+gradient_radius m, one voxel; distance of the central differences
+dimensions      3; 2: one voxel thick, z is ignored
 domain          { lower, upper } in m; default: the scene's
 fixed           true if `domain` is given here or `periodic` is true, else false: shade grows with the plants.
-                Outside a fixed domain is full light
-periodic        false; true: the domain repeats along x and z for ever
+                There is full light outside a fixed domain
+periodic        false; true: the domain repeats along x and z without end
 
 Fields: name (light), name.shade (the sum, or the optical depth).
 Statistics of a plant: mean, min, max of its answers, queries, casts.

@@ -183,21 +183,21 @@ const char* const soil_water_help = R"(A content (water in m3/m3, or any concent
 
 domain           { lower = [x, y, z], upper = [x, y, z] }  m; default: the scene's
 voxel            m, required; the domain is covered by whole voxels about its middle
-dimensions       2 or 3; default 2 if the domain is no deeper (z) than a voxel: then z does not matter
+dimensions       2 or 3; default 2 if the domain is at most one voxel deep (z); then z is ignored
 unit             text, "m3/m3"; "1" for a plain concentration
 initial          content everywhere, 0
 layers           [ { bottom, top (m, y), initial, diffusion, anisotropy, gravity_angle }, ... ], later ones win;
                  gravity_angle (degrees, 0) turns the layer's downward direction about z, towards +x
-regions          [ { a shape, value, edge }, ... ] painted in order over the initial content; over `edge` (m, 0)
-                 outside the shape the content fades to what was there
-begin            "initial" (default): with the contents above; "steady": with what they settle at between the fixed
-                 sides and the sources; soil that neither reaches begins at its mean
-obstacles        [ { a shape }, ... ]: no water inside, none through
+regions          [ { a shape, value, edge }, ... ] applied in order to the initial content; within `edge` (m, 0)
+                 outside the shape, the content fades to the earlier content
+begin            "initial" (default): with the contents above; "steady": with the steady state between the fixed
+                 sides and the sources; soil that neither affects begins at its mean
+obstacles        [ { a shape }, ... ]: water can neither enter nor pass
 obstacle_field   name of a distance field, as "stone.distance": inside it is an obstacle
 container_field  name of a distance field, as "pot.distance": outside it is an obstacle
 boundaries       { left, right, bottom, top, back, front }, each "no-flux" (default), { fixed = content } held on
-                 that side's face, or "open": the same with content 0, what reaches the side is gone
-sources          [ { a shape, rate or hold }, ... ]: gain `rate` (content per time unit), or are held at `hold`
+                 the face of that side, or "open": the same with content 0; water that reaches the side is lost
+sources          [ { a shape, rate or hold }, ... ]: the content grows by `rate` per time unit, or is held at `hold`
 
 mode             "diffusion" (default): finite volumes, conserves water; or "relaxation" (below)
 diffusion        m2 per time unit, 0; between layers the harmonic mean counts
@@ -205,13 +205,13 @@ anisotropy       [x, y, z] factors of diffusion, [1, 1, 1]
 max_substeps     100000: a step that would need more substeps to be stable is an error
 
 mode = "relaxation": per step `sweeps` (1) times  new = (1 - w) old + w mean of the free face neighbours, w =
-`relaxation` (0.5), until no voxel changes by more than `tolerance` (0). Not conservative: `balance` tells by how much.
+`relaxation` (0.5), until no voxel changes by more than `tolerance` (0). Not conservative: `balance` shows the error.
 
-depletion        true; false: queries take nothing, and each is answered as if it were alone
+depletion        true; false: queries remove nothing, and each is answered as if it were alone
 amount           "content" (default): amounts are content times voxels, 0.2 takes 0.2 m3/m3 from one voxel;
                  "volume": content times m3
-range            1: content that counts as a full difference in the gradient's weight
-gradient_length  m, one voxel: length over which that difference is taken
+range            1: difference of content at which the gradient has its full weight
+gradient_length  m, one voxel: distance over which the difference is taken
 
 ?name(wish)                                -> obtained
 ?name(wish, _)                             -> obtained, content
@@ -220,7 +220,7 @@ gradient_length  m, one voxel: length over which that difference is taken
 ?name(wish, g, h, length, _, _, _, _, _)   -> ... and content
 d = g * down + h * gradient * gradient_length / range. (hx, hy, hz): unit heading, the turtle's own bent by d, turned
 by 2, 4, ... 180 degrees until a segment of `length` from the turtle meets no obstacle and stays in the domain;
-clear = 1, or 0 with a zero heading if there is none. Wishes that together exceed a voxel's stock share it in proportion.
+clear = 1, or 0 with a zero heading if there is none. Requests that exceed the stock of a voxel share it in proportion.
 Content is interpolated between voxels before uptake; outside the domain it is 0 and nothing is obtained.
 
 Field `name`: the content. Statistics: uptake and wish (this plant, this step); and of the world, amounts: total,

@@ -92,7 +92,7 @@ public:
 };
 
 const RegisteredExporter entry{
-    {"obj", "Wavefront OBJ and MTL, a file per frame: for every 3-D program",
+    {"obj", "Wavefront OBJ and MTL, a file per frame: for every 3D program",
      "An object per plant, a group per axis and organ; normals, texture coordinates, materials by colour and texture,\n"
      "textures as .png beside it.\n"
      "Lost: time, identities, parameters; a point's colour other than its face's"},

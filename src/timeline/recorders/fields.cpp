@@ -131,8 +131,8 @@ private:
 };
 
 const RegisteredRecorder entry{{"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",
-                                "fields (list of names, none): which to write; [\"all\"] for every one\n"
-                                "field_files (list, [\"vti\", \"vdb\"]): in which formats"},
+                                "fields (list of names, none): the fields to write; [\"all\"]: all fields\n"
+                                "field_files (list, [\"vti\", \"vdb\"]): the formats"},
                                [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
                                    auto recorder = std::make_unique<FieldRecorder>(settings, context);
                                    if (!recorder->wanted()) return nullptr;

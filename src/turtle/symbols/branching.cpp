@@ -8,14 +8,17 @@ namespace {
 const Registered<Symbol> open{{"[", {}, "[: begin a branch", [](Walk& walk, std::span<const double>) { walk.push(); }}};
 
 const Registered<Symbol> close{
-    {"]", {}, "]: end a branch, back to where it began", [](Walk& walk, std::span<const double>) { walk.pop(); }}};
+    {"]", {}, "]: end a branch and restore the state of the turtle", [](Walk& walk, std::span<const double>) {
+         walk.pop();
+     }}};
 
-const Registered<Symbol> cut{{"%",
-                              {0},
-                              "%: cut the rest of the branch off in the next step; what follows may be left undrawn",
-                              [](Walk& walk, std::span<const double>) {
-                                  if (!walk.settings().past_cut) walk.stopped = true;
-                              }}};
+const Registered<Symbol> cut{
+    {"%",
+     {0},
+     "%: remove the rest of the branch in the next step; past_cut = false: nothing after it is drawn",
+     [](Walk& walk, std::span<const double>) {
+         if (!walk.settings().past_cut) walk.stopped = true;
+     }}};
 
 }  // namespace
 }  // namespace espalier

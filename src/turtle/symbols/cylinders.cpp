@@ -95,7 +95,7 @@ const Registered<Symbol> contour_sides{
      }}};
 
 const Registered<Symbol> least_twist{
-    {"@Tp", {}, "@Tp: cylinders twist as little as they can from here on", [](Walk& walk, std::span<const double>) {
+    {"@Tp", {}, "@Tp: cylinders twist as little as possible from here on", [](Walk& walk, std::span<const double>) {
          walk.change_brush([](Brush& brush) { brush.follows_roll = false; });
      }}};
 

@@ -8,11 +8,11 @@ namespace {
 void nothing(Walk&, std::span<const double>) {}
 
 const Registered<Symbol> command{{"@S", {}, "@S(\"command\"): a shell command; never run", nothing}};
-const Registered<Symbol> old_i{{"@I", {}, "@I: an old symbol; draws nothing", nothing}};
-const Registered<Symbol> old_j{{"@J", {}, "@J: an old symbol; draws nothing", nothing}};
-const Registered<Symbol> old_mo{{"@mo", {}, "@mo: an old symbol; draws nothing", nothing}};
-const Registered<Symbol> old_mc{{"@mc", {}, "@mc: an old symbol; draws nothing", nothing}};
-const Registered<Symbol> unknown{{"@*", {}, "@x: unless listed, skipped together with its second character", nothing}};
+const Registered<Symbol> old_i{{"@I", {}, "@I: an old symbol; has no effect", nothing}};
+const Registered<Symbol> old_j{{"@J", {}, "@J: an old symbol; has no effect", nothing}};
+const Registered<Symbol> old_mo{{"@mo", {}, "@mo: an old symbol; has no effect", nothing}};
+const Registered<Symbol> old_mc{{"@mc", {}, "@mc: an old symbol; has no effect", nothing}};
+const Registered<Symbol> unknown{{"@*", {}, "@x: unless listed, ignored together with its second character", nothing}};
 
 }  // namespace
 }  // namespace espalier

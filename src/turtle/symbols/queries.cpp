@@ -33,18 +33,22 @@ void ask(Walk& walk, std::span<const double>) {
 using enum Symbol::Effect;
 
 const Registered<Symbol> position{
-    {"?P", {2, 3}, "?P(x, y, z): answered with the turtle's position", answer_position, answers}};
+    {"?P", {2, 3}, "?P(x, y, z): the turtle answers with its position", answer_position, answers}};
 const Registered<Symbol> heading{
-    {"?H", {2, 3}, "?H(x, y, z): answered with the turtle's heading", answer_direction<&Pose::heading>, answers}};
+    {"?H", {2, 3}, "?H(x, y, z): the turtle answers with its heading", answer_direction<&Pose::heading>, answers}};
 const Registered<Symbol> left{
-    {"?L", {2, 3}, "?L(x, y, z): answered with the turtle's left", answer_direction<&Pose::left>, answers}};
+    {"?L", {2, 3}, "?L(x, y, z): the turtle answers with its left direction", answer_direction<&Pose::left>, answers}};
 const Registered<Symbol> up{
-    {"?U", {2, 3}, "?U(x, y, z): answered with the turtle's up", answer_direction<&Pose::up>, answers}};
+    {"?U", {2, 3}, "?U(x, y, z): the turtle answers with its up direction", answer_direction<&Pose::up>, answers}};
 const Registered<Symbol> orientation{
-    {"?Q", {4}, "?Q(w, x, y, z): answered with the turtle's orientation, a quaternion", answer_orientation, answers}};
+    {"?Q", {4}, "?Q(w, x, y, z): the turtle answers with its orientation, a quaternion", answer_orientation, answers}};
 const Registered<Symbol> old_position{{"s", {2, 3}, "s(x, y, z): the older name of ?P", answer_position, answers}};
 const Registered<Symbol> communication{
-    {"?E", {}, "?E(...): asks the scene's default process; ?name(...) asks the process so named", ask, asks}};
+    {"?E",
+     {},
+     "?E(...): query the default process of the scene; ?name(...) queries the process with this name",
+     ask,
+     asks}};
 
 }  // namespace
 }  // namespace espalier

@@ -68,7 +68,7 @@ const Registered<Symbol> turn_around{{"|", {0}, "|: turn around, about up", [](W
 
 const Registered<Symbol> horizontal{{"@v",
                                      {0},
-                                     "@v: roll until left is horizontal; nothing if the heading is vertical",
+                                     "@v: roll until left is horizontal; no effect if the heading is vertical",
                                      [](Walk& walk, std::span<const double>) { level(walk.turtle().pose); }}};
 
 const Registered<Symbol> absolute{{"@R",

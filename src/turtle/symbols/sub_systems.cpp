@@ -13,7 +13,7 @@ const Registered<Symbol> enter{
      }}};
 
 const Registered<Symbol> leave{
-    {"$", {0}, "$: leave the sub-L-system; scale and width are as before it", [](Walk& walk, std::span<const double>) {
+    {"$", {0}, "$: leave the sub-L-system and restore scale and width", [](Walk& walk, std::span<const double>) {
          walk.leave_system();
      }}};
 
