@@ -205,7 +205,7 @@ const char* scene_help() {
   materials    the same with materials (.mat)
   folder       a second folder in which side files are looked for
   stream       the plant's number in the scene; selects the random numbers
-  turtle       replaces values of the view file: { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
+  turtle       overrides the view file: { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
                  colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
                  tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0,
                               elasticity_step = 0, torque = false }] }

@@ -94,7 +94,7 @@ remove_old_leaves  false: leaves remain until they are removed; true: each step 
 z_is_up        true: the ground is x and y; false: x and z
 parameters     a file with these keys in words, as cpfg's program clover reads it
 
-A leaf is a disc that covers the cells whose centres are inside it. Statistics of a plant: mean, min, max of the light, queries.
+A leaf covers the cells whose centres are inside its disc. Statistics of a plant: mean, min, max of the light, queries.
 )",
      construct<Clover>}};
 

@@ -102,7 +102,7 @@ const Registered<ProcessType> entry{
 d being their distance in x and y.
 
 ?name(v)          a source of strength v, which may be negative; keeps its value
-?name(r, a, m) -> r: the density; a, m: the direction of steepest decrease, as an angle in degrees from +x towards +y, and how
+?name(r, a, m) -> r: the density; a, m: direction of steepest decrease, in degrees from +x towards +y, and how
                   much it decreases over one unit, by differences over half a unit on either side
 Queries with other numbers of parameters only count as neighbours.
 

@@ -225,7 +225,7 @@ private:
 const Registered<ProcessType> entry{
     {"voxel-shade", "light under the shadow pyramids of all organs (Palubicki et al. 2009)",
      R"(Every query with s > 0 casts a pyramid: it shades its own voxel (layer q = 0) and, q = 1 ... depth layers below, a
-square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  The shadow of a query never shades the query itself.
+square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  A query never shades itself.
 
 ?name(s)          -> light Q at the position; s is the strength of the shadow, s <= 0 only asks
 ?name(s, x, y, z) -> light, and its gradient per metre: the brightest direction, not normalised
