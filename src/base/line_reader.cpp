@@ -4,20 +4,20 @@
 
 namespace espalier {
 
-void LineReader::pass_over_blanks() {
+void LineReader::skip_blanks() {
     text_.skip(TextCursor::white_space);
 }
 
 TextCursor LineReader::take_line() {
     if (at_end()) text_.fail("the file ends too early");
     const TextCursor line = text_.line();
-    pass_over_blanks();
+    skip_blanks();
     return line;
 }
 
 TextCursor LineReader::take_line(std::string_view key) {
-    if (at_end()) text_.fail(fmt::format("the file ends where '{}' should stand", key));
-    if (!next_is(key)) text_.fail(fmt::format("here '{}' should stand", key));
+    if (at_end()) text_.fail(fmt::format("the file ends where '{}' is expected", key));
+    if (!next_is(key)) text_.fail(fmt::format("'{}' is expected here", key));
     TextCursor line = take_line();
     line.accept(key);
     line.skip(TextCursor::blanks);
@@ -29,7 +29,7 @@ int LineReader::take_integer(std::string_view key, int least, int most) {
     return espalier::take_integer(line, key, least, most);
 }
 
-void LineReader::pass_over_editor_lines() {
+void LineReader::skip_editor_lines() {
     if (next_is("b")) {
         take_line();
         take_line();

@@ -114,7 +114,7 @@ std::shared_ptr<Node> enter(Node& node, const std::string& part, std::string_vie
                                            static_cast<int>(node.items.size()) - 1));
     }
     if (node.type != Node::Type::table) {
-        throw UserError(place, fmt::format("'{}': what stands before '{}' is not a table", dotted, part));
+        throw UserError(place, fmt::format("'{}': the part before '{}' is not a table", dotted, part));
     }
     if (std::shared_ptr<Node> child = node.find_shared(part)) return child;
     auto child = std::make_shared<Node>(Node::Type::table);

@@ -105,7 +105,7 @@ void Environment::require_answers(const Model& model, const std::string& plant_n
                         plant_name, model.name, name, did_you_mean(name, names_), listed(names_)));
     }
     visit_written_queries(model, [&](const ModuleTemplate& module, bool is_unnamed) {
-        if (is_unnamed && routed_) return;  // whom it asks is known only when it asks
+        if (is_unnamed && routed_) return;  // which process it asks is known only then
         if (is_unnamed && !default_ && !keeps_unanswered_) {
             throw UserError(module.place, fmt::format("plant '{}': model {} asks ?E, but the scene has no default "
                                                       "process; {}",

@@ -69,7 +69,7 @@ void ParameterFile::read() {
         const std::string& key = lines_.back().key;
         if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) continue;
         warn(lines_.back(),
-             fmt::format("the parameter '{}' is unknown and passed over{}", key, did_you_mean(key, keys_)));
+             fmt::format("the parameter '{}' is unknown and ignored{}", key, did_you_mean(key, keys_)));
     }
 }
 

@@ -17,7 +17,7 @@
 namespace espalier {
 
 /// A line is `key: values`; the key ends at the first tab or colon and is taken letter by letter. Lines that are not
-/// understood are passed over with a warning. Where file and scene give the same key, the scene wins.
+/// understood are ignored with a warning. Where file and scene give the same key, the scene wins.
 /// Every key is read exactly once by the process, through one of the look-ups; they throw UserError.
 class ParameterFile {
 public:

@@ -127,7 +127,7 @@ private:
         for (const auto* part : {&production.strict, &production.left, &production.right}) {
             for (const ModulePattern& pattern : *part) {
                 if (pattern.skip_branch || produced_.contains(pattern.letter)) continue;
-                warn(pattern.place, fmt::format("this production can never apply: nobody produces {}{}",
+                warn(pattern.place, fmt::format("this production can never apply: nothing produces {}{}",
                                                 described(pattern.letter), other_arities(pattern.letter)));
                 return;
             }
@@ -220,8 +220,8 @@ private:
             } else if (const std::size_t length = turtle_symbol_length(modules, i); length > 0) {
                 i += length - 1;
             } else if (!turtle_symbols_.empty() && !is_known(symbol) && reported_.insert(letter).second) {
-                warn(modules[i].place, fmt::format("nobody takes notice of {}: no production names it, the turtle does "
-                                                   "not know it",
+                warn(modules[i].place, fmt::format("{} has no effect: no production names it and the turtle does not "
+                                                   "know it",
                                                    described(letter)));
             }
         }
@@ -314,9 +314,9 @@ private:
         }
         if (!asked.empty() && std::string_view("EPHLUQ").find(asked.front()) != std::string_view::npos) return;
         if (asked.empty()) {
-            warn(modules[i].place, "this question names nobody who could answer");
+            warn(modules[i].place, "this query names no process");
         } else {
-            warn(modules[i].place, fmt::format("nobody answers '?{0}': declare 'environment {0};'{1}", asked,
+            warn(modules[i].place, fmt::format("no process answers '?{0}': declare 'environment {0};'{1}", asked,
                                                did_you_mean(asked, model_.processes)));
         }
     }

@@ -175,7 +175,7 @@ TEST_CASE("mistakes in surface files are told with their place", "[geometry]") {
         return surface_complaint(text.replace(text.find(from), from.size(), to));
     };
     CHECK(surface_complaint("0 1 0 1") == "a.s:1:8: the file ends before its first patch\n    0 1 0 1\n           ^");
-    CHECK(with("HEADING", "HEADNG") == "a.s:4:1: here 'HEADING' should stand\n    HEADNG X: 0 Y: 1 Z: 0\n    ^");
+    CHECK(with("HEADING", "HEADNG") == "a.s:4:1: 'HEADING' is expected here\n    HEADNG X: 0 Y: 1 Z: 0\n    ^");
     CHECK(with("SIZE: 4", "SIZE: 0") == "a.s:6:7: SIZE must not be 0\n    SIZE: 0\n          ^");
     CHECK(with("SIZE: 4", "SIZE: big") == "a.s:6:7: 'big' is no number\n    SIZE: big\n          ^");
     CHECK(with("HEADING X: 0 Y: 1", "HEADING X: 0 Y: 0") ==

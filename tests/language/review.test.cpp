@@ -28,9 +28,9 @@ TEST_CASE("a sound model is not warned about", "[language]") {
 
 TEST_CASE("productions that can never apply are named with the reason", "[language]") {
     CHECK(warnings(lsystem("", "A(1)", "A --> B\n")) ==
-          "3: this production can never apply: nobody produces 'A' (only with 1 parameter)");
+          "3: this production can never apply: nothing produces 'A' (only with 1 parameter)");
     CHECK(warnings(lsystem("", "AB", "B < A > X --> B\n")) ==
-          "3: this production can never apply: nobody produces 'X'");
+          "3: this production can never apply: nothing produces 'X'");
     CHECK(warnings(lsystem("", "A", "A --> AA\nA : Q > 1 --> A\n")) ==
           "4: this production can never apply: the one in model.l:3:1 takes all its modules");
     CHECK(warnings(lsystem("", "A", "A : 2 > 3 --> A\n")) ==
@@ -81,13 +81,13 @@ TEST_CASE("a picture that contains itself is found at more than one level", "[la
 TEST_CASE("questions that nobody answers are named", "[language]") {
     CHECK(warnings("environment light, water;\n" + lsystem("", "A?light(1)?watr(2)", "A --> A\n")) ==
           "'environment water;' is declared, but no module '?water' asks it\n"
-          "3: nobody answers '?watr': declare 'environment watr;' (did you mean 'water'?)");
+          "3: no process answers '?watr': declare 'environment watr;' (did you mean 'water'?)");
     CHECK(warnings(lsystem("", "A?P(0,0,0)?E(1)", "A --> A\n")) == "");
 }
 
 TEST_CASE("modules of which neither a production nor the turtle takes notice are named once", "[language]") {
     CHECK(warnings(lsystem("", "A", "A --> F[+X]@oX~l\n"), {"F", "+", "@o"}) ==
-          "3: nobody takes notice of 'X': no production names it, the turtle does not know it");
+          "3: 'X' has no effect: no production names it and the turtle does not know it");
 }
 
 TEST_CASE("L-systems that are not there, or that nobody calls, are pointed out", "[language]") {

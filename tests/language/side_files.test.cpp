@@ -91,7 +91,7 @@ TEST_CASE("mistakes in function files are told with their place", "[language]") 
     CHECK(complaint("") == "a.func:1:1: a function file begins with 'fver 1 1' (older ones: 'range:')");
     CHECK(complaint(replaced(hill, "fver 1 1", "fver 1 2")) ==
           "a.func:1:6: functions are read as 'fver 1 1' only\n    fver 1 2\n         ^");
-    CHECK(complaint(replaced(hill, "flip: off\n", "")) == "a.func:5:1: here 'points:' should stand\n    0 0\n    ^");
+    CHECK(complaint(replaced(hill, "flip: off\n", "")) == "a.func:5:1: 'points:' is expected here\n    0 0\n    ^");
     CHECK(complaint(replaced(hill, "points: 4", "points: 3")) ==
           "a.func:5:9: 'points:' needs a whole number from 4 to 100000\n    points: 3\n            ^");
     CHECK(complaint(replaced(hill, "1 0\n", "")) == "a.func:9:1: the file ends too early");
@@ -118,7 +118,7 @@ TEST_CASE("a function set gives functions by name, each cut at its last dot", "[
     CHECK_THROWS_WITH(read_function_set_text("items: 1\n", "a.fset"),
                       Catch::StartsWith("a.fset:1:1: a function set begins with 'funcgalleryver 1 1'"));
     CHECK_THROWS_WITH(read_function_set_text("funcgalleryver 1 1\nitems: 2\n" + hill, "a.fset"),
-                      Catch::StartsWith("a.fset:12:1: the file ends where 'fver' should stand"));
+                      Catch::StartsWith("a.fset:12:1: the file ends where 'fver' is expected"));
 }
 
 TEST_CASE("a curve file gives a curve of its type", "[language]") {
@@ -164,7 +164,7 @@ TEST_CASE("a wrong number of columns ends the points of a curve", "[language]") 
     CHECK_THROWS_WITH(read_curve_text("points: 6\n0 0\n1 0\nzero 0\n", "a.con"),
                       Catch::StartsWith("a.con:1:1: a curve needs at least 4 points, not 2"));
     CHECK_THROWS_WITH(read_curve_text("type: bezier\n0 0\n", "a.con"),
-                      Catch::StartsWith("a.con:2:1: here 'points:' should stand"));
+                      Catch::StartsWith("a.con:2:1: 'points:' is expected here"));
     CHECK_THROWS_WITH(read_curve_text("points: 2\n0 0\n1 0\n", "a.con"),
                       Catch::StartsWith("a.con:1:1: a curve needs at least 4 points, not 2"));
 }

@@ -136,11 +136,11 @@ TEST_CASE("labels are known letter for letter, blanks before them do not count",
     CHECK(messages_of(view_of("Render mode: shaded")) ==
           Messages{"a.v:1:1: view files have no setting 'Render mode' (did you mean 'render mode'?)"});
     CHECK(messages_of(view_of("\trender mode: shaded")) ==
-          Messages{"a.v:1:1: 'render mode' is not read because a tab stands before it"});
+          Messages{"a.v:1:1: 'render mode' is not read because of the tab before it"});
     CHECK(messages_of(view_of("render mode : shaded")) ==
           Messages{"a.v:1:1: 'render mode' is not read because blanks stand before its colon"});
     CHECK(messages_of(view_of("\t\t: 3\nangle increment: 30")) ==
-          Messages{"a.v:1:1: no setting stands before this sign"});
+          Messages{"a.v:1:1: there is no setting before this sign"});
 }
 
 TEST_CASE("what a setting leaves on its line is taken for the next", "[turtle]") {
@@ -258,11 +258,11 @@ TEST_CASE("a tropism that is not understood takes no number", "[turtle]") {
         "tropism: T 0 1 0 I 0\ntropism: E 1\ntropism: T 1 0 0\n");
     CHECK(view.turtle.tropisms.size() == 1);
     CHECK(messages_of(view) ==
-          Messages{"a.v:1:10: a tropism's direction must not be 0 0 0; the line is passed over",
-                   "a.v:2:10: 'X' is none of T, A, I, E, S; the line is passed over",
-                   "a.v:3:18: 'E' needs a number behind it; the line is passed over",
-                   "a.v:4:10: the intensity stands behind the direction T x y z; the line is passed over",
-                   "a.v:5:18: the intensity of a tropism must not be 0; the line is passed over",
+          Messages{"a.v:1:10: a tropism's direction must not be 0 0 0; the line is ignored",
+                   "a.v:2:10: 'X' is none of T, A, I, E, S; the line is ignored",
+                   "a.v:3:18: 'E' needs a number behind it; the line is ignored",
+                   "a.v:4:10: the intensity comes after the direction T x y z; the line is ignored",
+                   "a.v:5:18: the intensity of a tropism must not be 0; the line is ignored",
                    "a.v:6:1: a tropism needs its direction: T x y z"});
 }
 

@@ -103,7 +103,7 @@ TEST_CASE("of the numbers behind a surface's size one is a texture, two a precis
     CHECK(near(surfaces.at('f').end, surfaces.at('a').end));  // a size that is none is 1
     CHECK(folder.messages(view) ==
           Messages{"F/a.v:4:1: warning: precision 20 is taken as 10: it goes from 1 to 10",
-                   "F/a.v:6:1: warning: surface 'a' is there already; this one is passed over"});
+                   "F/a.v:6:1: warning: surface 'a' is there already; this one is ignored"});
 }
 
 TEST_CASE("ids are single characters, of any script, shared by all surfaces", "[turtle]") {
@@ -119,9 +119,9 @@ TEST_CASE("ids are single characters, of any script, shared by all surfaces", "[
     CHECK(surfaces.contains(0xE9));
     CHECK(surfaces.at('t').triangles.at(0)[1].position == glm::dvec3(0, 2, 0));
     CHECK(folder.messages(view) ==
-          Messages{"F/a.v:4:1: warning: the surface of lines must be the first; it is passed over",
+          Messages{"F/a.v:4:1: warning: the surface of lines must be the first; it is ignored",
                    "F/a.v:5:1: 'ab' is no id: the id of a surface is one character",
-                   "F/a.v:6:1: warning: surface 't' is there already; this one is passed over"});
+                   "F/a.v:6:1: warning: surface 't' is there already; this one is ignored"});
 }
 
 TEST_CASE("files are looked for beside the file that names them, then in the folder of the run", "[turtle]") {
@@ -160,10 +160,10 @@ TEST_CASE("contours are read after the file, and the first of a number wins", "[
     CHECK_FALSE(contours.at(7).closed());
     CHECK(folder.messages(view) ==
           Messages{"F/a.v:8:1: view files have no setting 'angle facto' (did you mean 'angle factor'?)",
-                   "F/a.v:3:1: warning: contour 1 is there already; this one is passed over",
-                   "F/a.v:4:1: warning: contour 0 is the circle already; this one is passed over",
+                   "F/a.v:3:1: warning: contour 1 is there already; this one is ignored",
+                   "F/a.v:4:1: warning: contour 0 is the circle already; this one is ignored",
                    "F/new.con:1:6: contours are read from 'cver 1 1' to 'cver 1 3' only; the circle is drawn instead",
-                   "F/short.con:3:1: the file ends where 'points:' should stand"});
+                   "F/short.con:3:1: the file ends where 'points:' is expected"});
 }
 
 TEST_CASE("functions are numbered in order; one that cannot be read keeps its number and is 0", "[turtle]") {
@@ -258,7 +258,7 @@ TEST_CASE("broken surfaces and curves stop the reading, refused surfaces do not"
     const Folder folder;
     folder.write("a.s", "0 1 0 1 0 1\nCONTACT PLACE\n");
     CHECK(folder.complaint("surface: a a.s 1") ==
-          "F/a.s:2:9: here 'POINT' should stand\n    CONTACT PLACE\n            ^");
+          "F/a.s:2:9: 'POINT' is expected here\n    CONTACT PLACE\n            ^");
     folder.write("c.con", "points: 4\n0 0\n");
     CHECK(folder.complaint("curve: c.con") ==
           "F/c.con:1:1: a curve needs at least 4 points, not 1\n    points: 4\n    ^");

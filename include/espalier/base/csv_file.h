@@ -10,7 +10,7 @@ namespace espalier {
 
 class CsvFile {
 public:
-    /// Makes the file anew with its header (without line break). Throws RunError.
+    /// Makes the file, replacing an old one, with its header (without line break). Throws RunError.
     CsvFile(const std::filesystem::path& path, std::string_view header);
     /// Goes on with a file that was `size` bytes long, and forgets what came behind. Throws RunError if it is shorter.
     CsvFile(const std::filesystem::path& path, std::size_t size);

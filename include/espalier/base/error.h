@@ -1,4 +1,4 @@
-// What goes wrong and who is told: mistakes of the user, failures of a run, and where they happened.
+// Errors: mistakes of the user, failures of a run, and where they happened.
 #pragma once
 
 #include <stdexcept>

@@ -10,14 +10,14 @@
 
 namespace espalier {
 
-/// Goes from line to line; empty lines and blanks before a line are passed over. What is missing or too large is
+/// Goes from line to line; empty lines and blanks before a line are skipped. What is missing or too large is
 /// refused with its place.
 class LineReader {
 public:
     static constexpr int most_lines = 100000;    ///< of points
     static constexpr int most_points = 1000000;  ///< of all points, each as often as its multiplicity says
 
-    explicit LineReader(TextCursor text) : text_(std::move(text)) { pass_over_blanks(); }
+    explicit LineReader(TextCursor text) : text_(std::move(text)) { skip_blanks(); }
 
     bool at_end() const { return text_.at_end(); }
     /// Whether the next line begins with this.
@@ -28,12 +28,12 @@ public:
     /// A whole number from `least` to `most` behind `key`.
     int take_integer(std::string_view key, int least, int most);
     /// What editors keep for themselves: a picture behind the points (two lines) and marked places.
-    void pass_over_editor_lines();
+    void skip_editor_lines();
     /// The rest, for readers that go on from here.
     const TextCursor& text() const { return text_; }
 
 private:
-    void pass_over_blanks();
+    void skip_blanks();
 
     TextCursor text_;
 };

@@ -1,4 +1,4 @@
-// Asking for memory some time before it is needed, so that nobody waits for it.
+// Asking for memory some time before it is needed.
 #pragma once
 
 #include <cstddef>

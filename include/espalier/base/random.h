@@ -1,5 +1,5 @@
 // Counter-based random numbers (Philox 4x32-10; Salmon, Moraes, Dror & Shaw 2011).
-// A draw depends on who draws and when, never on the order of execution.
+// A sample depends on what asks for it and when, never on the order of execution.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace espalier {
 
-/// What a draw is for. Streams never disturb each other.
+/// What samples are for. Streams never disturb each other.
 enum class Stream : std::uint32_t { derivation = 1, homomorphism = 2, blocks = 3, process = 4, placement = 5 };
 
 /// Mixes 64 bits so that neighbouring inputs give unrelated outputs (SplitMix64's finalizer).
@@ -22,7 +22,7 @@ constexpr std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
     return mix(mix(a) ^ (b + 0x632BE59BD9B4E019u));
 }
 
-/// The key of a stream: scene seed, plant, purpose. `salt` tells apart users of one stream (a process's name, say).
+/// The key of a stream: scene seed, plant, purpose. `salt` separates users of one stream (a process's name, say).
 class RandomKey {
 public:
     RandomKey() = default;
@@ -33,7 +33,7 @@ private:
     std::uint64_t value_ = 0;
 };
 
-/// Draws of one drawer (a module's identity, say) in one step, numbered from 0 as they are taken.
+/// Samples for one owner (a module's identity, say) in one step, numbered from 0 as they are taken.
 class RandomDraws {
 public:
     RandomDraws(RandomKey key, std::uint64_t drawer, std::uint32_t step, std::uint32_t first_draw = 0)
@@ -59,7 +59,7 @@ private:
     std::uint32_t draw_;
 };
 
-/// The first draws of many drawers in one step, several at a time: draws[i] is 2^53 times what
+/// The first samples of many owners in one step, several at a time: samples[i] is 2^53 times what
 /// RandomDraws(key, drawers[i], step).uniform() gives.
 void first_draws(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> drawers, std::uint64_t* draws);
 

@@ -10,7 +10,7 @@
 
 namespace espalier {
 
-/// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): tells files apart that changed, not files that somebody forged.
+/// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): detects files that changed, not forged ones.
 /// `before`: the digest of the bytes before these.
 std::uint64_t digest(std::string_view bytes, std::uint64_t before = 0xCBF29CE484222325);
 

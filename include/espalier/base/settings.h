@@ -94,7 +94,7 @@ public:
     /// A table of its own with the same values, none of them read. In messages `name` stands where a file's would.
     Settings copy(const std::string& name) const;
 
-    /// Throws UserError listing every key that nobody read, here and below, with the nearest name that was asked for.
+    /// Throws UserError listing every key that was not read, here and below, with the nearest name that was asked for.
     void reject_unread() const;
 
     /// Everything read so far with the values used, as JSON text.

@@ -2,7 +2,7 @@
 // starts. Whole numbers, and real numbers without fused multiply-add, come out the same to the last bit.
 #pragma once
 
-#include <cstdlib>  // tells the C library apart
+#include <cstdlib>  // identifies the C library
 
 // Sanitizers start after such a choice is made; other compilers take the plain function.
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && defined(__GLIBC__) && \

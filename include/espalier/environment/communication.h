@@ -26,7 +26,7 @@ private:
     std::vector<std::string> fields_;
 };
 
-/// What a process of the scene is told of a query, and how exactly.
+/// What a process of the scene receives of a query, and with what precision.
 class Communication {
 public:
     /// The keys `turtle`, `digits` and `following_module` of an [environment.<name>] table.

@@ -23,7 +23,7 @@ struct PlantView {
     const Model* model = nullptr;
     const ModuleString* string = nullptr;
     const Interpretation* interpretation = nullptr;
-    bool asks = true;  ///< false: there are no questions, not even to the turtle, and nobody need look for them
+    bool asks = true;  ///< false: there are no queries, not even to the turtle
 };
 
 /// The world at one step. `dt` is the time a derivation step stands for, in the scene's unit.
@@ -34,14 +34,14 @@ struct WorldView {
     std::span<const PlantView> plants;
 };
 
-/// What a process is told when the world is made.
+/// What a process knows when the world is made.
 struct EnvironmentContext {
     std::string name;           ///< the process's name in the scene
     std::optional<Box> domain;  ///< the scene's domain, if it gives one
     std::uint64_t seed = 0;
     std::uint32_t plants = 0;              ///< how many plants the world has
     std::size_t memory = std::size_t(-1);  ///< bytes a process's fields may take; more is an error before allocating
-    std::vector<Diagnostic>* warnings = nullptr;  ///< where lines of a parameter file that are passed over are told
+    std::vector<Diagnostic>* warnings = nullptr;  ///< for ignored lines of a parameter file
 };
 
 /// One quantity of statistics.csv, "light.mean" being quantity "mean" of process "light".

@@ -26,7 +26,7 @@ struct Field {
 };
 
 /// The fields of a world by name: where processes meet. Asking for a field may make it; ask from one thread only. A
-/// grid that nobody but the fields holds may be written over in the next step: keep the pointer to keep the values.
+/// grid that only the fields hold may be written over in the next step: keep the pointer to keep the values.
 class Fields {
 public:
     /// Adds or replaces.

@@ -107,7 +107,7 @@ struct PlantGeometry {
     DrawnMesh mesh;  ///< generalized cylinders and patches
     std::vector<Label> labels;
     std::vector<std::uint16_t> textures;   ///< of the internodes; shorter where the last ones have none
-    std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: nobody said
+    std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: unknown
     std::uint32_t axes = 0;
     Box bounds;  ///< of everything drawn, thickness included
 

@@ -11,7 +11,7 @@
 
 namespace espalier {
 
-/// Preprocesses a file with `options.defines` (those it never mentions are passed over) and `options.predefined`;
+/// Preprocesses a file with `options.defines` (those it never mentions are ignored) and `options.predefined`;
 /// warnings are appended to `options.warnings`. Lines keep their ends and their order; a comment is one blank; what a
 /// macro stands for is set in without blanks around it. Throws UserError with every mistake found.
 std::shared_ptr<const SourceText> preprocess_file(const std::filesystem::path& path, const ReadOptions& options = {});

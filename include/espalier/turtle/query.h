@@ -27,7 +27,7 @@ struct Query {
     double scale = 1;
 };
 
-/// Takes queries as they are: whoever makes room for one writes it, though a Query has values to begin with.
+/// Makes room for queries without initialising them: every caller writes what it makes room for.
 template <class T>
 class UnwrittenAllocator : public UninitialisedAllocator<T> {
 public:

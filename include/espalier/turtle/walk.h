@@ -123,7 +123,7 @@ public:
     /// As a turtle begins, into an empty result; with `room`, rows that were counted go there instead.
     void begin(const Model& model, const ModuleString& string, const TurtleSettings& settings, std::uint32_t plant,
                Interpretation& result, const Room* room = nullptr);
-    /// Leaves the result as it is; the walk may begin anew.
+    /// Leaves the result as it is; the walk may start again.
     void end();
 
     const TurtleSettings& settings() const { return *settings_; }
@@ -192,7 +192,7 @@ public:
     /// Draws what the string left open.
     void finish();
 
-    /// Sends the current module's parameters; does nothing inside a picture, whose answers nobody could read.
+    /// Sends the current module's parameters; does nothing inside a picture, whose answers are never read.
     void ask();
     /// Answers the first `count` of the current module's parameters with the position; nothing inside a picture.
     void answer(std::size_t count);

@@ -242,8 +242,8 @@ void Environment::round_answers(std::size_t process) {
     for (std::size_t i = 0; i < batch.queries.size(); ++i) {
         const std::span<const double> sent = batch.queries[i].parameters;
         for (std::size_t k = 0; k < sent.size(); ++k) {
-            const double told = communication.rounded(batch.answers[i][k]);
-            if (told != sent[k]) batch.answers[i][k] = told;
+            const double received = communication.rounded(batch.answers[i][k]);
+            if (received != sent[k]) batch.answers[i][k] = received;
         }
     }
 }

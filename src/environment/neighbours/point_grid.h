@@ -18,7 +18,7 @@ namespace espalier {
 class PointGrid {
 public:
     /// Of the points whose numbers `members` lists; within a cell they keep its order. Copies the positions.
-    /// Cells are made larger than `edge` where that is too fine for the coordinates to tell apart.
+    /// Cells are made larger than `edge` where that is too fine for the precision of the coordinates.
     PointGrid(std::span<const glm::dvec3> points, std::span<const std::uint32_t> members, double edge);
 
     double edge() const { return edge_; }

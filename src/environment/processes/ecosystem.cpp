@@ -72,7 +72,7 @@ private:
         return second_[i] < second_[other] || (second_[i] == second_[other] && radii_[i] <= radii_[other]);
     }
 
-    // The rule of cpfg's program: one after the other in string order, and who has lost already ends nobody.
+    // The rule of cpfg's program: one after the other in string order; a disc that has lost eliminates none.
     void scan_string(const DiscOverlap& discs) {
         for (std::uint32_t i = 0; i < centres_.size(); ++i) {
             wins_[i] =
@@ -80,7 +80,7 @@ private:
         }
     }
 
-    // The most vigorous first, so that only who stays ends others. Equals are judged together and end each other.
+    // The most vigorous first, so that only survivors eliminate others. Ties eliminate both.
     void scan_by_vigour(const DiscOverlap& discs) {
         std::vector<std::uint32_t> order(centres_.size());
         std::iota(order.begin(), order.end(), 0U);

@@ -1,6 +1,6 @@
 // shadowpyramid: organs cast pyramids of shadow that multiply, their own among them.
 // Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3, as the
-// environment program of that name does it; voxel-shade is the process of ours.
+// environment program of that name does it; voxel-shade is this project's process.
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 

@@ -1,4 +1,4 @@
-// shape: a solid that plants feel: a wall, a pot, the outline a hedge is clipped to.
+// shape: a solid that plants query: a wall, a pot, the outline a hedge is clipped to.
 //
 //   [environment.hedge]
 //   process = "shape"

@@ -105,7 +105,7 @@ ShadeField::Extremes ShadeField::extremes_of(std::span<const ShadeCast> casts) {
     return extremes;
 }
 
-// Every pyramid is as large as any other, so that the box of the apices tells theirs.
+// Every pyramid is as large as any other, so that the box of the apices gives theirs.
 void ShadeField::enclose(const ShadeCasts& casts, const Extremes& extremes) {
     bricks_.keep_besides(casts.bytes() + ShadeSweep::bytes(casts));
     VoxelBox box;

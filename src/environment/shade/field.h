@@ -1,4 +1,4 @@
-// The shade of all pyramids of a step: what changed since the last one is added and taken away, or all is summed anew,
+// The shade of all pyramids of a step: what changed since the last one is added and taken away, or all is summed again,
 // whichever is less work. Sums of whole numbers: both come to the same.
 #pragma once
 
@@ -23,7 +23,7 @@ public:
     explicit ShadeField(std::size_t memory) : bricks_(memory) {}
 
     /// Comes to be the sum of this step's pyramids; it must have been asked for that of the step before. False if
-    /// nothing changed. What is summed anew is written into `leaves` as well. Throws RunError before allocating more
+    /// nothing changed. What is summed again is written into `leaves` as well. Throws RunError before allocating more
     /// than the memory allows.
     bool show(const ShadeCasts& casts, const ShadeSweep::Leaves& leaves = {});
     /// The sum of all pyramids, whatever was before.

@@ -22,7 +22,7 @@ openvdb::Coord origin_of(const glm::ivec3& brick) {
     return coord(brick * ShadeBricks::edge);
 }
 
-/// Removes a leaf and what of the nodes above it has become empty: a tree made anew would not have them either.
+/// Removes a leaf and what of the nodes above it has become empty: a tree made from nothing would not have them either.
 void remove_leaf(Tree& tree, const openvdb::Coord& at) {
     using Lower = Tree::RootNodeType::ChildNodeType::ChildNodeType;
     using Upper = Tree::RootNodeType::ChildNodeType;
@@ -59,7 +59,7 @@ struct ShadeGrids::Grids {
         void place_leaf(std::size_t number, Leaf& leaf);
     };
 
-    /// A field as it is, and as it was when somebody read it.
+    /// A field as it is, and as it was when it was last read.
     struct One {
         Version now;
         std::vector<Version> before;

@@ -21,8 +21,8 @@ public:
     /// is asked for. Voxels that nothing shades are inactive: full light, no shade.
     void provide(ShadeBricks& bricks, const VoxelBox& shown, Fields& fields);
 
-    /// The leaf of light of each brick, for someone who will write all of them now, while the sums are at hand. None if
-    /// nobody asked for the light since the last time: perhaps nobody will.
+    /// The leaf of light of each brick, for a caller that writes all of them now, while the sums are at hand. None if
+    /// the light was not asked for since the last time.
     std::span<const ShadeLeaf> light_to_write(ShadeBricks& bricks, const VoxelBox& shown);
 
 private:

@@ -26,7 +26,7 @@ public:
     struct Sphere {
         glm::dvec3 centre;
         double radius;
-        std::uint32_t number;  ///< what visitors are told
+        std::uint32_t number;  ///< passed to visitors
     };
 
     explicit SphereTree(std::vector<Sphere> spheres);

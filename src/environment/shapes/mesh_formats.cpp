@@ -40,8 +40,8 @@ double number_of(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error == std::errc::result_out_of_range) return std::nan("");
     if (error != std::errc() || end != word.data() + word.size()) {
-        throw MeshFormatError(word.empty() ? std::string("it ends where a number is due")
-                                           : fmt::format("'{}' stands where a number is due", word.substr(0, 40)));
+        throw MeshFormatError(word.empty() ? std::string("it ends where a number is expected")
+                                           : fmt::format("'{}' is not a number", word.substr(0, 40)));
     }
     return value;
 }
@@ -138,7 +138,7 @@ PlyHeader take_ply_header(std::string_view& bytes) {
             if (!(count >= 0 && count < 4e9)) throw MeshFormatError(fmt::format("it claims {:g} elements", count));
             header.elements.push_back({name, static_cast<std::size_t>(count), {}});
         } else if (keyword == "property") {
-            if (header.elements.empty()) throw MeshFormatError("a property stands before any element");
+            if (header.elements.empty()) throw MeshFormatError("a property comes before any element");
             header.elements.back().properties.push_back(ply_property(line));
         }
     }

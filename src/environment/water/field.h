@@ -16,7 +16,7 @@ public:
 
     /// The voxels that are free from now on; the others are inactive and 0.
     void set_faces(const WaterFaces& faces);
-    /// Provides the contents as a grid, made or written over when someone asks for it. Whoever keeps one keeps its
+    /// Provides the contents as a grid, made or written over when it is asked for. A kept pointer keeps its
     /// values.
     void provide(std::function<const WaterBrick&()> contents, Fields& fields);
     /// The contents are others now.

@@ -38,7 +38,7 @@ public:
     /// Obstacles have moved: what stood in their new voxels is displaced; voxels they left begin empty.
     void set_free(std::vector<std::uint8_t> free);
 
-    /// Begins anew at the steady state of diffusion.
+    /// Restarts at the steady state of diffusion.
     void settle(const WaterDiffusion& diffusion);
 
     void diffuse(WaterDiffusion& diffusion, double dt);

@@ -1,4 +1,4 @@
-// Who gets how much when many drink from the same voxels.
+// How uptake is shared when many modules take water from the same voxels.
 #pragma once
 
 #include "environment/water/grid.h"

@@ -64,7 +64,7 @@ private:
         }
         const std::string_view word = text_.word(separators);
         const auto found = commands().find(word);
-        if (found == commands().end()) return pass_over(word, start);
+        if (found == commands().end()) return skip_command(word, start);
         const std::vector<double> numbers = read_numbers();
         if (numbers.size() < found->second.least) {
             return complain(start, fmt::format("'{}' needs at least {} numbers, not {}", word, found->second.least,
@@ -85,7 +85,7 @@ private:
         }
     }
 
-    void pass_over(std::string_view word, const TextCursor& start) {
+    void skip_command(std::string_view word, const TextCursor& start) {
         read_numbers();
         if (std::find(unused_commands.begin(), unused_commands.end(), word) != unused_commands.end()) return;
         complain(start, fmt::format("background scenes have no command '{}'", word));

@@ -57,7 +57,7 @@ private:
         const int count = lines_.take_integer("points:", 1, LineReader::most_lines);
         if (!read_type(lines_.take_line("type:"), version[1] == 1)) return false;
         if (version[1] == 3) lines_.take_line();  // samples, which depend on the turtle instead
-        lines_.pass_over_editor_lines();
+        lines_.skip_editor_lines();
         for (int i = 0; i < count; ++i) take_point(most_dimensions, true);
         return true;
     }

@@ -55,7 +55,7 @@ private:
     void expect(std::string_view literal) {
         skip();
         if (text_.rest() != literal && literal.starts_with(text_.rest())) throw Truncated();
-        if (!text_.accept(literal)) text_.fail(fmt::format("here '{}' should stand", literal));
+        if (!text_.accept(literal)) text_.fail(fmt::format("'{}' is expected here", literal));
     }
     double number() {
         skip();
@@ -95,7 +95,7 @@ private:
     }
 
     Placement read_header() {
-        for (int bound = 0; bound < 6; ++bound) number();  // nobody uses them
+        for (int bound = 0; bound < 6; ++bound) number();  // not used
         skip();
         if (text_.accept("PRECISION")) {
             expect("S:");

@@ -7,7 +7,7 @@
 
 namespace espalier::language {
 
-/// Nothing if the expression reads a variable, draws a random number, or has no finite value.
+/// Nothing if the expression reads a variable, uses a random number, or has no finite value.
 std::optional<double> constant_value(const Expression& expression);
 
 }  // namespace espalier::language

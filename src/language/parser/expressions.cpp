@@ -229,7 +229,7 @@ Expression ExpressionParser::primary() {
     if (is_digit(c) || (c == '.' && is_digit(in_.peek(1)))) return number();
     if (is_name_start(c)) return name_or_call();
     if (c == '"') throw SyntaxError{in_.here(), "text cannot stand here, only numbers"};
-    if (c == '&') throw SyntaxError{in_.here(), "'&' stands before the variables that fscanf reads only"};
+    if (c == '&') throw SyntaxError{in_.here(), "'&' may be only before variables that fscanf reads"};
     in_.expected("a number, a name or '('");
 }
 
@@ -375,7 +375,7 @@ Expression ExpressionParser::normalised(Expression call, Location at) {
         while (operands.size() < 3) operands.push_back(Expression::number(0, call.place));
     }
     if (call.function == Function::view_extent) operands.clear();
-    // There is nobody to show or play anything to.
+    // Nothing is shown or played.
     if (call.function == Function::display && operands[0].kind == Expression::Kind::text) {
         operands[0] = Expression::number(0, call.place);
     }

@@ -80,12 +80,12 @@ private:
                               keyword == "const" || keyword.starts_with('#');
             if (keyword.empty() && !model_.systems.empty()) {
                 if (!std::exchange(outside_reported_, true)) {
-                    mistakes_.warning(in_.here(), "what stands behind 'endlsystem' is passed over");
+                    mistakes_.warning(in_.here(), "text after 'endlsystem' is ignored");
                 }
                 in_.recover(in_.position());
                 return;
             }
-            // Without its head every line of an L-system stands outside: the first tells.
+            // Without its head every line of an L-system is outside: the first is reported.
             if (fits || model_.systems.size() > 0 || !std::exchange(outside_reported_, true)) {
                 mistakes_.error(in_.here(), fmt::format("expected 'lsystem:', found '{}'{}", words_of_line(),
                                                         fits ? hint(keyword) : ""));
@@ -143,7 +143,7 @@ private:
             system_->label = std::to_string(number);
             const auto [first, is_new] = labels_.try_emplace(number, at);
             if (is_new) return;
-            mistakes_.error(at, fmt::format("an L-system with the label {} stands in {} already", number,
+            mistakes_.error(at, fmt::format("an L-system with the label {} is in {} already", number,
                                             to_string(names_.place(first->second))));
         } else if (model_.systems.size() > 1) {
             mistakes_.error(

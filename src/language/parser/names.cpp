@@ -160,8 +160,8 @@ std::string Names::suggestion(std::string_view name) const {
 std::string Names::unknown(std::string_view name, const std::vector<std::string>* formals) const {
     if (macros_.contains(std::string(name))) {
         return fmt::format(
-            "macro '{}' is not expanded here: it is defined later, or takes arguments, or an apostrophe "
-            "stands before it on the line; its value is 0",
+            "macro '{}' is not expanded here: it is defined later, or takes arguments, or there is an "
+            "apostrophe before it on the line; its value is 0",
             name);
     }
     return fmt::format("'{}' is no parameter here and never assigned, so its value is 0{}", name,

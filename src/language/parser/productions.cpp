@@ -32,7 +32,7 @@ void ProductionParser::parts(Production& production) {
     if (production.strict.empty()) throw SyntaxError{begin, "the predecessor is empty: no module to be replaced"};
     if (in_.accept(">")) production.right = patterns(production, true);
     if (in_.looking_at("<")) {
-        throw SyntaxError{in_.here(), "a left context stands before the predecessor: left < strict > right"};
+        throw SyntaxError{in_.here(), "a left context comes before the predecessor: left < strict > right"};
     }
     if (in_.accept(":")) conditions(production);
     expect_arrow();
@@ -71,7 +71,7 @@ bool ProductionParser::at_end_of_patterns() {
 std::vector<ModulePattern> ProductionParser::patterns(Production& production, bool right_context) {
     std::vector<ModulePattern> result;
     if (in_.accept("*")) {
-        if (!at_end_of_patterns()) in_.expected("nothing beside '*', which stands for no module");
+        if (!at_end_of_patterns()) in_.expected("nothing beside '*', which means no module");
         return result;
     }
     while (!at_end_of_patterns()) result.push_back(pattern(production, right_context));
@@ -92,7 +92,7 @@ ModulePattern ProductionParser::pattern(Production& production, bool right_conte
     const Location at = in_.here();
     if (looking_at_block()) {
         mistakes_.warning(at,
-                          "this is read as modules of the predecessor; a block stands behind a ':', as in "
+                          "this is read as modules of the predecessor; a block comes after a ':', as in "
                           "A : { x = 1; } --> B");
     }
     const std::string_view name = symbol();
@@ -127,7 +127,7 @@ std::vector<ModuleTemplate> ProductionParser::successor() {
                           "this successor is empty, as if '*' stood here (a line that goes on begins with a TAB)");
     }
     if (in_.accept("*")) {
-        if (!ended()) in_.expected("nothing beside '*', which stands for no module");
+        if (!ended()) in_.expected("nothing beside '*', which means no module");
         return result;
     }
     while (!ended()) result.push_back(module());
@@ -168,10 +168,10 @@ std::string_view ProductionParser::symbol() {
         const char c = in_.peek();
         if (c == '(') throw SyntaxError{at, "these parameters belong to no module"};
         if (c == ')') throw SyntaxError{at, "this ')' closes nothing"};
-        if (c == '*') throw SyntaxError{at, "'*' stands for no module and stands alone"};
+        if (c == '*') throw SyntaxError{at, "'*' means no module and must be alone"};
         in_.expected("a module");
     }
-    if (name == "\"") throw SyntaxError{at, "text stands among the parameters of a module only"};
+    if (name == "\"") throw SyntaxError{at, "text may be only among the parameters of a module"};
     in_.take(name.size());
     return name;
 }
@@ -200,7 +200,7 @@ std::uint32_t ProductionParser::text_index(const std::string& text) {
 std::vector<SymbolId> ProductionParser::symbol_list() {
     std::vector<SymbolId> result;
     if (in_.accept("*")) {
-        if (!in_.at_end()) in_.expected("nothing beside '*', which stands for no module");
+        if (!in_.at_end()) in_.expected("nothing beside '*', which means no module");
         return result;
     }
     while (!in_.at_end()) result.push_back(model_->alphabet.symbol(symbol()));

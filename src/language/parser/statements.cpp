@@ -70,7 +70,7 @@ void ExpressionParser::statement(Block& block) {
     } else if (word == "do" && !assigned) {
         result = do_loop();
     } else if (word == "break" && !assigned) {
-        if (loops_ == 0) mistakes_.error(in_.here(), "'break' stands outside any loop");
+        if (loops_ == 0) mistakes_.error(in_.here(), "'break' is outside any loop");
         in_.take(word.size());
         end_of_statement();
         result.kind = Statement::Kind::break_loop;

@@ -30,7 +30,7 @@ public:
         const TextCursor start = lines_.text();
         if (samples > most_samples) start.fail(fmt::format("at most {} samples of a curve", most_samples));
         while (!lines_.at_end() && !begins_with_number()) read_setting();
-        if (!count_) lines_.text().fail("here 'points:' should stand");
+        if (!count_) lines_.text().fail("'points:' is expected here");
         for (int i = 0; i < *count_ && take_point(); ++i) {
         }
         if (points_.size() < least_points) {
@@ -48,7 +48,7 @@ private:
         return text.number().has_value();
     }
 
-    // Where a curve stands, its range and its version are not used; neither are lines that nobody knows.
+    // The place, the range and the version of a curve are not used; unknown lines are ignored.
     void read_setting() {
         if (lines_.next_is("points:")) {
             count_ = lines_.take_integer("points:", 1, LineReader::most_lines);

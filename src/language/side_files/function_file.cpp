@@ -48,7 +48,7 @@ NamedFunction take_function(LineReader& lines) {
     function.name = name.word();
     function.name = function.name.substr(0, function.name.rfind('.'));
     const int samples = lines.take_integer("samples:", std::numeric_limits<int>::min() + 1, most_samples);
-    lines.pass_over_editor_lines();
+    lines.skip_editor_lines();
     lines.take_line();  // "flip: off", or any other
     function.function = take_points(lines, samples);
     return function;

@@ -6,7 +6,7 @@
 namespace espalier {
 namespace {
 
-/// Towards the reader of a front view, who looks along -z.
+/// Towards the reader of a front view, along z.
 Pose facing_the_screen(const Walk& walk) {
     Pose pose;
     pose.position = walk.turtle().pose.position;

@@ -16,26 +16,26 @@ constexpr std::array<std::string_view, 7> render_modes{"wireframe", "filled", "f
                                                        "shaded",    "fast",   "shadows"};
 
 // Settings of a window alone are read as far as it takes to find the next.
-void pass_over_number(ViewReader& reader) {
+void skip_number(ViewReader& reader) {
     double value = 0;
     reader.read_number(value);
 }
 
-void pass_over_integer(ViewReader& reader) {
+void skip_integer(ViewReader& reader) {
     int value = 0;
     reader.read_integer(value);
 }
 
-void pass_over_vector(ViewReader& reader) {
+void skip_vector(ViewReader& reader) {
     glm::dvec3 value(0);
     reader.read_vector(value);
 }
 
-void pass_over_word(ViewReader& reader) {
+void skip_word(ViewReader& reader) {
     reader.read_word();
 }
 
-void pass_over_line(ViewReader& reader) {
+void skip_line(ViewReader& reader) {
     reader.rest_of_line();
 }
 
@@ -113,14 +113,14 @@ void background_scene(ViewReader& reader) {
     if (reader.view.backgrounds.empty()) reader.too_few();
 }
 
-/// One line of sub-commands, each beginning anew from the defaults.
+/// One line of sub-commands, each starting from the defaults.
 class LightLine {
 public:
     explicit LightLine(ViewReader& reader) : reader_(reader), words_(reader.rest_of_line()) {}
 
     void read() {
         if (reader_.view.lights.size() == most_lights) {
-            return reader_.complain(fmt::format("more than {} lights; this one is passed over", most_lights),
+            return reader_.complain(fmt::format("more than {} lights; this one is ignored", most_lights),
                                     Severity::warning);
         }
         while (next_ < words_.size()) {
@@ -130,7 +130,7 @@ public:
     }
 
 private:
-    // False if the line is passed over.
+    // False if the line is ignored.
     bool read_command() {
         const ViewWord& command = words_[next_++];
         switch (command.text[0]) {
@@ -157,7 +157,7 @@ private:
     }
 
     bool refuse(const ViewWord& word, const std::string& why) {
-        reader_.complain(word.place.diagnostic(why + "; the line is passed over"));
+        reader_.complain(word.place.diagnostic(why + "; the line is ignored"));
         return false;
     }
 
@@ -196,30 +196,30 @@ constexpr std::array keywords{
     ViewKeyword{"back distance:", "a number", back_distance},
     ViewKeyword{"scale factor:", "a number", scale_factor},
     ViewKeyword{"box:", "x: two numbers y: two numbers z: two numbers", box, display},
-    ViewKeyword{"min zoom:", "a number", pass_over_number, display},
-    ViewKeyword{"max zoom:", "a number", pass_over_number, display},
-    ViewKeyword{"generate on view change:", "a word", pass_over_word, display},
-    ViewKeyword{"z buffer:", "'on' or 'off'", pass_over_word, display},
-    ViewKeyword{"cue range:", "a whole number", pass_over_integer, display},
-    ViewKeyword{"antialiasing:", "'on' or 'off'", pass_over_word, display},
-    ViewKeyword{"concave polygons:", "'on' or 'off'", pass_over_word, display},
-    ViewKeyword{"interpretation step:", "a whole number", pass_over_integer, display},
+    ViewKeyword{"min zoom:", "a number", skip_number, display},
+    ViewKeyword{"max zoom:", "a number", skip_number, display},
+    ViewKeyword{"generate on view change:", "a word", skip_word, display},
+    ViewKeyword{"z buffer:", "'on' or 'off'", skip_word, display},
+    ViewKeyword{"cue range:", "a whole number", skip_integer, display},
+    ViewKeyword{"antialiasing:", "'on' or 'off'", skip_word, display},
+    ViewKeyword{"concave polygons:", "'on' or 'off'", skip_word, display},
+    ViewKeyword{"interpretation step:", "a whole number", skip_integer, display},
     ViewKeyword{"render mode:", "a word", render_mode, display},
     ViewKeyword{"shade mode:", "a whole number", shade_mode, display},
-    ViewKeyword{"shadow map:", "sub-commands", pass_over_line, display},
+    ViewKeyword{"shadow map:", "sub-commands", skip_line, display},
     ViewKeyword{"light:", "sub-commands", light, display},
-    ViewKeyword{"light direction:", "three numbers", pass_over_vector, display},
-    ViewKeyword{"diffuse reflection:", "a whole number", pass_over_integer, display},
-    ViewKeyword{"surface ambient:", "a number", pass_over_number, display},
-    ViewKeyword{"surface diffuse:", "a number", pass_over_number, display},
-    ViewKeyword{"font:", "a word", pass_over_word, display},
-    ViewKeyword{"winfont:", "a name and a size", pass_over_line, display},
-    ViewKeyword{"PS linecap:", "a whole number", pass_over_integer, display},
+    ViewKeyword{"light direction:", "three numbers", skip_vector, display},
+    ViewKeyword{"diffuse reflection:", "a whole number", skip_integer, display},
+    ViewKeyword{"surface ambient:", "a number", skip_number, display},
+    ViewKeyword{"surface diffuse:", "a number", skip_number, display},
+    ViewKeyword{"font:", "a word", skip_word, display},
+    ViewKeyword{"winfont:", "a name and a size", skip_line, display},
+    ViewKeyword{"PS linecap:", "a whole number", skip_integer, display},
     ViewKeyword{"background scene:", "files", background_scene, display},
-    ViewKeyword{"background color:", "three numbers", pass_over_vector, display},
-    ViewKeyword{"ambient light:", "three numbers", pass_over_vector, display},
-    ViewKeyword{"rayshade scale:", "a number", pass_over_number, display},
-    ViewKeyword{"rayshade objects:", "a format", pass_over_line, display},
+    ViewKeyword{"background color:", "three numbers", skip_vector, display},
+    ViewKeyword{"ambient light:", "three numbers", skip_vector, display},
+    ViewKeyword{"rayshade scale:", "a number", skip_number, display},
+    ViewKeyword{"rayshade objects:", "a format", skip_line, display},
 };
 
 }  // namespace

@@ -113,10 +113,10 @@ void ViewReader::unknown(const std::string& label, const TextCursor& start) {
     std::string name = without_colon(label);
     while (name.ends_with('\r') || name.ends_with(' ')) name.pop_back();
     const std::size_t first = name.find_first_not_of("\t ");
-    if (first == std::string::npos) return complain(start.diagnostic("no setting stands before this sign"));
+    if (first == std::string::npos) return complain(start.diagnostic("there is no setting before this sign"));
     if (name.starts_with('\t')) {
         return complain(
-            start.diagnostic(fmt::format("'{}' is not read because a tab stands before it", name.substr(first))));
+            start.diagnostic(fmt::format("'{}' is not read because of the tab before it", name.substr(first))));
     }
     if (label.ends_with(" :") && std::find(known.begin(), known.end(), name) != known.end()) {
         return complain(start.diagnostic(fmt::format("'{}' is not read because blanks stand before its colon", name)));
@@ -130,7 +130,7 @@ void ViewReader::read_contours() {
     for (const NamedContour& contour : contours) {
         setting_ = contour.place;
         if (contour.number == 0 || shapes.contours.contains(contour.number)) {
-            complain(fmt::format("contour {} is {} already; this one is passed over", contour.number,
+            complain(fmt::format("contour {} is {} already; this one is ignored", contour.number,
                                  contour.number == 0 ? "the circle" : "there"),
                      Diagnostic::Severity::warning);
             continue;

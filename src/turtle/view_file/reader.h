@@ -19,7 +19,7 @@ class ViewReader;
 struct ViewKeyword {
     std::string_view label;   ///< with its colon
     std::string_view values;  ///< what follows it, for messages
-    /// Reads the values. Those of a setting without meaning outside a window are read to be passed over.
+    /// Reads the values. Those of a setting without meaning outside a window are read and ignored.
     void (*read)(ViewReader&);
     bool display = false;  ///< without meaning outside a window
 };

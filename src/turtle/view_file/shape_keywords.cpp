@@ -39,7 +39,7 @@ std::optional<SurfaceLine> read_surface_line(ViewReader& reader) {
         return std::nullopt;
     }
     if (reader.shapes.surfaces.contains(surface_id(line.id))) {
-        reader.complain(fmt::format("surface '{}' is there already; this one is passed over", line.id),
+        reader.complain(fmt::format("surface '{}' is there already; this one is ignored", line.id),
                         Severity::warning);
         return std::nullopt;
     }
@@ -82,7 +82,7 @@ void surface(ViewReader& reader) {
 void line_surface(ViewReader& reader) {
     if (reader.next_is("~") && !reader.shapes.surfaces.empty()) {
         reader.rest_of_line();
-        return reader.complain("the surface of lines must be the first; it is passed over", Severity::warning);
+        return reader.complain("the surface of lines must be the first; it is ignored", Severity::warning);
     }
     surface(reader);
 }
@@ -147,7 +147,7 @@ void add_member(ViewReader& reader, NamedFunction member, const std::string& fil
                     Severity::warning);
 }
 
-// Begins the numbers anew. The names are defined in the model.
+// Restarts the numbers. The names are defined in the model.
 void function_set(ViewReader& reader) {
     const auto name = reader.read_word();
     if (!name) return;

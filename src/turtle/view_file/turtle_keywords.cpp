@@ -12,7 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr int colours = 256;
-constexpr std::size_t most_tropisms = 10;  // as in cpfg; more are passed over
+constexpr std::size_t most_tropisms = 10;  // as in cpfg; more are ignored
 
 double radians(double degrees) {
     return degrees * (std::numbers::pi / 180);
@@ -124,7 +124,7 @@ public:
     void read() {
         if (reader_.view.turtle.tropisms.size() == most_tropisms) {
             return reader_.complain(
-                fmt::format("more than {} tropisms and torques; this one is passed over", most_tropisms),
+                fmt::format("more than {} tropisms and torques; this one is ignored", most_tropisms),
                 Diagnostic::Severity::warning);
         }
         while (next_ < words_.size()) {
@@ -136,7 +136,7 @@ public:
     }
 
 private:
-    // False if the line is passed over.
+    // False if the line is ignored.
     bool read_command() {
         const ViewWord& command = words_[next_++];
         switch (command.text[0]) {
@@ -159,7 +159,7 @@ private:
     }
 
     bool refuse(const ViewWord& word, const std::string& why) {
-        reader_.complain(word.place.diagnostic(why + "; the line is passed over"));
+        reader_.complain(word.place.diagnostic(why + "; the line is ignored"));
         return false;
     }
 
@@ -186,7 +186,7 @@ private:
         double intensity = 0;
         if (!read_value(command, intensity)) return false;
         if (intensity == 0) return refuse(command, "the intensity of a tropism must not be 0");
-        if (!has_vector_) return refuse(command, "the intensity stands behind the direction T x y z");
+        if (!has_vector_) return refuse(command, "the intensity comes after the direction T x y z");
         tropism_.direction *= std::clamp(intensity / glm::length(tropism_.direction), -1.0, 1.0);
         has_intensity_ = true;
         return true;

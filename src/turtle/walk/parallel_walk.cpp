@@ -1,6 +1,6 @@
-// The states that turtles have at the borders of stretches are foreseen: they depend only on modules of branches that
+// The states that turtles have at the borders of stretches are predicted: they depend only on modules of branches that
 // are still open there, which are few. Every walk must then arrive, to the last bit, where the next one began;
-// so the result is that of one walk whatever was foreseen.
+// so the result is that of one walk whatever was predicted.
 #include "turtle/walk/parallel_walk.h"
 
 #include "espalier/base/error.h"
@@ -66,8 +66,8 @@ struct Stretch {
     WalkState start, end;
     Interpretation rest;            ///< what was not counted before
     std::uint32_t axes_before = 0;  ///< stays 0 if numbered
-    bool as_foreseen = false;
-    std::atomic<bool> numbered = false;  ///< walked as foreseen, with the numbers that axes have in the whole plant
+    bool as_predicted = false;
+    std::atomic<bool> numbered = false;  ///< walked as predicted, with the numbers that axes have in the whole plant
 
     explicit Stretch(const WalkPlan& plan_) : plan(plan_) {}
     std::span<Internode> internodes(Interpretation& result) const {
@@ -92,8 +92,8 @@ void Stretch::walk(const WalkInput& input, const Stretch* last, Interpretation& 
         if (goes_on) rest.geometry.axes = last->rest.geometry.axes;
         walk->run(plan.begin(), plan.end(), before.parameters);
         end = walk->state();
-        as_foreseen = walk->filled_room() && end.is_between_drawings();
-        numbered = as_foreseen && (goes_on || !last);
+        as_predicted = walk->filled_room() && end.is_between_drawings();
+        numbered = as_predicted && (goes_on || !last);
     } catch (const WrongPlan&) {
     } catch (const RunError&) {  // the walk in one piece meets it too, if it is one
     }
@@ -115,7 +115,7 @@ std::deque<Stretch> cut(const WalkInput& input, std::size_t chunk) {
 }
 
 /// States and counts at the borders; false if there is too much to walk ahead.
-bool foresee(const WalkInput& input, std::deque<Stretch>& stretches) {
+bool predict(const WalkInput& input, std::deque<Stretch>& stretches) {
     constexpr std::size_t least_share = 8;  // what one thread walks ahead must be little
     std::size_t ahead = 0;
     for (std::size_t k = 0; k + 1 < stretches.size(); ++k) ahead += stretches[k].plan.kept();
@@ -141,14 +141,14 @@ bool foresee(const WalkInput& input, std::deque<Stretch>& stretches) {
 /// True if every stretch came to where the next one began. Then says how axes are numbered: `known` are those that
 /// stretches took over.
 bool connect(std::deque<Stretch>& stretches, std::vector<std::uint32_t>& known) {
-    const auto learn = [&](const Stretch& stretch, std::uint32_t foreseen, std::uint32_t number) {
-        if (foreseen < taken_over) return;
-        known.resize(std::max<std::size_t>(known.size(), foreseen - taken_over + 1));
-        known[foreseen - taken_over] = stretch.axis(number, known);
+    const auto learn = [&](const Stretch& stretch, std::uint32_t predicted, std::uint32_t number) {
+        if (predicted < taken_over) return;
+        known.resize(std::max<std::size_t>(known.size(), predicted - taken_over + 1));
+        known[predicted - taken_over] = stretch.axis(number, known);
     };
     for (std::size_t k = 0; k < stretches.size(); ++k) {
         const Stretch& stretch = stretches[k];
-        if (!stretch.as_foreseen) return false;
+        if (!stretch.as_predicted) return false;
         if (k + 1 == stretches.size()) break;
         Stretch& next = stretches[k + 1];
         if (!stretch.end.stands_like(next.start)) return false;
@@ -197,12 +197,12 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
             std::size_t(0), stretches.size(),
             [&](std::size_t k) { action(stretches[k], k > 0 ? &stretches[k - 1] : nullptr); }, tbb::auto_partitioner());
     };
-    bool as_foreseen = false;
+    bool as_predicted = false;
     // The caller may work on other plants side by side: this thread is not to take up one of those in between.
     tbb::this_task_arena::isolate([&] {
         const LetterCounts letters(input.symbols);
         for_all([&](Stretch& stretch, const Stretch*) { stretch.plan.read(input, letters); });
-        if (!foresee(input, stretches)) return;
+        if (!predict(input, stretches)) return;
         WalkCounts total = stretches.back().before;
         total += stretches.back().plan.counts();
         result.geometry.internodes.resize(total.internodes);
@@ -210,15 +210,15 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
         result.answers.resize(total.answers);
         for_all([&](Stretch& stretch, const Stretch* last) { stretch.walk(input, last, result); });
         std::vector<std::uint32_t> known;
-        as_foreseen = connect(stretches, known);
-        if (!as_foreseen) return;
+        as_predicted = connect(stretches, known);
+        if (!as_predicted) return;
         for_all([&](const Stretch& stretch, const Stretch*) {
             if (stretch.numbered) return;
             for (Internode& internode : stretch.internodes(result))
                 internode.axis = stretch.axis(internode.axis, known);
         });
     });
-    if (!as_foreseen) {
+    if (!as_predicted) {
         input.symbols.unpredictable = true;
         result.clear();
         return false;

@@ -1,5 +1,5 @@
 // What can be known of a stretch of the string before it is walked: how much it draws, and what of it the turtle at its
-// end still feels.
+// end still depends on.
 #pragma once
 
 #include "turtle/walk/letter_counts.h"

@@ -27,7 +27,7 @@ void Walk::place_surface(std::uint32_t id, const glm::dvec3& factors) {
     if (!std::isfinite(size.x + size.y + size.z)) fail("the size of a surface is not a number");
     Organ organ{module_, Organ::Shape::surface, turtle().order, std::uint16_t(turtle().colour),
                 id,      turtle().pose,         size,           look()};
-    if (!settings_->shapes) {  // nobody said what surfaces look like: the organ shows where they would be
+    if (!settings_->shapes) {  // without the shapes of surfaces the organ marks where they would be
         geometry_->organs.push_back(organ);
         geometry_->bounds.add(turtle().pose.position);
         return;
