@@ -1,6 +1,6 @@
 #include "espalier/base/error.h"
 
-#include "espalier/base/excerpt.h"
+#include "base/excerpt.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "espalier/base/excerpt.h"
+#include "base/excerpt.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "espalier/base/line_reader.h"
+#include "base/line_reader.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
-#include "espalier/base/picture_file.h"
+#include "base/picture_file.h"
 
-#include "espalier/base/picture_bytes.h"
+#include "base/picture_bytes.h"
 
 #include <fmt/format.h>
 

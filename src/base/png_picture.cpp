@@ -1,4 +1,4 @@
-#include "espalier/base/picture_bytes.h"
+#include "base/picture_bytes.h"
 
 #include <csetjmp>
 #include <cstring>

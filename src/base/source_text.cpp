@@ -1,4 +1,4 @@
-#include "espalier/base/source_text.h"
+#include "base/source_text.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
-#include "espalier/base/text_cursor.h"
+#include "base/text_cursor.h"
 
-#include "espalier/base/characters.h"
+#include "base/characters.h"
 
 #include <algorithm>
 #include <charconv>

@@ -2,7 +2,8 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/text.h"
-#include "espalier/environment/communication.h"
+
+#include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "espalier/geometry/polygon_triangles.h"
+#include "geometry/polygon_triangles.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

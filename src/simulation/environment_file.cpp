@@ -2,9 +2,9 @@
 
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
-#include "espalier/environment/communication.h"
 #include "espalier/environment/environment_process.h"
 
+#include "environment/exchange/communication.h"
 #include "named_file.h"
 #include "plain_lines.h"
 

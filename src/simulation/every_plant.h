@@ -2,9 +2,9 @@
 #pragma once
 
 #include "espalier/base/error.h"
-#include "espalier/base/prefetch.h"
 #include "espalier/base/read_log.h"
 
+#include "base/prefetch.h"
 #include "growing_plant.h"
 
 #include <fmt/format.h>

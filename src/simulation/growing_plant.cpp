@@ -1,6 +1,6 @@
 #include "growing_plant.h"
 
-#include "espalier/base/prefetch.h"
+#include "base/prefetch.h"
 
 #include <algorithm>
 #include <utility>

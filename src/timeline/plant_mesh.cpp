@@ -1,7 +1,8 @@
 #include "timeline/plant_mesh.h"
 
 #include "espalier/base/error.h"
-#include "espalier/geometry/polygon_triangles.h"
+
+#include "geometry/polygon_triangles.h"
 
 #include <glm/geometric.hpp>
 

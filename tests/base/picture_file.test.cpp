@@ -1,8 +1,8 @@
-#include "espalier/base/picture_file.h"
+#include "base/picture_file.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/picture_bytes.h"
 
+#include "base/picture_bytes.h"
 #include "catch.h"
 #include "picture_bytes.h"
 #include "temporary_folder.h"

@@ -1,7 +1,6 @@
 #include "espalier/base/text.h"
 
-#include "espalier/base/excerpt.h"
-
+#include "base/excerpt.h"
 #include "catch.h"
 #include "temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // How questions reach a process: rounded as text would carry them, routed, or left alone.
-#include "espalier/environment/communication.h"
+#include "environment/exchange/communication.h"
 
 #include "espalier/base/error.h"
 

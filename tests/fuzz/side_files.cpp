@@ -1,12 +1,12 @@
 // Any bytes as a side file: the first byte chooses the reader, the rest is the file. Each must end in a result or in
 // words, and what was read must bear being used.
-#include "espalier/geometry/side_files.h"
+#include "geometry/side_files/side_files.h"
 
 #include "espalier/geometry/background.h"
 #include "espalier/geometry/palette.h"
-#include "espalier/language/side_files.h"
 #include "espalier/turtle/view_file.h"
 
+#include "language/side_files/side_files.h"
 #include "simulation/animation_file.h"
 #include "simulation/specifications.h"
 

@@ -1,4 +1,4 @@
-#include "espalier/geometry/polygon_triangles.h"
+#include "geometry/polygon_triangles.h"
 
 #include "catch.h"
 

@@ -1,4 +1,4 @@
-#include "espalier/geometry/side_files.h"
+#include "geometry/side_files/side_files.h"
 
 #include "espalier/geometry/background.h"
 #include "espalier/geometry/palette.h"

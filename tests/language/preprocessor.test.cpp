@@ -1,8 +1,7 @@
 #include "language/preprocessor/preprocessor.h"
 
-#include "espalier/language/preprocessor.h"
-
 #include "catch.h"
+#include "language/preprocessor/preprocessed_text.h"
 #include "reading.h"
 
 #include <filesystem>

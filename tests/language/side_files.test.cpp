@@ -1,8 +1,8 @@
-#include "espalier/language/side_files.h"
+#include "language/side_files/side_files.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text_cursor.h"
 
+#include "base/text_cursor.h"
 #include "catch.h"
 #include "temporary_folder.h"
 

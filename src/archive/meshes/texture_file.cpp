@@ -1,7 +1,8 @@
 #include "archive/meshes/texture_file.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/picture_file.h"
+
+#include "base/picture_file.h"
 
 #include <vtkBMPReader.h>
 #include <vtkImageData.h>

@@ -1,4 +1,4 @@
-#include "espalier/environment/communication.h"
+#include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
 // One exchange: gather every question, let every process advance and answer, then write the answers.
 #include "espalier/base/error.h"
-#include "espalier/environment/communication.h"
 #include "espalier/environment/environment.h"
+
+#include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

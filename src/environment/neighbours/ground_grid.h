@@ -1,8 +1,7 @@
 // The ground as cells, and how many discs lie over each.
 #pragma once
 
-#include "espalier/base/picture_file.h"
-
+#include "base/picture_file.h"
 #include "environment/parameter_file.h"
 
 #include <glm/vec2.hpp>

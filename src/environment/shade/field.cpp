@@ -1,7 +1,8 @@
 #include "environment/shade/field.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/vector_clones.h"
+
+#include "base/vector_clones.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

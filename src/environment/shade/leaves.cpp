@@ -1,6 +1,6 @@
 #include "environment/shade/leaves.h"
 
-#include "espalier/base/vector_clones.h"
+#include "base/vector_clones.h"
 
 namespace espalier {
 namespace {

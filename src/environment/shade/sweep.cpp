@@ -1,6 +1,6 @@
 #include "environment/shade/sweep.h"
 
-#include "espalier/base/vector_clones.h"
+#include "base/vector_clones.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

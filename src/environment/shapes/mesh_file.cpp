@@ -1,10 +1,10 @@
 #include "environment/shapes/mesh_file.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/picture_bytes.h"
-#include "espalier/geometry/polygon_triangles.h"
 
+#include "base/picture_bytes.h"
 #include "environment/shapes/mesh_formats.h"
+#include "geometry/polygon_triangles.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

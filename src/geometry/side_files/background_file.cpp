@@ -1,9 +1,9 @@
 #include "espalier/base/file.h"
-#include "espalier/base/text_cursor.h"
 #include "espalier/geometry/background.h"
-#include "espalier/language/preprocessor.h"
 
+#include "base/text_cursor.h"
 #include "geometry/side_files/background_solids.h"
+#include "language/preprocessor/preprocessed_text.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,6 +1,7 @@
 #include "espalier/base/file.h"
-#include "espalier/base/text_cursor.h"
-#include "espalier/geometry/side_files.h"
+
+#include "base/text_cursor.h"
+#include "geometry/side_files/side_files.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,7 +1,8 @@
 #include "language/parser/keywords.h"
 
-#include "espalier/base/characters.h"
 #include "espalier/base/text.h"
+
+#include "base/characters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "language/parser/names.h"
 
-#include "espalier/base/characters.h"
 #include "espalier/base/text.h"
 
+#include "base/characters.h"
 #include "language/parser/visit.h"
 
 #include <fmt/format.h>

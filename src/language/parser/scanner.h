@@ -1,8 +1,7 @@
 // Walks over preprocessed text: where statements end, which token comes next, what to say when it is the wrong one.
 #pragma once
 
-#include "espalier/base/characters.h"
-
+#include "base/characters.h"
 #include "language/source.h"
 
 #include <string>

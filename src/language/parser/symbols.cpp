@@ -1,6 +1,6 @@
 #include "language/parser/symbols.h"
 
-#include "espalier/base/characters.h"
+#include "base/characters.h"
 
 namespace espalier::language {
 

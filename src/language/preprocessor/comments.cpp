@@ -1,6 +1,6 @@
 #include "language/preprocessor/comments.h"
 
-#include "espalier/base/characters.h"
+#include "base/characters.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // The integer expressions of #if.
-#include "espalier/base/characters.h"
-
+#include "base/characters.h"
 #include "language/preprocessor/preprocessor.h"
 
 #include <fmt/format.h>

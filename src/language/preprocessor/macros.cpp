@@ -1,7 +1,6 @@
 #include "language/preprocessor/macros.h"
 
-#include "espalier/base/characters.h"
-
+#include "base/characters.h"
 #include "language/preprocessor/comments.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
+#include "language/preprocessor/preprocessed_text.h"
+
 #include "espalier/base/file.h"
-#include "espalier/language/preprocessor.h"
 
 #include "language/preprocessor/preprocessor.h"
 #include "language/source.h"

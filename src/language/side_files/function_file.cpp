@@ -1,6 +1,7 @@
 #include "espalier/base/file.h"
-#include "espalier/base/line_reader.h"
-#include "espalier/language/side_files.h"
+
+#include "base/line_reader.h"
+#include "language/side_files/side_files.h"
 
 #include <fmt/format.h>
 

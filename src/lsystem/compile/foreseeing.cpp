@@ -1,6 +1,6 @@
 #include "lsystem/compile/foreseeing.h"
 
-#include "espalier/base/vector_clones.h"
+#include "base/vector_clones.h"
 
 #include <array>
 

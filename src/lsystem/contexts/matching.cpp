@@ -1,7 +1,8 @@
 #include "lsystem/contexts/matching.h"
 
-#include "espalier/base/excerpt.h"
 #include "espalier/base/text.h"
+
+#include "base/excerpt.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-#include "espalier/base/excerpt.h"
-#include "espalier/base/prefetch.h"
-
+#include "base/excerpt.h"
+#include "base/prefetch.h"
 #include "lsystem/derive/powers.h"
 #include "lsystem/derive/small_step.h"
 #include "lsystem/homomorphism/painter.h"

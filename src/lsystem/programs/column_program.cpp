@@ -1,7 +1,6 @@
 #include "lsystem/programs/column_program.h"
 
-#include "espalier/base/vector_clones.h"
-
+#include "base/vector_clones.h"
 #include "lsystem/programs/machine.h"
 
 #include <algorithm>

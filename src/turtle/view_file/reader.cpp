@@ -2,8 +2,9 @@
 
 #include "espalier/base/file.h"
 #include "espalier/base/text.h"
-#include "espalier/geometry/side_files.h"
-#include "espalier/language/preprocessor.h"
+
+#include "geometry/side_files/side_files.h"
+#include "language/preprocessor/preprocessed_text.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,9 @@
 // Reading a view file: its text as a stream of settings, and what the settings of several places share.
 #pragma once
 
-#include "espalier/base/text_cursor.h"
 #include "espalier/turtle/view_file.h"
+
+#include "base/text_cursor.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "espalier/base/text.h"
-#include "espalier/geometry/side_files.h"
-#include "espalier/language/side_files.h"
 
+#include "geometry/side_files/side_files.h"
+#include "language/side_files/side_files.h"
 #include "turtle/surface_id.h"
 #include "turtle/view_file/reader.h"
 
@@ -39,8 +39,7 @@ std::optional<SurfaceLine> read_surface_line(ViewReader& reader) {
         return std::nullopt;
     }
     if (reader.shapes.surfaces.contains(surface_id(line.id))) {
-        reader.complain(fmt::format("surface '{}' is there already; this one is ignored", line.id),
-                        Severity::warning);
+        reader.complain(fmt::format("surface '{}' is there already; this one is ignored", line.id), Severity::warning);
         return std::nullopt;
     }
     return line;

@@ -1,7 +1,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/picture_file.h"
 
+#include "base/picture_file.h"
 #include "catch.h"
 #include "environment/exchange_plants.h"
 #include "picture_bytes.h"

@@ -3,7 +3,8 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/picture_file.h"
+
+#include "base/picture_file.h"
 
 #include <fmt/format.h>
 

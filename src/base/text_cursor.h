@@ -2,7 +2,8 @@
 #pragma once
 
 #include "espalier/base/error.h"
-#include "espalier/base/source_text.h"
+
+#include "base/source_text.h"
 
 #include <cstddef>
 #include <memory>

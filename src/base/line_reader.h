@@ -1,7 +1,7 @@
 // Side files that are lists of lines, read line by line: "points: 5", then five lines of numbers.
 #pragma once
 
-#include "espalier/base/text_cursor.h"
+#include "base/text_cursor.h"
 
 #include <optional>
 #include <string>

@@ -1,8 +1,9 @@
 // Text files after the C preprocessor: comments, #define, #include, #if, as models and their side files use them.
 #pragma once
 
-#include "espalier/base/source_text.h"
 #include "espalier/language/reader.h"
+
+#include "base/source_text.h"
 
 #include <filesystem>
 #include <memory>
