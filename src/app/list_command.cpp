@@ -73,7 +73,7 @@ const std::vector<Kind>& kinds() {
         {"processes", "the environment of the plants: [environment.<name>] process = \"...\"",
          parts_of_kind<ProcessType>},
         {"symbols", "the symbols of the turtle and what they do", symbol_parts},
-        {"recorders", "the files of a run: [timeline]", parts_of<RecorderRegistry>},
+        {"recorders", "the files of a run: [timeline]", parts_of_kind<RecorderType>},
         {"exporters", "formats of `espalier export`",
          [] {
              open_looking_half();

@@ -123,8 +123,8 @@ void Timeline::make_recorders(Settings& table) {
     frames_ = frames_of(table);
     next_ = frames_.after(-1);
     const RecorderContext context{folder_, last_step_};
-    for (const auto& [name, entry] : RecorderRegistry::entries()) {
-        if (auto recorder = entry.make(table, context)) recorders_.push_back(std::move(recorder));
+    for (const auto& [name, type] : registered<RecorderType>()) {
+        if (auto recorder = type->make(table, context)) recorders_.push_back(std::move(recorder));
     }
     table.reject_unread();
     std::vector<std::string> fields;

@@ -36,16 +36,16 @@ void write_file_at(const fs::path& path, const std::string& text) {
 }  // namespace
 
 TEST_CASE("every file in recorders/ is registered, and explains itself", "[timeline]") {
-    std::set<std::string> files, registered;
+    std::set<std::string> files, names;
     for (const auto& item : fs::directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / "src/timeline/recorders")) {
         files.insert(item.path().stem().string());
     }
-    for (const auto& [name, entry] : RecorderRegistry::entries()) {
-        registered.insert(name);
-        CHECK(!entry.description.summary.empty());
-        CHECK(!entry.description.help.empty());
+    for (const auto& [name, type] : registered<RecorderType>()) {
+        names.insert(name);
+        CHECK(!type->summary.empty());
+        CHECK(!type->help.empty());
     }
-    CHECK(files == registered);
+    CHECK(files == names);
 }
 
 TEST_CASE("two timelines into one folder are refused", "[timeline]") {

@@ -6,6 +6,7 @@
 #include "espalier/timeline/frame.h"
 
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -58,14 +59,13 @@ public:
     virtual void restore(std::istream&) {}
 };
 
-using RecorderRegistry = Registry<Recorder, Settings&, const RecorderContext&>;
-
-/// Defining one registers a recorder. Its factory may return null: not asked for in this scene.
-struct RegisteredRecorder {
-    RegisteredRecorder(PartDescription description, RecorderRegistry::Factory make) {
-        const std::string name = description.name;
-        RecorderRegistry::entries()[name] = {std::move(description), std::move(make)};
-    }
+/// What a file of src/timeline/recorders/ registers.
+struct RecorderType {
+    std::string name;
+    std::string summary;  ///< the files it writes, in a line
+    std::string help;     ///< its settings in [timeline], with types and defaults
+    /// Null if the scene does not want it.
+    std::function<std::unique_ptr<Recorder>(Settings&, const RecorderContext&)> make;
 };
 
 }  // namespace espalier

@@ -130,14 +130,15 @@ private:
     std::vector<Written> written_, restored_;  ///< per field
 };
 
-const RegisteredRecorder entry{{"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",
-                                "fields (list of names, none): the fields to write; [\"all\"]: all fields\n"
-                                "field_files (list, [\"vti\", \"vdb\"]): the formats"},
-                               [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
-                                   auto recorder = std::make_unique<FieldRecorder>(settings, context);
-                                   if (!recorder->wanted()) return nullptr;
-                                   return recorder;
-                               }};
+const Registered<RecorderType> entry{
+    {"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",
+     "fields (list of names, none): the fields to write; [\"all\"]: all fields\n"
+     "field_files (list, [\"vti\", \"vdb\"]): the formats",
+     [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
+         auto recorder = std::make_unique<FieldRecorder>(settings, context);
+         if (!recorder->wanted()) return nullptr;
+         return recorder;
+     }}};
 
 }  // namespace
 }  // namespace espalier

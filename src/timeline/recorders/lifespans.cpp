@@ -148,13 +148,13 @@ private:
     double time_ = 0;
 };
 
-const RegisteredRecorder entry{
+const Registered<RecorderType> entry{
     {"lifespans", "lifespans.vtp: every internode once, with birth and death; written at the end",
-     "lifespans (true or false, true): write it"},
-    [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
-        if (!settings.flag_or("lifespans", true)) return nullptr;
-        return std::make_unique<Lifespans>(context);
-    }};
+     "lifespans (true or false, true): write it",
+     [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
+         if (!settings.flag_or("lifespans", true)) return nullptr;
+         return std::make_unique<Lifespans>(context);
+     }}};
 
 }  // namespace
 }  // namespace espalier

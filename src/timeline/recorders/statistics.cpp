@@ -118,12 +118,12 @@ private:
     int previous_step_ = -1;
 };
 
-const RegisteredRecorder entry{
-    {"statistics", "statistics.csv: a row per step and plant", "statistics (true or false, true): write it"},
-    [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
-        if (!settings.flag_or("statistics", true)) return nullptr;
-        return std::make_unique<Statistics>(context);
-    }};
+const Registered<RecorderType> entry{
+    {"statistics", "statistics.csv: a row per step and plant", "statistics (true or false, true): write it",
+     [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
+         if (!settings.flag_or("statistics", true)) return nullptr;
+         return std::make_unique<Statistics>(context);
+     }}};
 
 }  // namespace
 }  // namespace espalier
