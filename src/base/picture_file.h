@@ -20,8 +20,8 @@ struct Picture {
     const Colour& at(double u, double v) const;
 };
 
-/// The kind follows from the last three letters of the name. Throws UserError, naming the file, if it is no such picture,
-/// ends too early or has more than 2^28 pixels.
+/// The kind follows from the last three letters of the name. Throws UserError, naming the file, if it is no such
+/// picture, ends too early or has more than 2^28 pixels.
 Picture read_picture(const std::filesystem::path& path);
 
 }  // namespace espalier

@@ -68,8 +68,7 @@ void ParameterFile::read() {
         }
         const std::string& key = lines_.back().key;
         if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) continue;
-        warn(lines_.back(),
-             fmt::format("the parameter '{}' is unknown and ignored{}", key, did_you_mean(key, keys_)));
+        warn(lines_.back(), fmt::format("the parameter '{}' is unknown and ignored{}", key, did_you_mean(key, keys_)));
     }
 }
 

@@ -101,9 +101,8 @@ TEST_CASE("of the numbers behind a surface's size one is a texture, two a precis
     CHECK(surfaces.at('d').texture == 5);
     CHECK_FALSE(surfaces.at('e').texture);
     CHECK(near(surfaces.at('f').end, surfaces.at('a').end));  // a size that is none is 1
-    CHECK(folder.messages(view) ==
-          Messages{"F/a.v:4:1: warning: precision 20 is taken as 10: it goes from 1 to 10",
-                   "F/a.v:6:1: warning: surface 'a' is there already; this one is ignored"});
+    CHECK(folder.messages(view) == Messages{"F/a.v:4:1: warning: precision 20 is taken as 10: it goes from 1 to 10",
+                                            "F/a.v:6:1: warning: surface 'a' is there already; this one is ignored"});
 }
 
 TEST_CASE("ids are single characters, of any script, shared by all surfaces", "[turtle]") {
@@ -118,10 +117,9 @@ TEST_CASE("ids are single characters, of any script, shared by all surfaces", "[
     CHECK(surfaces.contains('~'));
     CHECK(surfaces.contains(0xE9));
     CHECK(surfaces.at('t').triangles.at(0)[1].position == glm::dvec3(0, 2, 0));
-    CHECK(folder.messages(view) ==
-          Messages{"F/a.v:4:1: warning: the surface of lines must be the first; it is ignored",
-                   "F/a.v:5:1: 'ab' is no id: the id of a surface is one character",
-                   "F/a.v:6:1: warning: surface 't' is there already; this one is ignored"});
+    CHECK(folder.messages(view) == Messages{"F/a.v:4:1: warning: the surface of lines must be the first; it is ignored",
+                                            "F/a.v:5:1: 'ab' is no id: the id of a surface is one character",
+                                            "F/a.v:6:1: warning: surface 't' is there already; this one is ignored"});
 }
 
 TEST_CASE("files are looked for beside the file that names them, then in the folder of the run", "[turtle]") {

@@ -34,9 +34,9 @@ std::shared_ptr<const Model> read_model(const std::filesystem::path& path, const
 std::shared_ptr<const Model> read_model_text(std::string_view text, const std::string& name,
                                              const std::filesystem::path& folder = {}, const ReadOptions& options = {});
 
-/// What `espalier check` warns about: productions that can never apply, modules that are never produced, unmatched brackets,
-/// `consider` lists without brackets together with right contexts, homomorphism cycles, queries without a process.
-/// `turtle_symbols` are the symbols the turtle knows (multi-character ones included, such as "@o").
+/// What `espalier check` warns about: productions that can never apply, modules that are never produced, unmatched
+/// brackets, `consider` lists without brackets together with right contexts, homomorphism cycles, queries without a
+/// process. `turtle_symbols` are the symbols the turtle knows (multi-character ones included, such as "@o").
 std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols);
 
 }  // namespace espalier
