@@ -7,7 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace espalier {
+namespace espalier::analysis {
 
 std::int32_t BranchTree::add(std::int32_t parent, const glm::dvec3& base, const glm::dvec3& tip, double base_radius,
                              double radius) {
@@ -86,4 +86,4 @@ double total_volume(const BranchTree& tree) {
     return sum;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// Internode i has row i of every column. An internode comes after the one it stands on.
 struct BranchTree {
@@ -49,4 +49,4 @@ double total_length(const BranchTree& tree);
 double total_surface(const BranchTree& tree);
 double total_volume(const BranchTree& tree);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

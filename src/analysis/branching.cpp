@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 // Columns per fork have the ground in element 0 and the tip of internode i in element i + 1.
@@ -122,4 +122,4 @@ BranchingCounts count_branching(const BranchTree& tree) {
     return counts;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// Strahler 1957: 1 at a tip; where branches meet the highest order of theirs, one more if two have it.
 struct StrahlerOrders {
@@ -47,4 +47,4 @@ struct BranchingCounts {
 };
 BranchingCounts count_branching(const BranchTree& tree);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

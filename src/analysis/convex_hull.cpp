@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
@@ -246,4 +246,4 @@ double convex_hull_volume(std::span<const glm::dvec3> points) {
     return Quickhull(points).volume();
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

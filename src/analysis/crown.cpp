@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 /// True for the internodes above a fork; for all, if there is neither a fork nor a leaf.
@@ -89,4 +89,4 @@ Crown measure_crown(const BranchTree& tree, const Leaves& leaves, double voxel) 
     return crown;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -4,7 +4,7 @@
 #include "analysis/branch_tree.h"
 #include "analysis/leaves.h"
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// The crown is the leaves and the internodes above the first fork; a plant that has neither is its own crown.
 struct Crown {
@@ -20,4 +20,4 @@ struct Crown {
 /// The foot is where the plant's first internode begins. `voxel` 0: chosen.
 Crown measure_crown(const BranchTree& tree, const Leaves& leaves, double voxel = 0);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

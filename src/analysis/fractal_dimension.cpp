@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::analysis {
 
 FractalDimension fractal_dimension(const BranchTree& tree) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -42,4 +42,4 @@ FractalDimension fractal_dimension(const BranchTree& tree) {
     return result;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

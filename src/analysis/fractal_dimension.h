@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// N(s) boxes of edge s are touched, N ~ s^-dimension over the scales from `largest_box` down to `smallest_box`:
 /// a quarter of the skeleton's largest extent, halved at least three times and at most eight, as long as a box is no
@@ -19,4 +19,4 @@ struct FractalDimension {
 /// NaN for a plant without internodes.
 FractalDimension fractal_dimension(const BranchTree& tree);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

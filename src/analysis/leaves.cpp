@@ -4,7 +4,7 @@
 
 #include <unordered_map>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 /// Facets that follow each other in the file and belong to one module are one leaf.
@@ -76,4 +76,4 @@ double total_area(const Leaves& leaves) {
     return sum;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// What one module shows: a polygon, a disc, a surface of many facets, or several of them.
 struct Leaf {
@@ -31,4 +31,4 @@ std::vector<Leaves> leaves_of(const RecordedGeometry& geometry, std::span<const 
 
 double total_area(const Leaves& leaves);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

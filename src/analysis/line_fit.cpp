@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::analysis {
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {
     const auto n = static_cast<double>(x.size());
@@ -23,4 +23,4 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y) {
     return fit;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// y = intercept + slope x. `error` is the slope's standard error; NaN with fewer than three points.
 struct LineFit {
@@ -12,4 +12,4 @@ struct LineFit {
 /// NaN with fewer than two different x.
 LineFit fit_line(std::span<const double> x, std::span<const double> y);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

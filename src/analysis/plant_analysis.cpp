@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace espalier {
+namespace espalier::analysis {
 
 double PlantAnalysis::leaf_area_index() const {
     return crown.projection > 0 ? leaf_area / crown.projection : std::numeric_limits<double>::quiet_NaN();
@@ -109,4 +109,4 @@ const std::vector<Measure>& measures() {
     return all;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

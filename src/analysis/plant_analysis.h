@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 struct PlantAnalysis {
     std::uint32_t plant = 0;
@@ -51,4 +51,4 @@ struct Measure {
 };
 const std::vector<Measure>& measures();
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 /// Heights above the foot between which everything lies.
@@ -117,4 +117,4 @@ LengthDistribution length_distribution(const BranchTree& tree) {
     return result;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

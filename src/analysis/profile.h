@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// What lies between two heights above the plant's foot (negative: depths), m.
 struct Layer {
@@ -34,4 +34,4 @@ struct LengthDistribution {
 };
 LengthDistribution length_distribution(const BranchTree& tree);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

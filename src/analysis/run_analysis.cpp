@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::analysis {
 
 struct RunAnalysis::Frame {
     int step = 0;
@@ -216,4 +216,4 @@ void RunAnalysis::write_json(const std::filesystem::path& folder) const {
     write_text(folder / "analysis.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

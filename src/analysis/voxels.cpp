@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 constexpr std::int64_t most_boxes = std::int64_t{1} << 21;
@@ -89,4 +89,4 @@ void VoxelSet::coarsen() {
     edge_ *= 2;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

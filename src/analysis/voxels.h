@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// A cubic grid of at most 2^21 boxes along each side. What lies outside counts as in the outermost boxes.
 class VoxelSet {
@@ -34,4 +34,4 @@ private:
     std::size_t unique_ = 0;            ///< the first so many are sorted and without repetition
 };
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 namespace {
 
 /// The logarithms of di / d0, fork after fork; all below 0.
@@ -92,4 +92,4 @@ ForkWidths fork_widths(const BranchTree& tree) {
     return widths;
 }
 
-}  // namespace espalier
+}  // namespace espalier::analysis

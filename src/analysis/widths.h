@@ -3,7 +3,7 @@
 
 #include "analysis/branch_tree.h"
 
-namespace espalier {
+namespace espalier::analysis {
 
 /// d0 is the diameter at an internode's tip, di those at the tips of the internodes on it. Forks with a width of 0 are
 /// left out. NaN where no fork tells.
@@ -18,4 +18,4 @@ struct ForkWidths {
 };
 ForkWidths fork_widths(const BranchTree& tree);
 
-}  // namespace espalier
+}  // namespace espalier::analysis

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <set>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +172,4 @@ private:
 const RegisteredCommand<Check> entry{20};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

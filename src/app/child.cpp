@@ -21,7 +21,7 @@
 
 extern char** environ;
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 std::atomic<int> signals{0};
@@ -158,4 +158,4 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 /// While it lives, the signals that end programs are counted instead of ending the program, so that it can pass them
 /// on.
@@ -42,4 +42,4 @@ bool poll_program(int& child, int& code);
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word);
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace espalier {
+namespace espalier::app {
 
 namespace exit_code {
 inline constexpr int done = 0, user_error = 1, run_failed = 2, interrupted = 130;
@@ -50,4 +50,4 @@ struct RegisteredCommand {
     }
 };
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 struct DeriveArguments {
@@ -204,4 +204,4 @@ private:
 const RegisteredCommand<Derive> entry{30};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

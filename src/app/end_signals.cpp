@@ -1,6 +1,6 @@
 #include "end_signals.h"
 
-namespace espalier {
+namespace espalier::app {
 
 EndSignals::EndSignals(void (*handler)(int), bool only_once) {
     struct sigaction action = {};
@@ -17,4 +17,4 @@ EndSignals::~EndSignals() {
     for (std::size_t i = 0; i < signals_.size(); ++i) sigaction(signals_[i], &before_[i], nullptr);
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

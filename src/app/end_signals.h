@@ -4,7 +4,7 @@
 #include <array>
 #include <csignal>
 
-namespace espalier {
+namespace espalier::app {
 
 /// While it lives, a handler of its own answers them. A SIGHUP that `nohup` had made ignored stays so.
 class EndSignals {
@@ -20,4 +20,4 @@ private:
     std::array<struct sigaction, signals_.size()> before_{};
 };
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,4 +197,4 @@ private:
 const RegisteredCommand<List> entry{50};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

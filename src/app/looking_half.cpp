@@ -7,7 +7,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,4 +35,4 @@ bool open_looking_half() {
     return opened;
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

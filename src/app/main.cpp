@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 // What CLI11 could make nothing of, options first; "" if it made something of everything.
@@ -153,11 +153,11 @@ CommandMakers& command_makers() {
     return makers;
 }
 
-}  // namespace espalier
+}  // namespace espalier::app
 
 int main(int argc, char** argv) {
-    espalier::occupy_standard_streams();
+    espalier::app::occupy_standard_streams();
     // A file larger than the system allows is an error of the writer, not the end of the program.
     std::signal(SIGXFSZ, SIG_IGN);
-    return espalier::parse_and_run(argc, argv);
+    return espalier::app::parse_and_run(argc, argv);
 }

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <set>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ void print_warnings(const std::vector<Diagnostic>& diagnostics) {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
@@ -37,4 +37,4 @@ std::string taken_files(const ObjectFiles& object);
 /// Prints on standard error, each once, what was noticed in the scene's files; as warnings, because the run goes on.
 void print_warnings(const std::vector<Diagnostic>& diagnostics);
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -107,4 +107,4 @@ void print_json(const std::vector<PartDescription>& parts) {
     fmt::print("{}\n", list.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

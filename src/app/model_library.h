@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 /// The folder given, or else the first there is of: `models` here or in a folder above, and the one that comes with the
 /// program. Throws UserError if there is none.
@@ -25,4 +25,4 @@ void print_part(const PartDescription& part);
 void print_parts(const std::vector<PartDescription>& parts);
 void print_json(const std::vector<PartDescription>& parts);
 
-}  // namespace espalier
+}  // namespace espalier::app

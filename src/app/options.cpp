@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 // "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
@@ -104,4 +104,4 @@ std::size_t GrowthOptions::memory() const {
     return memory_.empty() ? 0 : memory_size(memory_);
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 /// `--option KEY=VALUE`; throws UserError if there is no '='.
 std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option);
@@ -61,4 +61,4 @@ private:
     std::string memory_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 // Progress that nobody can read any more must not end a run: what cannot be written is let go.
@@ -74,4 +74,4 @@ void ProgressReport::print_tenth(const Progress& progress) {
                     duration_text(progress.seconds)));
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-namespace espalier {
+namespace espalier::app {
 
 class ProgressReport {
 public:
@@ -32,4 +32,4 @@ std::string duration_text(double seconds);
 /// 1234567 as "1,234,567".
 std::string grouped(std::size_t number);
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ private:
 const RegisteredCommand<Rerun> entry{14};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ private:
 const RegisteredCommand<Resume> entry{12};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

@@ -21,7 +21,7 @@
 #endif
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ private:
 const RegisteredCommand<RunCommand> entry{10};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

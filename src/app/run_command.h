@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 struct RunArguments {
     ModelArguments model;
@@ -34,4 +34,4 @@ std::filesystem::path default_output(const std::string& scene);
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);
 
-}  // namespace espalier
+}  // namespace espalier::app

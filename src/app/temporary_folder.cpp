@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace espalier {
+namespace espalier::app {
 
 namespace fs = std::filesystem;
 
@@ -31,4 +31,4 @@ TemporaryFolder::~TemporaryFolder() {
     fs::remove_all(path_, ignored);
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace espalier {
+namespace espalier::app {
 
 class TemporaryFolder {
 public:
@@ -20,4 +20,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::app

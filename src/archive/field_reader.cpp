@@ -11,7 +11,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 /// Exactly `count` numbers between blanks.
@@ -125,4 +125,4 @@ RecordedField read_field(const std::filesystem::path& path, const std::string& n
     return path.extension() == ".vdb" ? read_vdb(path, name) : read_vti(path, name);
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -4,11 +4,18 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/geometry/field.h"
 
-namespace espalier {
+namespace espalier::archive {
 
 /// Of a .vdb the box of its active voxels; what the .vti holds otherwise. Throws UserError naming the file.
 RecordedField read_field(const std::filesystem::path& path, const std::string& name);
 /// The same as a grid that nobody else holds.
 Field read_grid(const std::filesystem::path& path, const std::string& name);
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::read_field;
+using archive::read_grid;
 
 }  // namespace espalier

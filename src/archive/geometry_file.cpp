@@ -7,7 +7,7 @@
 #include <iterator>
 #include <limits>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 constexpr std::string_view known_arrays[] = {"radius", "Normals", "TCoords", "identity", "parent", "plant",
@@ -174,4 +174,4 @@ RecordedLives read_lives(const std::filesystem::path& path) {
     return result;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -3,10 +3,10 @@
 
 #include "espalier/archive/recorded_run.h"
 
-namespace espalier {
+namespace espalier::archive {
 
 /// Throw UserError naming the file.
 RecordedGeometry read_geometry(const std::filesystem::path& path);
 RecordedLives read_lives(const std::filesystem::path& path);
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 /// A place of a plant, bit for bit: an axis begins exactly where the turtle was.
@@ -115,4 +115,4 @@ std::vector<RecordedInternode> internodes_of(const RecordedGeometry& geometry) {
     return internodes;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -12,7 +12,7 @@
 #include <list>
 #include <system_error>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -172,4 +172,4 @@ std::vector<std::pair<std::string, std::string>> described(const OrganHistory& h
     return lines;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 /// A piece of an organ: an internode, a polygon, or a point.
@@ -162,4 +162,4 @@ std::size_t OrganTable::bytes() const {
     return rows_.capacity() * sizeof(OrganRow) + parameters_.capacity() * sizeof(double);
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

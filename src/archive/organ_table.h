@@ -3,7 +3,7 @@
 
 #include "espalier/archive/organ_history.h"
 
-namespace espalier {
+namespace espalier::archive {
 
 /// All that a module draws in a frame, gathered.
 struct OrganRow {
@@ -39,4 +39,4 @@ private:
     std::vector<double> parameters_;  ///< row after row
 };
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -274,4 +274,4 @@ std::vector<std::vector<double>> RecordedTable::last_rows() const {
     return last;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

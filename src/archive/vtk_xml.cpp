@@ -15,7 +15,7 @@
 #include <charconv>
 #include <span>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 constexpr std::size_t most_ratio = 1100;   // zlib packs 1032 bytes into one at most
@@ -211,4 +211,4 @@ void VtkXmlFile::fail(const std::string& what) const {
     throw UserError(fmt::format("{} is damaged: {}", path_.string(), what));
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 /// One of a file's arrays, its bytes as they were written.
 struct VtkArray {
@@ -130,4 +130,4 @@ Column<T> VtkXmlFile::values(const XmlElement& section, std::string_view name, s
     return values<T>(needed(section, name), count, components);
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

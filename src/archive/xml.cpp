@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -136,4 +136,4 @@ XmlElement parse_xml(std::string_view document) {
     return Parser(document).document();
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 struct XmlError : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -28,4 +28,4 @@ struct XmlElement {
 /// The document's outermost element, with views of `document`. Throws XmlError saying what is wrong, and where.
 XmlElement parse_xml(std::string_view document);
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -6,7 +6,7 @@
 #include <string>
 #include <type_traits>
 
-namespace espalier {
+namespace espalier::formats {
 
 static_assert(std::endian::native == std::endian::little, "binary exports copy numbers as they lie in memory");
 
@@ -18,4 +18,4 @@ void append_bytes(std::string& bytes, const T& value) {
     std::memcpy(bytes.data() + at, &value, sizeof(T));
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

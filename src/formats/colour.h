@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace espalier {
+namespace espalier::formats {
 
 /// Linear light from a colour as screens show it (IEC 61966-2-1).
 inline glm::vec3 linear_light(const std::array<std::uint8_t, 3>& rgb) {
@@ -19,4 +19,4 @@ inline glm::vec3 linear_light(const std::array<std::uint8_t, 3>& rgb) {
     return result;
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

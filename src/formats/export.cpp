@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 std::string file_name(const RecordedRun& run) {
@@ -52,4 +52,4 @@ void export_run(const ExportJob& job, std::span<const std::string> formats) {
     for (const auto& exporter : exporters) exporter->write(job);
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -12,7 +12,7 @@
 #include <limits>
 #include <string_view>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 // Of the standard: component types and what a buffer view is for.
@@ -173,4 +173,4 @@ std::string Glb::bytes(const std::vector<std::size_t>& roots) const {
     return file + chunks;
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::formats {
 
 class Glb {
 public:
@@ -57,4 +57,4 @@ private:
     std::string binary_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 constexpr std::size_t most_nodes = 500000;
@@ -159,4 +159,4 @@ void GrowthNodes::add(const RecordedGeometry& geometry) {
     ++frame_;
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

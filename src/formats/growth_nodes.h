@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-namespace espalier {
+namespace espalier::formats {
 
 struct NodePose {
     glm::vec3 translation{0};
@@ -72,4 +72,4 @@ private:
     std::size_t frame_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::formats

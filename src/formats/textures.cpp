@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 // What OBJ and USD take within a name without quoting it.
@@ -55,4 +55,4 @@ const std::string& TextureCopies::name(const std::string& file) {
     return at->second = name;
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

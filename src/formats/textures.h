@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-namespace espalier {
+namespace espalier::formats {
 
 /// The file's picture as the bytes of a .png; "" if it is gone or no picture: what wears it then has its own colour.
 std::string png_of(const std::filesystem::path& run, const std::string& file);
@@ -25,4 +25,4 @@ private:
     std::map<std::string, std::string> names_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::formats

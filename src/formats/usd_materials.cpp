@@ -6,7 +6,7 @@
 
 #include <iterator>
 
-namespace espalier {
+namespace espalier::formats {
 
 const std::string& UsdMaterials::name(const MeshMaterial& look) {
     const auto [at, is_new] = names_.emplace(look, "");
@@ -60,4 +60,4 @@ void UsdMaterials::append_to(std::string& text) const {
     text += "    }\n";
 }
 
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::formats {
 
 class UsdMaterials {
 public:
@@ -29,4 +29,4 @@ private:
     std::vector<std::pair<const MeshMaterial*, std::string>> looks_;  ///< by number, with the copied picture
 };
 
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr std::size_t direction_count = 96;
@@ -148,4 +148,4 @@ CameraView fitted(std::span<const glm::dvec3> points, const CameraPlace& place, 
     return view;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

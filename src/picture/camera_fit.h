@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// The points that lie furthest in each of many directions: what frames them frames (nearly) everything.
 class Outline {
@@ -47,4 +47,4 @@ struct CameraView {
 CameraView fitted(std::span<const glm::dvec3> points, const CameraPlace& place, bool turns, bool is_parallel,
                   double aspect, const Margins& margins);
 
-}  // namespace espalier
+}  // namespace espalier::picture

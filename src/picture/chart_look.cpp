@@ -6,7 +6,7 @@
 #include <vtkStdString.h>
 #include <vtkTextProperty.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 ChartLook look_of(const ChartPage& page) {
     if (page.dark) {
@@ -50,4 +50,4 @@ void write(vtkContext2D& painter, const std::string& text, float x, float y, con
     painter.DrawString(x, y, text);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

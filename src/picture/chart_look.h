@@ -14,7 +14,7 @@ class vtkContext2D;
 class vtkRectf;
 class vtkTextProperty;
 
-namespace espalier {
+namespace espalier::picture {
 
 using ChartColour = vtkColor4ub;
 
@@ -47,4 +47,4 @@ vtkSmartPointer<vtkContextItem> placed_item(const ChartPage& page, const Chart& 
     return item;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

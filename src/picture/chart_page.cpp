@@ -27,7 +27,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 /// Where things stand on the page, in pixels from below.
@@ -182,4 +182,4 @@ void write_picture(const ChartPage& page, const PictureSize& size, const std::fi
     screen.window().RemoveRenderer(renderer);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

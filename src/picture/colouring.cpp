@@ -15,7 +15,7 @@
 #include <limits>
 #include <set>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -219,4 +219,4 @@ double sampled(const RecordedField& field, const glm::dvec3& point) {
     return sum;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

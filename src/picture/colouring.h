@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// The legend's content: a bar from low to high, or names with their colours.
 struct ColourKey {
@@ -58,4 +58,4 @@ std::optional<std::array<double, 2>> range_of(const std::vector<double>& values)
 /// A field between its voxels, linearly; NaN outside.
 double sampled(const RecordedField& field, const glm::dvec3& point);
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr int sky_texels = 384, sun_texels = 1536;
@@ -143,4 +143,4 @@ float Daylight::sun(const glm::vec3& point, int softness) const {
     return map.open(point + 3 * map.texel() * map.towards(), softness);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// Depths of what a direction sees first, in parallel projection.
 class DepthMap {
@@ -59,4 +59,4 @@ private:
     std::vector<DepthMap> sun_;  ///< one
 };
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -27,7 +27,7 @@
 // Chosen at run time, so it must be named.
 VTK_MODULE_INIT(vtkRenderingVolumeOpenGL2);
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr int colour_steps = 64;
@@ -184,4 +184,4 @@ FieldProp field_prop(const RecordedField& field, const FieldLook& look, const st
     return {plane(field, look.axis, place, range, colours), key};
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

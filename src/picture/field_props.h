@@ -9,7 +9,7 @@
 #include <vtkProp3D.h>
 #include <vtkSmartPointer.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// Throws UserError if the run has no such field, or the plane does not meet it. `run` says where fields come from.
 void check_field(const RecordedRun& run, const FieldLook& look);
@@ -24,4 +24,4 @@ struct FieldProp {
 FieldProp field_prop(const RecordedField& field, const FieldLook& look, const std::array<double, 2>& range,
                      const glm::dvec3& middle, std::span<const Rgb> colours);
 
-}  // namespace espalier
+}  // namespace espalier::picture

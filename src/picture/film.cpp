@@ -29,7 +29,7 @@
 
 extern char** environ;
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,4 +234,4 @@ std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, dou
     return std::make_unique<FfmpegFilm>(path, size, pictures_per_second);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -9,7 +9,7 @@
 
 class vtkImageData;
 
-namespace espalier {
+namespace espalier::picture {
 
 class Film {
 public:
@@ -27,4 +27,4 @@ std::unique_ptr<Film> film_of(const std::filesystem::path& path, const PictureSi
 /// The path's extension in small letters: ".png".
 std::string kind_of_file(const std::filesystem::path& path);
 
-}  // namespace espalier
+}  // namespace espalier::picture

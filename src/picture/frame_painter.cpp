@@ -15,7 +15,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 /// Pixels that are drawn for each along both sides of a picture: edges become smooth.
@@ -93,4 +93,4 @@ vtkSmartPointer<vtkImageData> picture_of(const Legend& legend, const PictureBack
     return picture;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -10,7 +10,7 @@
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 class FramePainter {
 public:
@@ -33,4 +33,4 @@ private:
 /// The keys of a legend alone.
 vtkSmartPointer<vtkImageData> picture_of(const Legend& legend, const PictureBackground& background, int height);
 
-}  // namespace espalier
+}  // namespace espalier::picture

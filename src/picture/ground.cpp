@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr int texels = 416;
@@ -52,4 +52,4 @@ vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, 
     return textured_plane(corner, corner + glm::dvec3(2 * radius, 0, 0), corner + glm::dvec3(0, 0, 2 * radius), *image);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

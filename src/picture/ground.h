@@ -8,7 +8,7 @@
 #include <vtkActor.h>
 #include <vtkSmartPointer.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// At height 0, round a middle. `daylight`: whose shadows lie on it; null: none.
 vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
@@ -17,4 +17,4 @@ vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, 
 /// How bright something is, as a share of what it would be in the open.
 float brightness(float sky, float sun);
 
-}  // namespace espalier
+}  // namespace espalier::picture

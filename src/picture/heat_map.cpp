@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 class HeatMapItem final : public vtkContextItem {
@@ -117,7 +117,7 @@ private:
     /// Its middle at (x, y).
     void write(vtkContext2D& painter, const std::string& text, float x, float y, const ChartColour& of,
                float size = 0.85F, double turned = 0) const {
-        espalier::write(painter, text, x, y, {of, size * font_, VTK_TEXT_CENTERED, turned});
+        picture::write(painter, text, x, y, {of, size * font_, VTK_TEXT_CENTERED, turned});
     }
 
     const Chart* chart_ = nullptr;
@@ -133,4 +133,4 @@ vtkSmartPointer<vtkContextItem> heat_map_item(const ChartPage& page, const Chart
     return placed_item<HeatMapItem>(page, chart, place, font);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -8,10 +8,10 @@
 
 class vtkRectf;
 
-namespace espalier {
+namespace espalier::picture {
 
 /// `chart.map` is there; page and chart outlive the item.
 vtkSmartPointer<vtkContextItem> heat_map_item(const ChartPage& page, const Chart& chart, const vtkRectf& place,
                                               float font);
 
-}  // namespace espalier
+}  // namespace espalier::picture

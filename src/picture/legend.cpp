@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 float font_of(int picture_height) {
@@ -187,4 +187,4 @@ NiceLength nice_length(double most) {
     return {metres, fmt::format("{:g} mm", metres * 1000)};
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -11,7 +11,7 @@
 
 class vtkContextActor;
 
-namespace espalier {
+namespace espalier::picture {
 
 struct Legend {
     std::vector<ColourKey> keys;
@@ -43,4 +43,4 @@ struct NiceLength {
 };
 NiceLength nice_length(double most);
 
-}  // namespace espalier
+}  // namespace espalier::picture

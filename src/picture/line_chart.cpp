@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr std::size_t most_marked = 12;
@@ -141,7 +141,7 @@ private:
 
     void write(vtkContext2D& painter, const std::string& text, float x, float y, float size,
                int justification = VTK_TEXT_CENTERED, double turned = 0) const {
-        espalier::write(painter, text, x, y, {look_.text, size * font_, justification, turned});
+        picture::write(painter, text, x, y, {look_.text, size * font_, justification, turned});
     }
 
     /// What lies between gaps.
@@ -207,4 +207,4 @@ vtkSmartPointer<vtkContextItem> line_chart_item(const ChartPage& page, const Cha
     return placed_item<LineChartItem>(page, chart, place, font);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -8,11 +8,11 @@
 
 class vtkRectf;
 
-namespace espalier {
+namespace espalier::picture {
 
 /// Drawn in pixels: of a vtkChartXY the SVG exporter clips the lines away, because it puts them into a space of their
 /// own. Page and chart outlive the item.
 vtkSmartPointer<vtkContextItem> line_chart_item(const ChartPage& page, const Chart& chart, const vtkRectf& place,
                                                 float font);
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace espalier {
+namespace espalier::picture {
 
 class Listening::Listener final : public vtkOutputWindow {
 public:
@@ -39,4 +39,4 @@ const std::string& Listening::errors() const {
     return listener_->errors;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

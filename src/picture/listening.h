@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// For as long as it lives, VTK's words come here.
 class Listening {
@@ -26,4 +26,4 @@ private:
     vtkSmartPointer<Listener> listener_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -31,7 +31,7 @@ VTK_MODULE_INIT(vtkRenderingOpenGL2);
 VTK_MODULE_INIT(vtkRenderingContextOpenGL2);
 VTK_MODULE_INIT(vtkRenderingFreeType);
 
-namespace espalier {
+namespace espalier::picture {
 
 #if ESPALIER_HAS_EGL
 
@@ -199,7 +199,7 @@ vtkSmartPointer<vtkImageData> OffScreenWindow::read_pixels(int kind) {
 }
 
 void OffScreenWindow::write_png(const std::filesystem::path& path) {
-    espalier::write_png(path, *image());
+    picture::write_png(path, *image());
 }
 
 void write_png(const std::filesystem::path& path, vtkImageData& image) {
@@ -214,4 +214,4 @@ void write_png(const std::filesystem::path& path, vtkImageData& image) {
                       static_cast<std::size_t>(bytes->GetNumberOfValues())});
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

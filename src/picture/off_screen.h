@@ -10,7 +10,7 @@
 class vtkImageData;
 class vtkRenderWindow;
 
-namespace espalier {
+namespace espalier::picture {
 
 /// Why nothing can be drawn here, and what to install; "" if it can.
 std::string why_no_pictures();
@@ -49,5 +49,13 @@ private:
 
 /// Complete or not at all. Throws RunError.
 void write_png(const std::filesystem::path& path, vtkImageData& image);
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::has_display;
+using picture::OffScreenWindow;
+using picture::write_png;
 
 }  // namespace espalier

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr std::array<Rgb, 11> viridis_anchors{{{68, 1, 84},
@@ -73,4 +73,4 @@ Rgb category_colour(std::size_t number) {
     return categories[number % categories.size()];
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

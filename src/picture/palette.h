@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace espalier {
+namespace espalier::picture {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
@@ -25,4 +25,4 @@ Rgb category_colour(std::size_t number);
 
 inline constexpr Rgb no_value{165, 165, 165};
 
-}  // namespace espalier
+}  // namespace espalier::picture

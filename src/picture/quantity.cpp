@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-namespace espalier {
+namespace espalier::picture {
 
 std::string quantity_title(const std::string& column) {
     if (column == "length" || column == "height") return column + " (m)";
@@ -57,4 +57,4 @@ Merged::Way Merged::way_of(const std::string& quantity) {
     return Way::mean;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// With its unit.
 std::string quantity_title(const std::string& column);
@@ -33,4 +33,4 @@ private:
     std::size_t count_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ void render_sheet(const RenderJob& job, int columns, const fs::path& path) {
     write_png(path, *sheet);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -29,7 +29,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr Rgb bright{255, 60, 0}, ink{30, 30, 30}, chalk{235, 235, 235};
@@ -107,7 +107,7 @@ public:
     }
 
     void add_survey(const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) const {
-        espalier::add_survey(*run_, style_, *colouring_, frame, geometry, survey);
+        picture::add_survey(*run_, style_, *colouring_, frame, geometry, survey);
     }
 
     void place_camera(const CameraPlace& place, bool follow) {
@@ -436,4 +436,4 @@ void Stage::highlight(std::optional<Highlight> module) {
     body_->show_highlight();
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -21,7 +21,7 @@
 class vtkProp;
 class vtkRenderer;
 
-namespace espalier {
+namespace espalier::picture {
 
 struct Legend;
 
@@ -101,5 +101,12 @@ private:
     class Body;
     std::unique_ptr<Body> body_;
 };
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::Stage;
+using picture::StageSurvey;
 
 }  // namespace espalier

@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 void add_light(vtkRenderer& renderer, const glm::vec3& from, double intensity) {
@@ -82,4 +82,4 @@ void dress_actor(vtkActor& actor, const StageMesh& mesh, const MeshDress& dress)
     if (mesh.is_thin) light_both_sides(actor);
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// The sun, the sky above, and a little light from where one looks. `sun`: the unit vector to it.
 void set_lights(vtkRenderer& renderer, const glm::vec3& sun);
@@ -26,4 +26,4 @@ struct MeshDress {
 /// Gives an actor a mesh, its colours with their shadows, and its material.
 void dress_actor(vtkActor& actor, const StageMesh& mesh, const MeshDress& dress);
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -17,7 +17,7 @@
 #include <map>
 #include <tuple>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 /// A mesh of known size that is filled place by place.
@@ -258,4 +258,4 @@ std::span<const std::int32_t> corners_of(const StageMesh& mesh) {
     return {array->GetPointer(0), 3 * mesh.row_of_triangle.size()};
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 struct StageMesh {
     vtkSmartPointer<vtkPolyData> data;           ///< points, normals, texture coordinates and triangles
@@ -39,4 +39,4 @@ std::span<const glm::vec3> normals_of(const StageMesh& mesh);
 /// Three points a triangle.
 std::span<const std::int32_t> corners_of(const StageMesh& mesh);
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 void widen(std::array<double, 2>& range, const std::array<double, 2>& by) {
@@ -47,4 +47,4 @@ void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouri
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

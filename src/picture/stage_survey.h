@@ -4,10 +4,10 @@
 #include "picture/colouring.h"
 #include "picture/stage.h"
 
-namespace espalier {
+namespace espalier::picture {
 
 /// Adds what a style shows of a frame: its plants, the numbers they are coloured by, and its fields.
 void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
                 const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey);
 
-}  // namespace espalier
+}  // namespace espalier::picture

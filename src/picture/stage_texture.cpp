@@ -4,7 +4,7 @@
 
 #include <vtkImageData.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 vtkSmartPointer<vtkTexture> texture_of(const std::filesystem::path& run, const std::string& file) {
     const auto image = texture_image(run, file);
@@ -17,4 +17,4 @@ vtkSmartPointer<vtkTexture> texture_of(const std::filesystem::path& run, const s
     return texture;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

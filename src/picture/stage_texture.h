@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <string>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// Of `texture_image`; null where that is.
 vtkSmartPointer<vtkTexture> texture_of(const std::filesystem::path& run, const std::string& file);
 
-}  // namespace espalier
+}  // namespace espalier::picture

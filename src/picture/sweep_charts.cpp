@@ -13,7 +13,7 @@
 #include <numeric>
 #include <optional>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 constexpr const char* seed_key = "simulation.seed";
@@ -195,4 +195,4 @@ ChartPage sweep_page(const SweptRuns& sweep, const std::vector<std::string>& qua
     return page;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

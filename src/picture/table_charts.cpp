@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 std::optional<std::size_t> column_of(const RecordedTable& table, const std::string& name) {
@@ -174,4 +174,4 @@ ChartPage chart_page(std::span<const PlottedTable> tables, const PlotOptions& op
     return page;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

@@ -6,7 +6,7 @@
 #include <vtkProperty.h>
 #include <vtkTexture.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 vtkSmartPointer<vtkActor> textured_plane(const glm::dvec3& corner, const glm::dvec3& right, const glm::dvec3& up,
                                          vtkImageData& image) {
@@ -30,4 +30,4 @@ vtkSmartPointer<vtkActor> textured_plane(const glm::dvec3& corner, const glm::dv
     return actor;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

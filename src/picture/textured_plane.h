@@ -6,10 +6,10 @@
 #include <vtkImageData.h>
 #include <vtkSmartPointer.h>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// `corner`: of the image's first texel; `right` and `up`: the corners where its first row and its first column end.
 vtkSmartPointer<vtkActor> textured_plane(const glm::dvec3& corner, const glm::dvec3& right, const glm::dvec3& up,
                                          vtkImageData& image);
 
-}  // namespace espalier
+}  // namespace espalier::picture

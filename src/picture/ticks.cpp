@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::picture {
 namespace {
 
 /// The least of 1, 2, 5 times a power of ten that is no less than `least`.
@@ -57,4 +57,4 @@ Ticks ticks_over(double low, double high, int count) {
     return ticks;
 }
 
-}  // namespace espalier
+}  // namespace espalier::picture

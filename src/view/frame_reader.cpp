@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 std::size_t bytes_of(const RecordedAttributes& attributes) {
@@ -129,4 +129,4 @@ void FrameReader::work() {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

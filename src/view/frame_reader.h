@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace espalier {
+namespace espalier::view {
 
 struct FrameData {
     RecordedGeometry geometry;
@@ -61,4 +61,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace espalier {
+namespace espalier::view {
 
 HistoryReader::HistoryReader() : thread_([this] { work(); }) {}
 
@@ -67,4 +67,4 @@ void HistoryReader::work() {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

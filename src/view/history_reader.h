@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-namespace espalier {
+namespace espalier::view {
 
 class HistoryReader {
 public:
@@ -51,4 +51,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 constexpr float bar_height = 52, button = 32, gap = 4, margin = 10, label_width = 132, panel_width = 300,
@@ -78,4 +78,4 @@ WindowLayout layout_of_window(int width, int height, float scale, bool with_pane
     return layout;
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

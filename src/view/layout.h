@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::view {
 
 enum class Control { first, back, play, forward, last, slider, live, colour, field, help, close_panel, inside };
 
@@ -43,4 +43,4 @@ struct WindowLayout {
 
 WindowLayout layout_of_window(int width, int height, float scale, bool with_panel, bool is_live);
 
-}  // namespace espalier
+}  // namespace espalier::view

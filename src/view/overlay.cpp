@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 /// One picture of the content in the layout.
@@ -264,4 +264,4 @@ std::vector<std::string> words_of(const OverlayContent& content) {
     return words;
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -10,7 +10,7 @@
 
 class vtkRenderer;
 
-namespace espalier {
+namespace espalier::view {
 
 /// A line over the steps.
 struct SmallChart {
@@ -60,4 +60,4 @@ private:
 /// The words of it from above to below, as a person reads them.
 std::vector<std::string> words_of(const OverlayContent& content);
 
-}  // namespace espalier
+}  // namespace espalier::view

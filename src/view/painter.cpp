@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace espalier {
+namespace espalier::view {
 
 using Colour = vtkColor4ub;
 
@@ -96,4 +96,4 @@ std::string Painter::fitting(const std::string& words, float width, float size) 
     return cut + "...";
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::view {
 
 /// What colours are for. Those of lines are told apart by colour-blind readers (Okabe & Ito 2008).
 struct WindowColours {
@@ -47,4 +47,4 @@ private:
     float scale_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::view

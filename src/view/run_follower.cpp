@@ -5,7 +5,7 @@
 
 #include <system_error>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 // Frames only join a run at its end; where earlier ones differ it is a new run in the old one's folder.
@@ -50,4 +50,4 @@ bool RunFollower::look() {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

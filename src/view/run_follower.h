@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace espalier {
+namespace espalier::view {
 
 class RunFollower {
 public:
@@ -39,4 +39,4 @@ private:
     bool is_another_ = false;
 };
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -21,7 +21,7 @@
 VTK_MODULE_INIT(vtkRenderingUI);
 VTK_MODULE_INIT(vtkInteractionStyle);
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 using namespace std::chrono_literals;
@@ -192,4 +192,4 @@ void view_run(const std::filesystem::path& folder, const ViewOptions& options) {
     view_off_screen(folder, options);
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

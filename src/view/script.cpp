@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 struct Command {
@@ -71,4 +71,4 @@ std::vector<ScriptLine> parse_script(const std::string& text) {
     return lines;
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

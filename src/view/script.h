@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::view {
 
 struct ScriptLine {
     enum class Kind { key, click, drag, wheel, size, screenshot, print, wait };
@@ -19,4 +19,4 @@ struct ScriptLine {
 /// Lines as docs/view.md describes them; what follows a # is a comment. Throws UserError with line and nearest name.
 std::vector<ScriptLine> parse_script(const std::string& text);
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 /// From the chart's values to pixels.
@@ -77,4 +77,4 @@ void paint_chart(Painter& painter, const Rectangle& at, const SmallChart& chart,
     end_line();
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

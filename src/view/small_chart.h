@@ -4,9 +4,9 @@
 #include "view/overlay.h"
 #include "view/painter.h"
 
-namespace espalier {
+namespace espalier::view {
 
 void paint_chart(Painter& painter, const Rectangle& at, const SmallChart& chart, double now,
                  const WindowColours& colours);
 
-}  // namespace espalier
+}  // namespace espalier::view

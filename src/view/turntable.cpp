@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 constexpr int click_tolerance = 3;  ///< pixels that a hand trembles
@@ -159,4 +159,4 @@ void Turntable::approach(double factor) {
     if (hands_) hands_->camera_moved();
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace espalier {
+namespace espalier::view {
 
 /// What the mouse and the keys do before the camera: true if that is done with it. Pixels from the lower left corner.
 class WindowHands {
@@ -58,4 +58,4 @@ private:
     int pressed_[2] = {0, 0};
 };
 
-}  // namespace espalier
+}  // namespace espalier::view

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 using namespace std::chrono_literals;
@@ -358,4 +358,4 @@ void Viewer::camera_moved() {
     dirty_ = true;
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

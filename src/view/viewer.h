@@ -19,7 +19,7 @@
 class vtkRenderWindow;
 class vtkRenderWindowInteractor;
 
-namespace espalier {
+namespace espalier::view {
 
 class Viewer final : public WindowHands {
 public:
@@ -129,4 +129,4 @@ private:
     std::array<int, 2> size_{0, 0};
 };
 
-}  // namespace espalier
+}  // namespace espalier::view

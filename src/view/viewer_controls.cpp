@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace espalier {
+namespace espalier::view {
 
 void Viewer::say(std::string message) {
     message_ = std::move(message);
@@ -205,4 +205,4 @@ void Viewer::key(const std::string& name, bool shift) {
     if (name == "q") ended_ = true;
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

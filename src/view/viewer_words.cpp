@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::view {
 namespace {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -143,4 +143,4 @@ OrganPanel Viewer::panel() const {
     return panel;
 }
 
-}  // namespace espalier
+}  // namespace espalier::view

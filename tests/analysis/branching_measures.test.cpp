@@ -7,6 +7,7 @@
 #include <array>
 
 using namespace espalier;
+using namespace espalier::analysis;
 
 namespace {
 

@@ -16,6 +16,7 @@
 #include <random>
 
 using namespace espalier;
+using namespace espalier::analysis;
 
 namespace {
 

@@ -13,6 +13,7 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::analysis;
 
 namespace {
 

@@ -9,6 +9,8 @@
 
 namespace espalier {
 
+using namespace espalier::analysis;
+
 /// Internodes one upon the other, each of length 1 and radius 1.
 inline BranchTree chain(std::size_t count) {
     BranchTree tree;

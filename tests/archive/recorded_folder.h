@@ -12,6 +12,8 @@
 
 namespace espalier {
 
+using namespace espalier::archive;
+
 inline constexpr const char* run_json =
     R"({"exit": "done", "scene": {"name": "handmade"}, "time_unit": "day", "dt": 0.5,
   "plants": [{"name": "left", "model": "a.l"}, {"name": "right", "model": "b.l"}]})";

@@ -11,6 +11,7 @@
 #include <thread>
 
 using namespace espalier;
+using namespace espalier::archive;
 
 TEST_CASE("a run read back has its frames, plants and settings", "[reading]") {
     const RecordedFolder recorded;

@@ -12,6 +12,8 @@
 
 namespace espalier {
 
+using namespace espalier::formats;
+
 /// RecordedFolder's run, written in one format; the files go with it.
 struct Exported {
     RecordedFolder recorded;

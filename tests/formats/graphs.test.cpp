@@ -15,6 +15,7 @@
 namespace {
 
 using namespace espalier;
+using namespace espalier::formats;
 
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts(1);

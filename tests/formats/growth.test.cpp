@@ -10,6 +10,7 @@
 namespace {
 
 using namespace espalier;
+using namespace espalier::formats;
 using Json = nlohmann::json;
 
 std::uint32_t word(const std::string& bytes, std::size_t at) {

@@ -25,6 +25,7 @@
 namespace {
 
 using namespace espalier;
+using namespace espalier::formats;
 
 template <class Reader>
 vtkSmartPointer<vtkPolyData> read(const std::filesystem::path& path) {

@@ -13,6 +13,7 @@
 #include <cstring>
 
 using namespace espalier;
+using namespace espalier::formats;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -12,6 +12,7 @@
 #include <random>
 
 using namespace espalier;
+using namespace espalier::picture;
 
 namespace {
 

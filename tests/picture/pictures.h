@@ -15,6 +15,8 @@
 
 namespace espalier {
 
+using namespace espalier::picture;
+
 /// Says why, if nothing can be drawn here.
 inline bool can_draw() {
     const std::string reason = why_no_pictures();

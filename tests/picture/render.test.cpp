@@ -10,6 +10,7 @@
 #include <filesystem>
 
 using namespace espalier;
+using namespace espalier::picture;
 using Catch::Matchers::Contains;
 
 namespace {

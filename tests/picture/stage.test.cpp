@@ -13,6 +13,7 @@
 #include <fstream>
 
 using namespace espalier;
+using namespace espalier::picture;
 using Catch::Matchers::Contains;
 
 namespace {

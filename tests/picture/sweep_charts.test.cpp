@@ -15,6 +15,7 @@
 #include <set>
 
 using namespace espalier;
+using namespace espalier::picture;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -16,6 +16,7 @@
 #include <fstream>
 
 using namespace espalier;
+using namespace espalier::picture;
 using Catch::Matchers::Contains;
 
 namespace {

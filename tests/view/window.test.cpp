@@ -14,6 +14,7 @@
 #include <thread>
 
 using namespace espalier;
+using namespace espalier::view;
 using namespace std::chrono_literals;
 
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::analysis {
 
 struct AnalysisOptions {
     std::set<std::string> leaf_symbols;  ///< whose surfaces are leaves; empty: everything with a surface
@@ -52,5 +52,14 @@ private:
     std::vector<RecordedPlant> plants_;
     std::vector<Frame> frames_;
 };
+
+}  // namespace espalier::analysis
+
+namespace espalier {
+
+using analysis::AnalysisOptions;
+using analysis::measure_descriptions;
+using analysis::MeasureDescription;
+using analysis::RunAnalysis;
 
 }  // namespace espalier

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace espalier {
+namespace espalier::archive {
 
 struct MeshOptions {
     int sides = 8;                       ///< of tubes; 3 at least
@@ -12,5 +12,11 @@ struct MeshOptions {
     char up = 'y';                       ///< or 'z'
     std::optional<std::uint32_t> plant;  ///< its number; none: all plants
 };
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::MeshOptions;
 
 }  // namespace espalier

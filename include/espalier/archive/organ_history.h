@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 /// A module for life: its identity within its plant.
 struct OrganKey {
@@ -75,5 +75,15 @@ private:
 /// has it up to `step`.
 std::vector<std::pair<std::string, std::string>> described(const OrganHistory& history, const RecordedRun& run,
                                                            int step);
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::described;
+using archive::OrganHistory;
+using archive::OrganKey;
+using archive::OrganMoment;
+using archive::OrganReader;
 
 }  // namespace espalier

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 /// What is known of the modules behind points or cells: columns of one length.
 struct RecordedAttributes {
@@ -172,5 +172,24 @@ private:
     std::vector<RecordedPlant> plants_;
     std::vector<RecordedFrame> frames_;
 };
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::exit_of_run;
+using archive::internodes_of;
+using archive::read_table;
+using archive::RecordedAttributes;
+using archive::RecordedCells;
+using archive::RecordedField;
+using archive::RecordedFrame;
+using archive::RecordedGeometry;
+using archive::RecordedInternode;
+using archive::RecordedLife;
+using archive::RecordedLives;
+using archive::RecordedPlant;
+using archive::RecordedRun;
+using archive::RecordedTable;
 
 }  // namespace espalier

@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-namespace espalier {
+namespace espalier::formats {
 
 /// A file that was written. Counts are 0 where a format has no such thing.
 struct ExportedFile {
@@ -59,5 +59,17 @@ std::string format_of_extension(const std::string& extension);
 
 /// Writes the frames in every format. Throws UserError for a format that is none, RunError if a file cannot be written.
 void export_run(const ExportJob& job, std::span<const std::string> formats);
+
+}  // namespace espalier::formats
+
+namespace espalier {
+
+using formats::export_run;
+using formats::ExportedFile;
+using formats::Exporter;
+using formats::ExporterRegistry;
+using formats::ExportJob;
+using formats::format_of_extension;
+using formats::RegisteredExporter;
 
 }  // namespace espalier

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// A line of a chart. `key` is its place in the page's legend: lines of one key look alike in all charts.
 struct Series {
@@ -64,5 +64,20 @@ struct Ticks {
     double low = 0, high = 1;
 };
 Ticks ticks_over(double low, double high, int count);
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::Chart;
+using picture::ChartPage;
+using picture::fitting_size;
+using picture::HeatMap;
+using picture::Key;
+using picture::PictureSize;
+using picture::Series;
+using picture::Ticks;
+using picture::ticks_over;
+using picture::write_picture;
 
 }  // namespace espalier

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// A field as a cloud whose density follows its values, as colours on a plane, or as the surface of one value.
 struct FieldLook {
@@ -57,5 +57,16 @@ struct CameraPlace {
     bool front_if_flat = true;            ///< what lies in a plane across z is seen from the front
     bool turns = false;                   ///< everything fits from every azimuth, at one distance
 };
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::CameraPlace;
+using picture::FieldLook;
+using picture::light_background;
+using picture::PictureBackground;
+using picture::PictureStyle;
+using picture::dark_background;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 struct RenderJob {
     const RecordedRun& run;
@@ -47,5 +47,19 @@ void render_sheet(const RenderJob& job, int columns, const std::filesystem::path
 
 /// So many of the frames, evenly from the first to the last; repeated where there are fewer.
 std::vector<const RecordedFrame*> evenly(const std::vector<const RecordedFrame*>& frames, std::size_t count);
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::colours_of_every_run;
+using picture::evenly;
+using picture::is_film;
+using picture::render_film;
+using picture::render_pictures;
+using picture::render_sheet;
+using picture::RenderJob;
+using picture::require_film_writer;
+using picture::require_png;
 
 }  // namespace espalier

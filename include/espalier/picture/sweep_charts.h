@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 struct SweptRun {
     std::vector<std::string> values;  ///< of each key
@@ -25,5 +25,13 @@ struct SweptRuns {
 /// key with the most numbers goes along x and each value of the others is a line; where that would be more than seven
 /// lines of two keys, it is a heat map of the means. Throws UserError for a quantity that no run has.
 ChartPage sweep_page(const SweptRuns& sweep, const std::vector<std::string>& quantities, bool dark);
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::sweep_page;
+using picture::SweptRun;
+using picture::SweptRuns;
 
 }  // namespace espalier

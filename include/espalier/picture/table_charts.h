@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::picture {
 
 /// A run's table with a column "plant" and one to draw over, such as its statistics over "step".
 struct PlottedTable {
@@ -37,5 +37,15 @@ std::vector<std::string> default_quantities(std::span<const PlottedTable> tables
 /// `*.maximum` the greatest is shown, of `*.min` and `*.minimum` the least, of everything else the mean.
 /// Throws UserError for a quantity that no table has, naming the nearest.
 ChartPage chart_page(std::span<const PlottedTable> tables, const PlotOptions& options);
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::chart_page;
+using picture::default_quantities;
+using picture::Lines;
+using picture::PlotOptions;
+using picture::PlottedTable;
 
 }  // namespace espalier

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace espalier {
+namespace espalier::view {
 
 /// How the program that writes the run is getting on.
 struct SimulationState {
@@ -37,5 +37,14 @@ void view_run(const std::filesystem::path& folder, const ViewOptions& options);
 
 /// Why no window opens here, and what to do; "" if one does.
 std::string why_no_window();
+
+}  // namespace espalier::view
+
+namespace espalier {
+
+using view::SimulationState;
+using view::view_run;
+using view::ViewOptions;
+using view::why_no_window;
 
 }  // namespace espalier

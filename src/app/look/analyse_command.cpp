@@ -14,7 +14,7 @@
 #include <cmath>
 #include <span>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +174,4 @@ private:
 const RegisteredCommand<Analyse> entry{38};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

@@ -11,7 +11,7 @@
 
 #include <filesystem>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -126,4 +126,4 @@ private:
 const RegisteredCommand<ExportCommand> entry{42};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 std::optional<int> whole_number(const std::string& text) {
@@ -73,4 +73,4 @@ std::vector<const RecordedFrame*> chosen_frames(const RecordedRun& run, const st
     return chosen;
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <utility>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -215,4 +215,4 @@ private:
 const RegisteredCommand<Info> entry{40};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 PictureOptions::PictureOptions(CLI::App& command) {
     command.add_option("--size", size_, "WIDTHxHEIGHT in pixels; default: depends on the content");
@@ -88,4 +88,4 @@ std::optional<double> finite_number(const std::string& text) {
     return value;
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace espalier {
+namespace espalier::app {
 
 /// --size and --dark.
 class PictureOptions {
@@ -37,4 +37,4 @@ FieldLook field_look(const std::string& text);
 /// The whole text as a finite number.
 std::optional<double> finite_number(const std::string& text);
 
-}  // namespace espalier
+}  // namespace espalier::app

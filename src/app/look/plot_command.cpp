@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ private:
 const RegisteredCommand<Plot> entry{34};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

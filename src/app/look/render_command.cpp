@@ -20,7 +20,7 @@
 #include <chrono>
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -314,4 +314,4 @@ private:
 const RegisteredCommand<Render> entry{32};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

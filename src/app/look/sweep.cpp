@@ -18,7 +18,7 @@
 #include <sys/wait.h>
 #include <thread>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -213,4 +213,4 @@ SweptRuns Sweep::drawn(const std::vector<SweepResult>& results) const {
     return drawn;
 }
 
-}  // namespace espalier
+}  // namespace espalier::app

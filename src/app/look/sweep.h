@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::app {
 
 struct SweepRun {
     Variant variant;
@@ -57,4 +57,4 @@ private:
     std::vector<SweepRun> runs_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::app

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <thread>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,4 +138,4 @@ private:
 const RegisteredCommand<SweepCommand> entry{16};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

@@ -18,7 +18,7 @@
 #include <sstream>
 #include <thread>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,4 +187,4 @@ private:
 const RegisteredCommand<View> entry{36};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::app

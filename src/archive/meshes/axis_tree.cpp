@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 glm::vec3 direction(const RecordedInternode& internode) {
@@ -89,4 +89,4 @@ std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOpt
     return paths;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 struct AxisTree {
     struct Axis {
@@ -35,5 +35,14 @@ std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOpt
 
 /// Of the plants asked for.
 AxisTree axis_tree(const RecordedGeometry& geometry, const MeshOptions& options);
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::axis_paths;
+using archive::axis_tree;
+using archive::AxisPath;
+using archive::AxisTree;
 
 }  // namespace espalier

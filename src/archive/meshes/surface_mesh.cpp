@@ -13,7 +13,7 @@
 #include <limits>
 #include <map>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 constexpr Rgb wood{122, 92, 62}, leaf{70, 130, 50};
@@ -247,4 +247,4 @@ std::string part_name(const RecordedRun& run, const MeshPart& part, std::size_t 
     return name;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
@@ -62,5 +62,21 @@ float thinnest_radius(const RecordedGeometry& geometry);
 
 /// "left_axis_12": the plant's name, what it is and a number; letters that formats take for something else become '_'.
 std::string part_name(const RecordedRun& run, const MeshPart& part, std::size_t number);
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::by_plant;
+using archive::colour_of;
+using archive::FrameMesh;
+using archive::mesh_of;
+using archive::MeshMaterial;
+using archive::MeshPart;
+using archive::part_name;
+using archive::Rgb;
+using archive::surfaces_of;
+using archive::thinnest_radius;
+using archive::upright;
 
 }  // namespace espalier

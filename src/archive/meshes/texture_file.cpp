@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ vtkSmartPointer<vtkImageData> texture_image(const fs::path& run, const std::stri
     return nullptr;
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

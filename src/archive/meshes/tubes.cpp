@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-namespace espalier {
+namespace espalier::archive {
 namespace {
 
 /// How far a node lies from the straight and evenly tapering piece between two others.
@@ -187,4 +187,4 @@ Tube sweep(const TubeLine& line, int sides) {
     return Sweeper(line, sides).tube();
 }
 
-}  // namespace espalier
+}  // namespace espalier::archive

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::archive {
 
 struct TubeNode {
     glm::vec3 position;
@@ -44,5 +44,17 @@ struct Tube {
 
 /// Two nodes at least. Every edge belongs to two triangles once vertices in one place are taken for one.
 Tube sweep(const TubeLine& line, int sides);
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::sweep;
+using archive::Tube;
+using archive::tube_line;
+using archive::TubeLine;
+using archive::TubeNode;
+using archive::TubeTriangle;
+using archive::TubeVertex;
 
 }  // namespace espalier

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 /// What a row says of the module.
@@ -174,4 +174,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Csv>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 constexpr float steps_per_second = 24;
@@ -176,4 +176,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Gltf>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 constexpr std::string_view features = "plant\torder\tbirth\tlength\tdiameter\tXX\tYY\tZZ\tidentity";
@@ -136,4 +136,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Mtg>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -9,7 +9,7 @@
 
 #include <iterator>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 // Many groups share a material; its name says what it looks like.
@@ -99,4 +99,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Obj>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 std::string header(const FrameMesh& mesh) {
@@ -62,4 +62,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Ply>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -12,7 +12,7 @@
 
 #include <iterator>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 class RsmlText {
@@ -150,4 +150,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Rsml>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

@@ -11,7 +11,7 @@
 
 #include <limits>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 constexpr std::size_t header_size = 80, triangle_size = 50;
@@ -56,4 +56,4 @@ const RegisteredExporter entry{{"stl", "binary STL, a file per frame: for printi
                                [] { return std::make_unique<Stl>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

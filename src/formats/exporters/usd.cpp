@@ -14,7 +14,7 @@
 #include <iterator>
 #include <map>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 /// An attribute's value at each frame, as text.
@@ -282,4 +282,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Usd>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats

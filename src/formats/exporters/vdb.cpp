@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace espalier {
+namespace espalier::formats {
 namespace {
 
 class Vdb final : public Exporter {
@@ -52,4 +52,4 @@ const RegisteredExporter entry{
     [] { return std::make_unique<Vdb>(); }};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::formats
