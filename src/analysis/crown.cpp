@@ -71,7 +71,7 @@ Crown measure_crown(const BranchTree& tree, const Leaves& leaves, double voxel) 
     crown.width_x = extents.x;
     crown.width_z = extents.z;
     crown.volume = convex_hull_volume(points);
-    crown.projection = convex_hull_area(std::move(shadow));
+    crown.projection = convex_hull_area(shadow);
 
     const double extent = std::max({extents.x, extents.y, extents.z});
     crown.voxel = voxel > 0 ? voxel : extent / 32;

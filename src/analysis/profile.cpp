@@ -44,7 +44,7 @@ double shadow_of(const BranchTree& tree) {
         points.emplace_back(tree.bases[i].x, tree.bases[i].z);
         points.emplace_back(tree.tips[i].x, tree.tips[i].z);
     }
-    return convex_hull_area(std::move(points));
+    return convex_hull_area(points);
 }
 
 /// Shares an internode among the layers it passes, by length.

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/child_program.h"
 #include "command.h"
 
 #include <fmt/format.h>
@@ -11,15 +12,12 @@
 #include <cctype>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <fcntl.h>
-#include <spawn.h>
 #include <string_view>
-#include <sys/wait.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
-
-extern char** environ;
 
 namespace espalier::app {
 namespace {
@@ -43,50 +41,26 @@ int lifeline() {
     return end;
 }
 
-/// A process group of its own: a terminal sends Ctrl-C to its whole group, and with what is passed on that would be
-/// two.
-class SpawnAttributes {
+/// A descriptor that closes itself.
+class LogFile {
 public:
-    SpawnAttributes() {
-        posix_spawnattr_init(&attributes_);
-        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
-        posix_spawnattr_setpgroup(&attributes_, 0);
+    explicit LogFile(const std::filesystem::path& path)
+        : descriptor_(path.empty() ? -1 : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        if (!path.empty() && descriptor_ < 0) {
+            throw RunError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(errno)));
+        }
     }
-    ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
-    SpawnAttributes(const SpawnAttributes&) = delete;
-    SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+    ~LogFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    LogFile(const LogFile&) = delete;
+    LogFile& operator=(const LogFile&) = delete;
 
-    const posix_spawnattr_t* get() const { return &attributes_; }
+    int descriptor() const { return descriptor_; }
 
 private:
-    posix_spawnattr_t attributes_;
+    int descriptor_;
 };
-
-/// What posix_spawn does before the program begins.
-class SpawnActions {
-public:
-    SpawnActions() { posix_spawn_file_actions_init(&actions_); }
-    ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
-    SpawnActions(const SpawnActions&) = delete;
-    SpawnActions& operator=(const SpawnActions&) = delete;
-
-    void change_folder(const std::filesystem::path& folder) {
-        posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
-    }
-    void read_from(int descriptor) { posix_spawn_file_actions_adddup2(&actions_, descriptor, STDIN_FILENO); }
-    void write_to(const std::filesystem::path& log) {
-        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
-        posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
-    }
-    const posix_spawn_file_actions_t* get() const { return &actions_; }
-
-private:
-    posix_spawn_file_actions_t actions_;
-};
-
-int code_of(int status) {
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
 
 }  // namespace
 
@@ -99,23 +73,15 @@ int SignalCounter::count() const {
 int start_run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
               const std::filesystem::path& log) {
     const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-    std::vector<std::string> command{program, "run"};
-    command.insert(command.end(), arguments.begin(), arguments.end());
-    command.emplace_back(child_flag);
-    std::vector<char*> words;
-    for (std::string& word : command) words.push_back(word.data());
-    words.push_back(nullptr);
-    const SpawnAttributes attributes;
-    SpawnActions actions;
-    actions.read_from(lifeline());
-    if (!log.empty()) actions.write_to(log);
-    actions.change_folder(folder);
-    pid_t child = 0;
-    const int error = posix_spawn(&child, program.c_str(), actions.get(), attributes.get(), words.data(), environ);
-    if (error != 0) {
-        throw RunError(fmt::format("cannot start {}: {}", program, std::generic_category().message(error)));
+    const LogFile log_file(log);
+    ChildProgram run{{program, "run"}, folder, lifeline(), log_file.descriptor()};
+    run.words.insert(run.words.end(), arguments.begin(), arguments.end());
+    run.words.emplace_back(child_flag);
+    try {
+        return start(run);
+    } catch (const std::system_error& error) {
+        throw RunError(fmt::format("cannot start {}: {}", program, error.code().message()));
     }
-    return child;
 }
 
 void end_with_parent() {
@@ -128,23 +94,12 @@ void end_with_parent() {
 }
 
 int wait_for_program(int child, const SignalCounter& signals_so_far) {
-    int status = 0, passed_on = 0;
-    pid_t ended = 0;
-    while (ended == 0 || (ended < 0 && errno == EINTR)) {
+    int code = 0;
+    for (int passed_on = 0; poll(child, code) == 0;) {
         for (; passed_on < signals_so_far.count(); ++passed_on) ::kill(child, SIGTERM);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        ended = waitpid(child, &status, WNOHANG);
     }
-    if (ended < 0) throw RunError("cannot wait for a program: " + std::generic_category().message(errno));
-    return code_of(status);
-}
-
-bool poll_program(int& child, int& code) {
-    int status = 0;
-    child = waitpid(-1, &status, WNOHANG);
-    if (child <= 0) return false;
-    code = code_of(status);
-    return true;
+    return code;
 }
 
 std::string quoted(const std::string& word) {

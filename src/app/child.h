@@ -36,9 +36,6 @@ void end_with_parent();
 /// Waits for it and passes signals on to it. Its exit code, or 128 + the signal that ended it.
 int wait_for_program(int child, const SignalCounter& signals);
 
-/// True if one has ended: which, and its code as above.
-bool poll_program(int& child, int& code);
-
 /// A word as a shell reads it back.
 std::string quoted(const std::string& word);
 

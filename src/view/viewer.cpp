@@ -2,7 +2,7 @@
 
 #include "espalier/base/error.h"
 
-#include "picture/off_screen.h"
+#include "picture/files/off_screen.h"
 #include "view/painter.h"
 
 #include <vtkCellPicker.h>

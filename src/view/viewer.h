@@ -4,7 +4,7 @@
 
 #include "espalier/view/run_view.h"
 
-#include "picture/stage.h"
+#include "picture/stage/stage.h"
 #include "view/frame_reader.h"
 #include "view/history_reader.h"
 #include "view/overlay.h"

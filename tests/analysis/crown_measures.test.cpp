@@ -128,9 +128,9 @@ TEST_CASE("convex hull: an area, whatever the order of the points and however ma
     for (int i = 0; i < 121; ++i) square.emplace_back(i * 7 % 11, i * 3 % 121 / 11);
     square.insert(square.end(), {{0, 0}, {10, 0}, {0, 10}, {10, 10}, {10, 10}});
     CHECK(convex_hull_area(square) == Approx(100));
-    CHECK(convex_hull_area({{0, 0}, {1, 1}, {2, 2}}) == 0);
-    CHECK(convex_hull_area({}) == 0);
-    CHECK(convex_hull_area({{0, 0}, {4, 0}, {0, 3}}) == Approx(6));
+    CHECK(convex_hull_area(std::vector<glm::dvec2>{{0, 0}, {1, 1}, {2, 2}}) == 0);
+    CHECK(convex_hull_area(std::vector<glm::dvec2>{}) == 0);
+    CHECK(convex_hull_area(std::vector<glm::dvec2>{{0, 0}, {4, 0}, {0, 3}}) == Approx(6));
 }
 
 TEST_CASE("crown: leaves on a sphere have its volume, projection and extents, and lean nowhere", "[analysis]") {

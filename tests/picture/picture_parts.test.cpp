@@ -1,10 +1,10 @@
 // What pictures are made of, without drawing any: cameras, daylight, colours, lengths.
 #include "catch.h"
-#include "picture/camera_fit.h"
-#include "picture/colouring.h"
-#include "picture/daylight.h"
-#include "picture/legend.h"
 #include "picture/palette.h"
+#include "picture/stage/camera_fit.h"
+#include "picture/stage/colouring.h"
+#include "picture/stage/daylight.h"
+#include "picture/stage/legend.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

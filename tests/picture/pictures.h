@@ -3,7 +3,7 @@
 
 #include "archive/recorded_folder.h"
 #include "catch.h"
-#include "picture/frame_painter.h"
+#include "picture/files/frame_painter.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>

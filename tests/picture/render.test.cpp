@@ -3,7 +3,7 @@
 
 #include "espalier/base/error.h"
 
-#include "picture/film.h"
+#include "picture/files/film.h"
 #include "picture/pictures.h"
 
 #include <cstdlib>

@@ -1,10 +1,10 @@
 // What a stage shows: pixels of frames made by hand.
-#include "picture/stage.h"
+#include "picture/stage/stage.h"
 
 #include "espalier/base/error.h"
 
-#include "picture/legend.h"
 #include "picture/pictures.h"
+#include "picture/stage/legend.h"
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>

@@ -4,7 +4,7 @@
 #include "espalier/base/error.h"
 
 #include "catch.h"
-#include "picture/off_screen.h"
+#include "picture/files/off_screen.h"
 #include "temporary_folder.h"
 
 #include <vtkImageData.h>

@@ -8,6 +8,7 @@
 
 #include "app/child.h"
 #include "app/command.h"
+#include "base/child_program.h"
 
 #include <fmt/format.h>
 
@@ -69,7 +70,7 @@ public:
 
     /// Tells of those that have ended.
     void reap() {
-        for (int child = 0, code = 0; poll_program(child, code);) {
+        for (int child = 0, code = 0; (child = poll(-1, code)) != 0;) {
             const auto place = running_.find(child);
             if (place == running_.end()) continue;
             tell(*place->second, code);

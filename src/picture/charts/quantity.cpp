@@ -1,0 +1,60 @@
+#include "picture/charts/quantity.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace espalier::picture {
+
+std::string quantity_title(const std::string& column) {
+    if (column == "length" || column == "height") return column + " (m)";
+    if (column == "volume") return "volume (m³)";
+    if (column == "born" || column == "died") return column + " in the step";
+    return column;
+}
+
+void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity) {
+    std::vector<std::string> names;
+    for (const PlottedTable& table : tables) {
+        for (const std::string& name : table.table.columns) {
+            if (name == quantity) return;
+            if (name != "step" && name != "plant") names.push_back(name);
+        }
+    }
+    throw UserError(fmt::format("there is no quantity '{}'{}", quantity, did_you_mean(quantity, names)));
+}
+
+void Merged::add(double value) {
+    if (std::isnan(value)) return;
+    if (count_ == 0)
+        value_ = value;
+    else if (way_ == Way::greatest)
+        value_ = std::max(value_, value);
+    else if (way_ == Way::least)
+        value_ = std::min(value_, value);
+    else
+        value_ += value;
+    ++count_;
+}
+
+double Merged::value() const {
+    if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
+    return way_ == Way::mean ? value_ / static_cast<double>(count_) : value_;
+}
+
+Merged::Way Merged::way_of(const std::string& quantity) {
+    static const std::set<std::string> sums{"modules", "queries", "internodes", "organs",    "length", "volume", "born",
+                                            "died",    "tips",    "forks",      "leaf_area", "leaves", "surface"};
+    if (sums.contains(quantity)) return Way::sum;
+    if (quantity == "height" || quantity.ends_with(".max") || quantity.ends_with(".maximum")) return Way::greatest;
+    if (quantity.ends_with(".min") || quantity.ends_with(".minimum")) return Way::least;
+    return Way::mean;
+}
+
+}  // namespace espalier::picture

@@ -1,0 +1,218 @@
+#include "picture/files/film.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/picture/render.h"
+
+#include "base/child_program.h"
+#include "picture/files/listening.h"
+
+#include <fmt/format.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkOggTheoraWriter.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace espalier::picture {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TheoraFilm final : public Film {
+public:
+    TheoraFilm(const fs::path& path, double pictures_per_second) : path_(path) {
+        writer_->SetFileName(path.c_str());
+        writer_->SetRate(std::max(1, static_cast<int>(std::lround(pictures_per_second))));
+        writer_->SetQuality(2);
+    }
+
+    void add(vtkImageData& picture) override {
+        const Listening listening;
+        writer_->SetInputData(&picture);
+        if (!std::exchange(started_, true)) writer_->Start();
+        writer_->Write();
+        if (writer_->GetError() != 0 || !listening.errors().empty()) fail();
+    }
+
+    void finish() override {
+        const Listening listening;
+        if (started_) writer_->End();
+        std::error_code ignored;
+        if (writer_->GetError() != 0 || !listening.errors().empty() || fs::file_size(path_, ignored) == 0) fail();
+    }
+
+private:
+    [[noreturn]] void fail() const { throw RunError(fmt::format("cannot write {}", path_.string())); }
+
+    fs::path path_;
+    bool started_ = false;
+    vtkNew<vtkOggTheoraWriter> writer_;
+};
+
+/// While it lives, writing to a program that has gone is an error like others, not the end of this one.
+class BrokenPipesAreErrors {
+public:
+    BrokenPipesAreErrors() {
+        struct sigaction ignore = {};
+        ignore.sa_handler = SIG_IGN;
+        sigaction(SIGPIPE, &ignore, &before_);
+    }
+    ~BrokenPipesAreErrors() { sigaction(SIGPIPE, &before_, nullptr); }
+    BrokenPipesAreErrors(const BrokenPipesAreErrors&) = delete;
+    BrokenPipesAreErrors& operator=(const BrokenPipesAreErrors&) = delete;
+
+private:
+    struct sigaction before_ = {};
+};
+
+/// How each kind is encoded: for any player, with even sides where the format wants them.
+std::vector<std::string> encoding_of(const std::string& extension) {
+    const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
+    if (extension == ".gif") {
+        return {"-filter_complex",
+                "split[a][b];[a]palettegen=max_colors=128[p];[b][p]paletteuse=dither=none:diff_mode=rectangle", "-loop",
+                "0"};
+    }
+    if (extension == ".webm") {
+        return {"-c:v", "libvpx-vp9", "-pix_fmt", "yuv420p", "-crf", "30", "-b:v", "0", "-vf", even};
+    }
+    return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-vf", even};
+}
+
+constexpr const char* ffmpeg = "ffmpeg";
+
+[[noreturn]] void reject_without_ffmpeg(const fs::path& path, int error) {
+    throw RunError(
+        fmt::format("{} is written by ffmpeg, which is not here ({}).\n"
+                    "On Debian: apt-get install ffmpeg; .ogv needs nothing more",
+                    path.extension().string(), std::generic_category().message(error)));
+}
+
+bool is_in_path(const std::string& program) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "/bin:/usr/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+    }
+    return false;
+}
+
+/// ffmpeg as a child that reads raw pictures.
+class FfmpegFilm final : public Film {
+public:
+    FfmpegFilm(const fs::path& path, const PictureSize& size, double pictures_per_second) : path_(path) {
+        std::vector<std::string> words{ffmpeg, "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"};
+        const auto add = [&](const std::vector<std::string>& more) {
+            words.insert(words.end(), more.begin(), more.end());
+        };
+        add({"-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", size.width, size.height), "-r",
+             fmt::format("{:g}", pictures_per_second), "-i", "pipe:0", "-an"});
+        add(encoding_of(kind_of_file(path)));
+        add({"-fflags", "+bitexact", "-flags:v", "+bitexact", "file:" + path.string()});
+        start_ffmpeg(std::move(words));
+    }
+    ~FfmpegFilm() override {
+        close_pipe();
+        if (child_ > 0) {
+            kill(child_, SIGKILL);
+            wait_for(child_);
+        }
+    }
+    FfmpegFilm(const FfmpegFilm&) = delete;
+    FfmpegFilm& operator=(const FfmpegFilm&) = delete;
+
+    // Rows of a picture count from below, those of a film from above.
+    void add(vtkImageData& picture) override {
+        const int* size = picture.GetDimensions();
+        for (int row = size[1] - 1; row >= 0; --row) {
+            write(static_cast<const char*>(picture.GetScalarPointer(0, row, 0)), 3 * static_cast<std::size_t>(size[0]));
+        }
+    }
+
+    void finish() override {
+        close_pipe();
+        if (wait_for(std::exchange(child_, 0)) != 0) fail();
+    }
+
+private:
+    void start_ffmpeg(std::vector<std::string> words) {
+        int ends[2];
+        if (!words_ || pipe2(ends, O_CLOEXEC) != 0) {
+            throw RunError("cannot talk to ffmpeg: " + std::generic_category().message(errno));
+        }
+        pipe_ = ends[1];
+        try {
+            child_ = start({std::move(words), {}, ends[0], fileno(words_.get())});
+            close(ends[0]);
+        } catch (const std::system_error& error) {
+            close(ends[0]);
+            close_pipe();
+            reject_without_ffmpeg(path_, error.code().value());
+        }
+    }
+
+    void write(const char* from, std::size_t count) {
+        while (count > 0) {
+            const ssize_t written = ::write(pipe_, from, count);
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) fail();
+            from += written;
+            count -= static_cast<std::size_t>(written);
+        }
+    }
+
+    void close_pipe() {
+        if (pipe_ >= 0) close(pipe_);
+        pipe_ = -1;
+    }
+
+    /// With ffmpeg's own last words.
+    [[noreturn]] void fail() {
+        close_pipe();
+        if (child_ > 0) wait_for(std::exchange(child_, 0));
+        std::string said(4096, '\0');
+        std::rewind(words_.get());
+        said.resize(std::fread(said.data(), 1, said.size(), words_.get()));
+        while (!said.empty() && said.back() == '\n') said.pop_back();
+        throw RunError(fmt::format("ffmpeg did not write {}: {}", path_.string(), said));
+    }
+
+    const BrokenPipesAreErrors broken_pipes_;
+    fs::path path_;
+    int child_ = 0;
+    int pipe_ = -1;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> words_{std::tmpfile(), std::fclose};
+};
+
+}  // namespace
+
+std::string kind_of_file(const fs::path& path) {
+    std::string kind = path.extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+    return kind;
+}
+
+void require_film_writer(const fs::path& path) {
+    if (kind_of_file(path) != ".ogv" && !is_in_path(ffmpeg)) reject_without_ffmpeg(path, ENOENT);
+}
+
+std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, double pictures_per_second) {
+    if (kind_of_file(path) == ".ogv") return std::make_unique<TheoraFilm>(path, pictures_per_second);
+    return std::make_unique<FfmpegFilm>(path, size, pictures_per_second);
+}
+
+}  // namespace espalier::picture

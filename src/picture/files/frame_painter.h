@@ -1,0 +1,36 @@
+// Draws frames of a run into pictures of one size.
+#pragma once
+
+#include "espalier/picture/chart_page.h"
+#include "espalier/picture/picture_style.h"
+
+#include "picture/files/off_screen.h"
+#include "picture/stage/stage.h"
+
+#include <vtkImageData.h>
+#include <vtkSmartPointer.h>
+
+namespace espalier::picture {
+
+class FramePainter {
+public:
+    /// Throws UserError for a size that cannot be drawn, RunError where nothing can.
+    FramePainter(const RecordedRun& run, const PictureStyle& style, const PictureSize& size);
+    ~FramePainter();
+    FramePainter(const FramePainter&) = delete;
+    FramePainter& operator=(const FramePainter&) = delete;
+
+    Stage& stage() { return stage_; }
+    /// What the stage shows, 8 bits red, green and blue per pixel, and alpha if the background is transparent.
+    vtkSmartPointer<vtkImageData> picture();
+
+private:
+    PictureSize size_;
+    OffScreenWindow window_;
+    Stage stage_;
+};
+
+/// The keys of a legend alone.
+vtkSmartPointer<vtkImageData> picture_of(const Legend& legend, const PictureBackground& background, int height);
+
+}  // namespace espalier::picture

@@ -1,0 +1,187 @@
+#include "espalier/picture/render.h"
+
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+
+#include "picture/files/film.h"
+#include "picture/files/frame_painter.h"
+#include "picture/stage/colouring.h"
+#include "picture/stage/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier::picture {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// True if a part worth mentioning lies below the height 0.
+bool grows_beneath(const Box& box) {
+    return box.lower.y < -0.02 * (box.upper.y - box.lower.y);
+}
+
+/// Draws the frames of a job one after the other.
+class JobPainter {
+public:
+    explicit JobPainter(const RenderJob& job) : job_(job), painter_(job.run, job.style, job.size) {
+        if (job.frames.empty()) throw UserError(fmt::format("{} has no frames", job.run.folder().string()));
+        Stage& stage = painter_.stage();
+        const StageSurvey survey = stage.survey(distinct_frames());
+        stage.settle(survey);
+        PictureStyle style = job.style;
+        style.ground = job.ground.value_or(!survey.box.empty() && !grows_beneath(survey.box));
+        stage.restyle(style);
+        place_ = job.camera;
+        place_.turns = place_.turns || job.orbit != 0;
+    }
+
+    vtkSmartPointer<vtkImageData> picture(std::size_t i) {
+        Stage& stage = painter_.stage();
+        const RecordedFrame& frame = *job_.frames[i];
+        if (!stage.shown() || stage.shown()->step != frame.step) stage.show(frame);
+        CameraPlace place = place_;
+        place.azimuth += turned(i);
+        stage.place_camera(place, job_.follow);
+        auto drawn = painter_.picture();
+        if (job_.progress) job_.progress(i + 1, job_.frames.size());
+        return drawn;
+    }
+
+    Stage& stage() { return painter_.stage(); }
+
+private:
+    std::vector<const RecordedFrame*> distinct_frames() const {
+        std::vector<const RecordedFrame*> frames;
+        for (const RecordedFrame* frame : job_.frames) {
+            if (frames.empty() || frames.back()->step != frame->step) frames.push_back(frame);
+        }
+        return frames;
+    }
+
+    // Whole turns end one picture before they began, so that a film goes round without a stop.
+    double turned(std::size_t i) const {
+        const std::size_t count = job_.frames.size();
+        if (count < 2) return 0;
+        const bool is_whole = std::fmod(std::abs(job_.orbit), 360.0) == 0;
+        return job_.orbit * static_cast<double>(i) / static_cast<double>(is_whole ? count : count - 1);
+    }
+
+    const RenderJob& job_;
+    FramePainter painter_;
+    CameraPlace place_;
+};
+
+void copy_into(vtkImageData& sheet, vtkImageData& cell, int left, int bottom) {
+    const int* size = cell.GetDimensions();
+    const auto row = static_cast<std::size_t>(size[0] * cell.GetNumberOfScalarComponents());
+    for (int y = 0; y < size[1]; ++y) {
+        std::copy_n(static_cast<const unsigned char*>(cell.GetScalarPointer(0, y, 0)), row,
+                    static_cast<unsigned char*>(sheet.GetScalarPointer(left, bottom + y, 0)));
+    }
+}
+
+vtkSmartPointer<vtkImageData> paper(int width, int height, const PictureBackground& background) {
+    constexpr int largest = 16384;
+    if (width > largest || height > largest) {
+        throw UserError(
+            fmt::format("the sheet would have {}x{} pixels, more than {} along a side; take a smaller --size", width,
+                        height, largest));
+    }
+    auto sheet = vtkSmartPointer<vtkImageData>::New();
+    sheet->SetDimensions(width, height, 1);
+    sheet->AllocateScalars(VTK_UNSIGNED_CHAR, background.transparent ? 4 : 3);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            auto* pixel = static_cast<unsigned char*>(sheet->GetScalarPointer(x, y, 0));
+            std::copy(background.rgb.begin(), background.rgb.end(), pixel);
+            if (background.transparent) pixel[3] = 0;
+        }
+    }
+    return sheet;
+}
+
+fs::path numbered(const fs::path& path, int step) {
+    return path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), step, path.extension().string());
+}
+
+}  // namespace
+
+bool is_film(const fs::path& path) {
+    const std::string extension = kind_of_file(path);
+    return extension == ".ogv" || extension == ".mp4" || extension == ".webm" || extension == ".gif";
+}
+
+void require_png(const fs::path& path) {
+    if (kind_of_file(path) == ".png") return;
+    throw UserError(
+        fmt::format("'{}' is no picture that can be written: .png, or a film: .ogv, .mp4, .webm, .gif", path.string()));
+}
+
+std::vector<std::string> colours_of_every_run() {
+    return Colouring::names_of_every_run();
+}
+
+std::vector<const RecordedFrame*> evenly(const std::vector<const RecordedFrame*>& frames, std::size_t count) {
+    std::vector<const RecordedFrame*> chosen;
+    for (std::size_t i = 0; i < count && !frames.empty(); ++i) {
+        const double share = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 1;
+        chosen.push_back(frames[static_cast<std::size_t>(std::lround(share * static_cast<double>(frames.size() - 1)))]);
+    }
+    return chosen;
+}
+
+std::vector<fs::path> render_pictures(const RenderJob& job, const fs::path& path) {
+    require_png(path);
+    JobPainter painter(job);
+    std::vector<fs::path> files;
+    for (std::size_t i = 0; i < job.frames.size(); ++i) {
+        files.push_back(job.frames.size() == 1 ? path : numbered(path, job.frames[i]->step));
+        write_png(files.back(), *painter.picture(i));
+    }
+    return files;
+}
+
+void render_film(const RenderJob& job, double pictures_per_second, const fs::path& path) {
+    if (!is_film(path)) throw UserError(fmt::format("'{}' is no film: .ogv, .mp4, .webm or .gif", path.string()));
+    RenderJob opaque = job;
+    opaque.style.background.transparent = false;
+    JobPainter painter(opaque);
+    write_file(path, [&](const fs::path& temporary) {
+        const std::unique_ptr<Film> film = film_of(temporary, job.size, pictures_per_second);
+        for (std::size_t i = 0; i < job.frames.size(); ++i) film->add(*painter.picture(i));
+        film->finish();
+        return true;
+    });
+}
+
+void render_sheet(const RenderJob& job, int columns, const fs::path& path) {
+    require_png(path);
+    RenderJob cells = job;
+    cells.style.legend = false;
+    cells.style.title.clear();
+    cells.style.time_label = false;
+    cells.style.time_beneath = true;
+    JobPainter painter(cells);
+    const int count = static_cast<int>(job.frames.size());
+    const int rows = (count + columns - 1) / columns;
+    const int height = rows * job.size.height;
+    vtkSmartPointer<vtkImageData> keys, sheet;
+    for (int i = 0; i < count; ++i) {
+        const auto cell = painter.picture(static_cast<std::size_t>(i));
+        if (!sheet) {
+            const int width = columns * job.size.width;
+            if (job.style.legend && !painter.stage().legend().keys.empty()) {
+                keys = picture_of(painter.stage().legend(), job.style.background, height);
+            }
+            sheet = paper(width + (keys ? keys->GetDimensions()[0] : 0), height, job.style.background);
+            if (keys) copy_into(*sheet, *keys, width, 0);
+        }
+        copy_into(*sheet, *cell, i % columns * job.size.width, (rows - 1 - i / columns) * job.size.height);
+    }
+    write_png(path, *sheet);
+}
+
+}  // namespace espalier::picture

@@ -1,0 +1,55 @@
+#include "picture/stage/ground.h"
+
+#include "picture/stage/textured_plane.h"
+
+#include <tbb/parallel_for.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier::picture {
+namespace {
+
+constexpr int texels = 416;
+
+std::array<float, 3> soil_of(const PictureBackground& background) {
+    return background.is_dark() ? std::array{74.0f, 76.0f, 80.0f} : std::array{226.0f, 222.0f, 214.0f};
+}
+
+/// 1 in the middle, 0 at the rim, without an edge anywhere.
+float presence(float distance) {
+    const float inside = std::clamp(1 - distance, 0.0f, 1.0f);
+    return inside * inside * (3 - 2 * inside);
+}
+
+}  // namespace
+
+float brightness(float sky, float sun) {
+    return 0.36f + 0.36f * sky + 0.28f * sun;
+}
+
+vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
+                                       const PictureBackground& background) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(texels, texels, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+    auto* const pixels = static_cast<unsigned char*>(image->GetScalarPointer());
+    const std::array<float, 3> soil = soil_of(background);
+    tbb::parallel_for(0, texels, [&](int row) {
+        for (int column = 0; column < texels; ++column) {
+            const double x = (column + 0.5) / texels * 2 - 1, z = (row + 0.5) / texels * 2 - 1;
+            const glm::vec3 point(middle.x + radius * x, 0, middle.z + radius * z);
+            const float light =
+                daylight ? brightness(daylight->sky(point, glm::vec3(0, 1, 0), false), daylight->sun(point, 2)) : 1;
+            unsigned char* pixel = pixels + 4 * (static_cast<std::ptrdiff_t>(row) * texels + column);
+            for (const float part : soil) *pixel++ = static_cast<unsigned char>(std::lround(light * part));
+            *pixel = static_cast<unsigned char>(std::lround(255 * presence(static_cast<float>(std::hypot(x, z)))));
+        }
+    });
+    const glm::dvec3 corner(middle.x - radius, 0, middle.z - radius);
+    return textured_plane(corner, corner + glm::dvec3(2 * radius, 0, 0), corner + glm::dvec3(0, 0, 2 * radius), *image);
+}
+
+}  // namespace espalier::picture

@@ -1,0 +1,20 @@
+// The ground that plants stand on: a disc that fades away, with their shadows.
+#pragma once
+
+#include "espalier/picture/picture_style.h"
+
+#include "picture/stage/daylight.h"
+
+#include <vtkActor.h>
+#include <vtkSmartPointer.h>
+
+namespace espalier::picture {
+
+/// At height 0, round a middle. `daylight`: whose shadows lie on it; null: none.
+vtkSmartPointer<vtkActor> ground_actor(const glm::dvec3& middle, double radius, const Daylight* daylight,
+                                       const PictureBackground& background);
+
+/// How bright something is, as a share of what it would be in the open.
+float brightness(float sky, float sun);
+
+}  // namespace espalier::picture

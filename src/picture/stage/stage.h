@@ -1,0 +1,112 @@
+// One recorded frame of a run as VTK actors in a renderer. Pictures, animations and the window are made of it.
+#pragma once
+
+#include "espalier/archive/recorded_run.h"
+#include "espalier/geometry/plant_geometry.h"
+#include "espalier/picture/picture_style.h"
+
+#include "picture/stage/camera_fit.h"
+
+#include <vtkType.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+class vtkProp;
+class vtkRenderer;
+
+namespace espalier::picture {
+
+struct Legend;
+
+/// What frames have in common, so that neither camera nor colours jump between them.
+struct StageSurvey {
+    Box box;                                     ///< of the plants that are shown; empty where nothing is
+    Outline outline;                             ///< of plants and fields
+    std::optional<std::array<double, 2>> range;  ///< of `colour_by`, if it is a number
+    std::map<std::string, std::array<double, 2>> field_ranges;
+};
+
+/// Something of a frame that was pointed at.
+struct StageModule {
+    std::uint32_t plant = 0;
+    std::uint64_t identity = 0;
+    std::size_t row = 0;  ///< of `of_points` (internodes) or `of_cells` (everything else)
+    bool of_points = false;
+    glm::dvec3 position{0};  ///< the middle of its cell
+};
+
+class Stage {
+public:
+    /// The run must outlive the stage or be replaced by `use`. Nothing is shown before `show`.
+    /// Throws UserError if the style names an array or field that the run has not.
+    Stage(const RecordedRun& run, PictureStyle style);
+    ~Stage();
+    Stage(const Stage&) = delete;
+    Stage& operator=(const Stage&) = delete;
+
+    /// Belongs to the stage; add it to a window. Legend, title and bars are in it too.
+    vtkRenderer& renderer();
+
+    /// The same run opened again, with more frames.
+    void use(const RecordedRun& run);
+    /// Replaces what is shown. Throws UserError if files are damaged.
+    void show(const RecordedFrame& frame);
+    /// The same with plants that were read already, by another thread for instance.
+    void show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry);
+    const RecordedFrame* shown() const;
+    /// What is shown; empty before `show`.
+    const RecordedGeometry& geometry() const;
+
+    /// Reads frames for what they have in common. Without `settle`, colours and `place_camera` fit the frame that is
+    /// shown; after it, from the next `show` on, what was surveyed.
+    StageSurvey survey(std::span<const RecordedFrame* const> frames) const;
+    StageSurvey survey(const RecordedFrame& frame, const RecordedGeometry& geometry) const;
+    void settle(const StageSurvey& survey);
+
+    const PictureStyle& style() const;
+    /// Takes effect at once. Throws UserError as the constructor does, and keeps the old style then.
+    void restyle(PictureStyle style);
+    /// Shadows or none, from the next `show` on.
+    void shade(bool shading);
+    /// Everything `colour_by` may be for this run, "natural" first.
+    std::vector<std::string> colour_names() const;
+
+    /// What is written on the picture of the frame that is shown.
+    const Legend& legend() const;
+
+    /// True if all there is lies in a plane across z: it is seen from the front, without perspective.
+    bool is_flat() const;
+    /// Looks at the surveyed box, or at what is shown where there is no survey or `follow` says so.
+    void place_camera(const CameraPlace& place, bool follow = false);
+
+    /// The module behind a cell of a prop that a picker found; none if it is a field, the ground or a legend.
+    std::optional<StageModule> module_at(vtkProp* prop, vtkIdType cell) const;
+    /// Where a module is in what is shown: all its rows.
+    std::vector<StageModule> places_of(std::uint32_t plant, std::uint64_t identity) const;
+    /// Draws one module brightly, in every frame, until another or none is asked for.
+    struct Highlight {
+        std::uint32_t plant;
+        std::uint64_t identity;
+    };
+    void highlight(std::optional<Highlight> module);
+
+private:
+    class Body;
+    std::unique_ptr<Body> body_;
+};
+
+}  // namespace espalier::picture
+
+namespace espalier {
+
+using picture::Stage;
+using picture::StageSurvey;
+
+}  // namespace espalier

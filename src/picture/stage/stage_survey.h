@@ -1,0 +1,13 @@
+// What frames of a run hold, for cameras and colours that fit all of them.
+#pragma once
+
+#include "picture/stage/colouring.h"
+#include "picture/stage/stage.h"
+
+namespace espalier::picture {
+
+/// Adds what a style shows of a frame: its plants, the numbers they are coloured by, and its fields.
+void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
+                const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey);
+
+}  // namespace espalier::picture
