@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/run_command.h"
 #include "app/temporary_folder.h"
+#include "base/child_program.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
@@ -38,8 +39,7 @@ public:
     }
 
     bool is_running() {
-        int child = 0;
-        if (child_ && poll_program(child, code_) && child == *child_) child_.reset();
+        if (child_ && poll(*child_, code_) != 0) child_.reset();
         return child_.has_value();
     }
     int code() const { return code_; }

@@ -19,9 +19,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fcntl.h>
 #include <sstream>
 #include <string>
+#include <sys/socket.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -61,22 +61,6 @@ private:
     fs::path path_;
     bool started_ = false;
     vtkNew<vtkOggTheoraWriter> writer_;
-};
-
-/// While it lives, writing to a program that has gone is an error like others, not the end of this one.
-class BrokenPipesAreErrors {
-public:
-    BrokenPipesAreErrors() {
-        struct sigaction ignore = {};
-        ignore.sa_handler = SIG_IGN;
-        sigaction(SIGPIPE, &ignore, &before_);
-    }
-    ~BrokenPipesAreErrors() { sigaction(SIGPIPE, &before_, nullptr); }
-    BrokenPipesAreErrors(const BrokenPipesAreErrors&) = delete;
-    BrokenPipesAreErrors& operator=(const BrokenPipesAreErrors&) = delete;
-
-private:
-    struct sigaction before_ = {};
 };
 
 /// How each kind is encoded: for any player, with even sides where the format wants them.
@@ -126,7 +110,7 @@ public:
         start_ffmpeg(std::move(words));
     }
     ~FfmpegFilm() override {
-        close_pipe();
+        close_pictures();
         if (child_ > 0) {
             kill(child_, SIGKILL);
             wait_for(child_);
@@ -144,30 +128,32 @@ public:
     }
 
     void finish() override {
-        close_pipe();
+        close_pictures();
         if (wait_for(std::exchange(child_, 0)) != 0) fail();
     }
 
 private:
     void start_ffmpeg(std::vector<std::string> words) {
         int ends[2];
-        if (!words_ || pipe2(ends, O_CLOEXEC) != 0) {
+        // Sockets, not a pipe: writing to an ffmpeg that has gone is then an error, not a signal that ends this
+        // program.
+        if (!words_ || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
             throw RunError("cannot talk to ffmpeg: " + std::generic_category().message(errno));
         }
-        pipe_ = ends[1];
+        pictures_ = ends[1];
         try {
             child_ = start({std::move(words), {}, ends[0], fileno(words_.get())});
             close(ends[0]);
         } catch (const std::system_error& error) {
             close(ends[0]);
-            close_pipe();
+            close_pictures();
             reject_without_ffmpeg(path_, error.code().value());
         }
     }
 
     void write(const char* from, std::size_t count) {
         while (count > 0) {
-            const ssize_t written = ::write(pipe_, from, count);
+            const ssize_t written = ::send(pictures_, from, count, MSG_NOSIGNAL);
             if (written < 0 && errno == EINTR) continue;
             if (written <= 0) fail();
             from += written;
@@ -175,14 +161,14 @@ private:
         }
     }
 
-    void close_pipe() {
-        if (pipe_ >= 0) close(pipe_);
-        pipe_ = -1;
+    void close_pictures() {
+        if (pictures_ >= 0) close(pictures_);
+        pictures_ = -1;
     }
 
     /// With ffmpeg's own last words.
     [[noreturn]] void fail() {
-        close_pipe();
+        close_pictures();
         if (child_ > 0) wait_for(std::exchange(child_, 0));
         std::string said(4096, '\0');
         std::rewind(words_.get());
@@ -191,10 +177,9 @@ private:
         throw RunError(fmt::format("ffmpeg did not write {}: {}", path_.string(), said));
     }
 
-    const BrokenPipesAreErrors broken_pipes_;
     fs::path path_;
     int child_ = 0;
-    int pipe_ = -1;
+    int pictures_ = -1;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> words_{std::tmpfile(), std::fclose};
 };
 
