@@ -1,15 +1,10 @@
 #include "timeline/inline_data.h"
 
-#include "timeline/lz4_block.h"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <lz4.h>
 #include <vector>
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#include <immintrin.h>
-#endif
 
 namespace espalier {
 namespace {
@@ -32,48 +27,9 @@ constexpr std::array<char, 8192> base64_pairs = [] {
     return pairs;
 }();
 
-#if defined(__x86_64__) && defined(__GNUC__)
-// Muła and Lemire 2018, "Faster Base64 Encoding and Decoding using AVX2 Instructions", ACM Trans. Web 12(3), sections 3
-// and 4: 24 bytes at a time, as long as 28 may be read. Returns how many bytes it has written.
-__attribute__((target("avx2"))) std::size_t write_wide_base64(const unsigned char* bytes, std::size_t count,
-                                                              char* out) {
-    const __m256i spread = _mm256_setr_epi8(1, 0, 2, 1, 4, 3, 5, 4, 7, 6, 8, 7, 10, 9, 11, 10,  //
-                                            1, 0, 2, 1, 4, 3, 5, 4, 7, 6, 8, 7, 10, 9, 11, 10);
-    // What is added to a digit: a to z, ten times 0 to 9, +, /, A to Z.
-    const __m256i shifts = _mm256_setr_epi8(71, -4, -4, -4, -4, -4, -4, -4, -4, -4, -4, -19, -16, 65, 0, 0,  //
-                                            71, -4, -4, -4, -4, -4, -4, -4, -4, -4, -4, -19, -16, 65, 0, 0);
-    std::size_t done = 0;
-    for (; done + 28 <= count; done += 24, out += 32) {
-        const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + done));
-        const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + done + 12));
-        const __m256i triplets = _mm256_shuffle_epi8(_mm256_set_m128i(high, low), spread);
-        const __m256i odd = _mm256_and_si256(triplets, _mm256_set1_epi32(0x0fc0fc00));
-        const __m256i even = _mm256_and_si256(triplets, _mm256_set1_epi32(0x003f03f0));
-        const __m256i digits = _mm256_or_si256(_mm256_mulhi_epu16(odd, _mm256_set1_epi32(0x04000040)),
-                                               _mm256_mullo_epi16(even, _mm256_set1_epi32(0x01000010)));
-        const __m256i upper = _mm256_cmpgt_epi8(_mm256_set1_epi8(26), digits);
-        const __m256i range = _mm256_or_si256(_mm256_subs_epu8(digits, _mm256_set1_epi8(51)),
-                                              _mm256_and_si256(upper, _mm256_set1_epi8(13)));
-        const __m256i text = _mm256_add_epi8(_mm256_shuffle_epi8(shifts, range), digits);
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), text);
-    }
-    return done;
-}
-
-const bool writes_wide = __builtin_cpu_supports("avx2");
-#else
-std::size_t write_wide_base64(const unsigned char*, std::size_t, char*) {
-    return 0;
-}
-
-constexpr bool writes_wide = false;
-#endif
-
 // Whole triplets.
 char* write_base64(const unsigned char* bytes, std::size_t count, char* out) {
-    const std::size_t wide = writes_wide ? write_wide_base64(bytes, count, out) : 0;
-    out += wide / 3 * 4;
-    for (std::size_t i = wide; i < count; i += 3, out += 4) {
+    for (std::size_t i = 0; i < count; i += 3, out += 4) {
         const std::uint32_t bits =
             std::uint32_t{bytes[i]} << 16 | std::uint32_t{bytes[i + 1]} << 8 | std::uint32_t{bytes[i + 2]};
         std::memcpy(out, &base64_pairs[2 * std::size_t{bits >> 12}], 2);
@@ -95,31 +51,57 @@ char* write_base64_end(const unsigned char* bytes, std::size_t count, char* out)
 class Blocks {
 public:
     explicit Blocks(const DataArray& array)
-        : array_(array), tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {}
+        : array_(array), tuples_(std::max<std::size_t>(1, block_bytes / std::max<std::size_t>(1, array.tuple_bytes))) {
+        if (!array.ends.empty()) expanded_.resize(std::min(full(), array.bytes()));
+    }
 
     std::size_t full() const { return tuples_ * array_.tuple_bytes; }
     std::size_t count() const { return (array_.tuples + tuples_ - 1) / tuples_; }
-    std::size_t most_bytes() const { return most_lz4_bytes(std::min(full(), array_.bytes())); }
+    std::size_t most_bytes() const {
+        return static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(std::min(full(), array_.bytes()))));
+    }
 
     /// Returns how many bytes it has written.
     std::size_t next(unsigned char* out) {
         const std::size_t first = done_, last = std::min(array_.tuples, done_ + tuples_), width = array_.tuple_bytes;
         done_ = last;
-        if (!array_.ends.empty()) {
-            return compressor_.compress_runs(array_.values, array_.ends, width, first, last, run_, out);
-        }
-        if (!array_.parts.empty()) {
-            return compressor_.compress_parts(array_.values, array_.parts, width, first, last, run_, out);
-        }
-        const auto* bytes = static_cast<const unsigned char*>(array_.values);
-        return compressor_.compress({bytes + first * width, (last - first) * width}, width, out);
+        const char* bytes = static_cast<const char*>(array_.values) + first * width;
+        if (!array_.ends.empty()) bytes = expand_runs(first, last);
+        return static_cast<std::size_t>(LZ4_compress_fast(bytes, reinterpret_cast<char*>(out),
+                                                          static_cast<int>((last - first) * width),
+                                                          static_cast<int>(most_bytes()), acceleration));
     }
 
 private:
+    /// At this value blocks of coordinates and identities are compressed about as fast as they are copied, and hardly
+    /// worse than at 1.
+    static constexpr int acceleration = 8;
+
+    const char* expand_runs(std::size_t first, std::size_t last) {
+        const std::size_t width = array_.tuple_bytes;
+        char* out = expanded_.data();
+        for (std::size_t tuple = first; tuple < last;) {
+            const std::size_t end = std::min<std::size_t>(array_.ends[run_], last), bytes = (end - tuple) * width;
+            fill(out, static_cast<const char*>(array_.values) + run_ * width, width, bytes);
+            out += bytes;
+            tuple = end;
+            if (end == array_.ends[run_]) ++run_;
+        }
+        return expanded_.data();
+    }
+
+    /// Copies of a tuple: each copy doubles what there is.
+    static void fill(char* out, const char* tuple, std::size_t width, std::size_t bytes) {
+        if (bytes == 0) return;
+        std::memcpy(out, tuple, width);
+        for (std::size_t done = width; done < bytes; done *= 2)
+            std::memcpy(out + done, out, std::min(done, bytes - done));
+    }
+
     const DataArray& array_;
-    Lz4Blocks compressor_;
     std::size_t tuples_;              ///< in a block
-    std::size_t done_ = 0, run_ = 0;  ///< tuples; runs or parts
+    std::size_t done_ = 0, run_ = 0;  ///< tuples, runs
+    Column<char> expanded_;           ///< a block of an array of runs
 };
 
 }  // namespace

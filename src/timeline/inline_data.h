@@ -20,9 +20,7 @@ struct DataArray {
     std::size_t tuples = 0;
     const void* values = nullptr;              ///< of the tuples, or of the runs if there are any
     std::span<const std::uint32_t> ends = {};  ///< where runs of equal tuples end; empty: every tuple has its own value
-    /// Without runs: where parts end at whose beginning values are likely to repeat; empty: anywhere.
-    std::span<const std::uint32_t> parts = {};
-    bool changed = true;  ///< since the file before: values, runs or parts
+    bool changed = true;                       ///< values or runs, since the file before
 
     std::size_t bytes() const { return tuples * tuple_bytes; }
 };
@@ -44,15 +42,6 @@ template <class T>
 DataArray data_array(std::string name, std::span<const T> values, int components = 1) {
     const auto width = static_cast<std::size_t>(components);
     return {std::move(name), vtk_type<T>(), components, sizeof(T) * width, values.size() / width, values.data(), {}};
-}
-
-/// The same with its `parts`.
-template <class T>
-DataArray data_array(std::string name, std::span<const T> values, int components,
-                     std::span<const std::uint32_t> parts) {
-    DataArray array = data_array<T>(std::move(name), values, components);
-    array.parts = parts;
-    return array;
 }
 
 /// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks.

@@ -99,7 +99,6 @@ void Cells::add(const IndexRuns& runs, std::int32_t origin, const Owner& owner) 
 void PlantMesh::begin() {
     for (RewrittenColumn<float>* column : {&points, &normals, &uvs, &radii}) column->begin();
     owners.begin();
-    parts.begin();
     for (Cells* cells : {&vertices, &lines, &polygons}) cells->begin();
     labels_before_.swap(labels);
     labels.clear();

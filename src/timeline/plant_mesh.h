@@ -82,8 +82,7 @@ public:
     RewrittenColumn<float> normals;  ///< across the axis on axes
     RewrittenColumn<float> uvs;      ///< two a point
     RewrittenColumn<float> radii;
-    Owners owners;                         ///< of the points
-    RewrittenColumn<std::uint32_t> parts;  ///< where points that were added together end
+    Owners owners;  ///< of the points
     Cells vertices, lines, polygons;
     std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
 
@@ -103,7 +102,6 @@ public:
         uvs.add_tuples<2>(count, [&](std::size_t i, float* at) { put<2>(vertex(i).uv, at); });
         radii.add_tuples<1>(count, [&](std::size_t, float* at) { *at = static_cast<float>(radius); });
         owners.add(owner, count);
-        if (count > 0) parts.add(static_cast<std::uint32_t>(first + count));
         return static_cast<std::int32_t>(first);
     }
     /// Returns the point's number.

@@ -58,15 +58,9 @@ std::size_t points_foreseen(const Frame& frame) {
 }
 
 template <class T>
-DataArray array_of(const char* name, const RewrittenColumn<T>& column) {
-    DataArray array = data_array<T>(name, column.values());
+DataArray array_of(const std::string& name, const RewrittenColumn<T>& column, int components = 1) {
+    DataArray array = data_array<T>(name, column.values(), components);
     array.changed = column.changed();
-    return array;
-}
-
-DataArray point_array(const char* name, const RewrittenColumn<float>& column, int components, const PlantMesh& mesh) {
-    DataArray array = data_array<float>(name, column.values(), components, mesh.parts.values());
-    array.changed = column.changed() || mesh.parts.changed();
     return array;
 }
 
@@ -225,16 +219,16 @@ private:
                   fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
                               mesh.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
         file.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
-        file.add(point_array("radius", mesh.radii, 1, mesh));
-        file.add(point_array("Normals", mesh.normals, 3, mesh));
-        file.add(point_array("TCoords", mesh.uvs, 2, mesh));
+        file.add(array_of("radius", mesh.radii, 1));
+        file.add(array_of("Normals", mesh.normals, 3));
+        file.add(array_of("TCoords", mesh.uvs, 2));
         add_arrays(file, data.of_points);
         file.close();
         file.open("CellData");
         add_arrays(file, data.of_cells);
         file.close();
         file.open("Points");
-        file.add(point_array("points", mesh.points, 3, mesh));
+        file.add(array_of("points", mesh.points, 3));
         file.close();
         add_cells(file, "Verts", mesh.vertices);
         add_cells(file, "Lines", mesh.lines);
