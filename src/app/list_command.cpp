@@ -29,15 +29,8 @@ struct ListArguments {
     bool json = false;
 };
 
-template <class Registry>
-Parts parts_of() {
-    Parts parts;
-    for (const auto& entry : Registry::entries()) parts.push_back(entry.second.description);
-    return parts;
-}
-
 template <class Kind>
-Parts parts_of_kind() {
+Parts parts_of() {
     Parts parts;
     for (const auto& [name, part] : registered<Kind>()) parts.push_back({name, part->summary, part->help});
     return parts;
@@ -70,14 +63,13 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all{
-        {"processes", "the environment of the plants: [environment.<name>] process = \"...\"",
-         parts_of_kind<ProcessType>},
+        {"processes", "the environment of the plants: [environment.<name>] process = \"...\"", parts_of<ProcessType>},
         {"symbols", "the symbols of the turtle and what they do", symbol_parts},
-        {"recorders", "the files of a run: [timeline]", parts_of_kind<RecorderType>},
+        {"recorders", "the files of a run: [timeline]", parts_of<RecorderType>},
         {"exporters", "formats of `espalier export`",
          [] {
              open_looking_half();
-             return parts_of<ExporterRegistry>();
+             return parts_of<ExporterType>();
          }},
         {"models", "the library of models, folder by folder", nullptr},
         {"scenes", "the scenes in ./environments", scene_parts},

@@ -1,13 +1,16 @@
 // The models that come with Espalier: where they are, and what each says of itself.
 #pragma once
 
-#include "espalier/base/registry.h"
-
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace espalier::app {
+
+/// A line or more of `espalier list`.
+struct PartDescription {
+    std::string name, summary, help;
+};
 
 /// The folder given, or else the first there is of: `models` here or in a folder above, and the one that comes with the
 /// program. Throws UserError if there is none.

@@ -30,23 +30,23 @@ std::filesystem::path ExportJob::path(const RecordedFrame& frame, const std::str
 }
 
 std::string format_of_extension(const std::string& extension) {
-    for (const auto& [name, entry] : ExporterRegistry::entries()) {
-        if (extension == "." + entry.make()->extension()) return name;
+    for (const auto& [name, type] : registered<ExporterType>()) {
+        if (extension == "." + type->make()->extension()) return name;
     }
     return "";
 }
 
 void export_run(const ExportJob& job, std::span<const std::string> formats) {
     std::vector<std::string> known;
-    for (const auto& [name, entry] : ExporterRegistry::entries()) known.push_back(name);
+    for (const auto& type : registered<ExporterType>()) known.push_back(type.first);
     std::vector<std::unique_ptr<Exporter>> exporters;
     for (const std::string& format : formats) {
-        const auto entry = ExporterRegistry::entries().find(format);
-        if (entry == ExporterRegistry::entries().end()) {
+        const auto type = registered<ExporterType>().find(format);
+        if (type == registered<ExporterType>().end()) {
             throw UserError(fmt::format("'{}' is none of the formats {}{}", format, fmt::join(known, ", "),
                                         did_you_mean(format, known)));
         }
-        exporters.push_back(entry->second.make());
+        exporters.push_back(type->second->make());
     }
     if (!job.folder.empty()) make_folder(job.folder);
     for (const auto& exporter : exporters) exporter->write(job);

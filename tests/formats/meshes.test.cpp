@@ -198,7 +198,7 @@ TEST_CASE("a glTF of one frame reads back with its plants and bounds", "[export]
 }
 
 TEST_CASE("equal runs give equal bytes, and no file is left half written", "[export]") {
-    for (const auto& [format, entry] : ExporterRegistry::entries()) {
+    for (const auto& [format, type] : registered<ExporterType>()) {
         INFO(format);
         const Exported one(format, {}, {0, 4}), other(format, {}, {0, 4});
         REQUIRE(one.files.size() == other.files.size());

@@ -33,13 +33,6 @@ std::set<std::string> names_of() {
     return names;
 }
 
-template <class Registry>
-std::set<std::string> registered() {
-    std::set<std::string> names;
-    for (const auto& entry : Registry::entries()) names.insert(entry.first);
-    return names;
-}
-
 }  // namespace
 
 TEST_CASE("every file of environment/processes registers the process it is named after", "[layout]") {
@@ -57,13 +50,13 @@ TEST_CASE("every process explains itself", "[layout]") {
 
 TEST_CASE("every file of formats/exporters registers the format it is named after", "[layout]") {
     CHECK(!parts_in("src/formats/exporters").empty());
-    CHECK(parts_in("src/formats/exporters") == registered<espalier::ExporterRegistry>());
+    CHECK(parts_in("src/formats/exporters") == names_of<espalier::ExporterType>());
 }
 
 TEST_CASE("every exporter says what it carries and what is lost", "[layout]") {
-    for (const auto& [name, entry] : espalier::ExporterRegistry::entries()) {
+    for (const auto& [name, exporter] : espalier::registered<espalier::ExporterType>()) {
         INFO(name);
-        CHECK(!entry.description.summary.empty());
-        CHECK(!entry.description.help.empty());
+        CHECK(!exporter->summary.empty());
+        CHECK(!exporter->help.empty());
     }
 }

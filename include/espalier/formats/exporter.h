@@ -44,14 +44,12 @@ public:
     virtual void write(const ExportJob& job) const = 0;
 };
 
-using ExporterRegistry = Registry<Exporter>;
-
-/// Defining one registers an exporter.
-struct RegisteredExporter {
-    RegisteredExporter(PartDescription description, ExporterRegistry::Factory make) {
-        const std::string name = description.name;
-        ExporterRegistry::entries()[name] = {std::move(description), std::move(make)};
-    }
+/// What a file of src/formats/exporters/ registers.
+struct ExporterType {
+    std::string name;     ///< of the format
+    std::string summary;  ///< a line
+    std::string help;     ///< what the files contain and what they lose
+    std::function<std::unique_ptr<Exporter>()> make;
 };
 
 /// The format whose files have this extension, ".glb"; empty if there is none.
@@ -67,9 +65,8 @@ namespace espalier {
 using formats::export_run;
 using formats::ExportedFile;
 using formats::Exporter;
-using formats::ExporterRegistry;
+using formats::ExporterType;
 using formats::ExportJob;
 using formats::format_of_extension;
-using formats::RegisteredExporter;
 
 }  // namespace espalier

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 std::vector<std::string> known_formats() {
     std::vector<std::string> names;
-    for (const auto& [name, entry] : ExporterRegistry::entries()) names.push_back(name);
+    for (const auto& type : registered<ExporterType>()) names.push_back(type.first);
     return names;
 }
 

@@ -165,13 +165,13 @@ public:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"csv", "a table with a row per frame and internode or organ: for R, pandas, spreadsheets",
      "Columns: step, time, plant, kind, symbol, identity, parent, birth, order, colour, x, y, z, end_x, end_y, end_z,\n"
      "length, radius, area (m2, of one side of an organ), volume, and the run's chosen parameters. All frames in one "
      "file.\n"
-     "Lost: the shape of organs"},
-    [] { return std::make_unique<Csv>(); }};
+     "Lost: the shape of organs",
+     construct<Csv>}};
 
 }  // namespace
 }  // namespace espalier::formats

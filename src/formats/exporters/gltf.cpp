@@ -166,14 +166,14 @@ public:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"gltf", "glTF 2.0 (.glb), one frame or the growth as an animation: for the web, Blender, engines",
      "One frame: a node per plant, smooth tubes, materials by colour and texture (embedded). Several (--step all): one "
      "file in which every\n"
      "internode and organ is a node that appears at its birth, moves, grows and vanishes, 24 steps a second; it has\n"
      "the shape and colour it was last seen in, an internode a taper to a sixteenth. The vertical is y, as glTF says.\n"
-     "Lost: parameters; in animations smooth joints, and --simplify means nothing"},
-    [] { return std::make_unique<Gltf>(); }};
+     "Lost: parameters; in animations smooth joints, and --simplify means nothing",
+     construct<Gltf>}};
 
 }  // namespace
 }  // namespace espalier::formats

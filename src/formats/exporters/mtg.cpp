@@ -128,12 +128,12 @@ public:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"mtg", "multiscale tree graph, a file per frame: for OpenAlea",
      "Scales plant P, axis A, internode I; < follows, + is borne by. Features: plant, order, birth, length, diameter\n"
      "(in the middle), XX YY ZZ (of the tip), identity. Axes that stand on nothing begin a P of their own.\n"
-     "Lost: organs and surfaces, parameters"},
-    [] { return std::make_unique<Mtg>(); }};
+     "Lost: organs and surfaces, parameters",
+     construct<Mtg>}};
 
 }  // namespace
 }  // namespace espalier::formats

@@ -91,12 +91,12 @@ public:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"obj", "Wavefront OBJ and MTL, a file per frame: for every 3D program",
      "An object per plant, a group per axis and organ; normals, texture coordinates, materials by colour and texture,\n"
      "textures as .png beside it.\n"
-     "Lost: time, identities, parameters; a point's colour other than its face's"},
-    [] { return std::make_unique<Obj>(); }};
+     "Lost: time, identities, parameters; a point's colour other than its face's",
+     construct<Obj>}};
 
 }  // namespace
 }  // namespace espalier::formats

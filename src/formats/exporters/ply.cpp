@@ -55,11 +55,11 @@ public:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"ply", "binary PLY, a file per frame: for MeshLab, CloudCompare and scripts",
      "Vertices with normal, texture coordinates u, v and colour; triangles with the numbers of their plant and part.\n"
-     "Lost: time, identities, parameters, textures"},
-    [] { return std::make_unique<Ply>(); }};
+     "Lost: time, identities, parameters, textures",
+     construct<Ply>}};
 
 }  // namespace
 }  // namespace espalier::formats

@@ -142,12 +142,12 @@ public:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"rsml", "Root System Markup Language, a file per frame: for root software",
      "Plants, axes as polylines in metres with a diameter at every node, laterals nested in the axis that bears them;\n"
      "length, birth, order and identity as properties.\n"
-     "Lost: organs and surfaces, parameters"},
-    [] { return std::make_unique<Rsml>(); }};
+     "Lost: organs and surfaces, parameters",
+     construct<Rsml>}};
 
 }  // namespace
 }  // namespace espalier::formats

@@ -50,10 +50,11 @@ public:
     }
 };
 
-const RegisteredExporter entry{{"stl", "binary STL, a file per frame: for printing and meshing",
-                                "Triangles alone; tubes are closed and may be printed, leaves have no thickness.\n"
-                                "Lost: everything but the shape; which plant and organ a triangle belongs to"},
-                               [] { return std::make_unique<Stl>(); }};
+const Registered<ExporterType> entry{
+    {"stl", "binary STL, a file per frame: for printing and meshing",
+     "Triangles alone; tubes are closed and may be printed, leaves have no thickness.\n"
+     "Lost: everything but the shape; which plant and organ a triangle belongs to",
+     construct<Stl>}};
 
 }  // namespace
 }  // namespace espalier::formats

@@ -273,13 +273,13 @@ private:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"usd", "USD as text (.usda), growth as time samples: for Houdini, Blender, Omniverse, usdview",
      "One file: per plant the axes as curves with widths, colour and birth at every node, the surfaces as a mesh, and\n"
      "when either is visible; textures as .png beside it. A step is a time code, 24 of them a second; --step all for "
      "the whole growth.\n"
-     "Lost: identities, parameters; --sides means nothing to curves"},
-    [] { return std::make_unique<Usd>(); }};
+     "Lost: identities, parameters; --sides means nothing to curves",
+     construct<Usd>}};
 
 }  // namespace
 }  // namespace espalier::formats

@@ -45,11 +45,11 @@ private:
     }
 };
 
-const RegisteredExporter entry{
+const Registered<ExporterType> entry{
     {"vdb", "the recorded fields as OpenVDB grids, a file per frame and field",
      "The grid bears the field's name, with unit and meaning; equal fields give equal bytes.\n"
-     "Blender and Houdini open it beside a mesh of the same frame"},
-    [] { return std::make_unique<Vdb>(); }};
+     "Blender and Houdini open it beside a mesh of the same frame",
+     construct<Vdb>}};
 
 }  // namespace
 }  // namespace espalier::formats
