@@ -88,9 +88,8 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     grow({[&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); },
           [&] { derivation.start(string); },
           [&] {
-              // Where nothing is answered between steps, nobody looks at the strings between.
-              const int left = derivation.length() - derivation.steps_done();
-              derivation.advance(string, next, answers.asks() ? 1 : left);
+              derivation.step(string, next);
+              std::swap(string, next);
           },
           [&] { answers.exchange(string, derivation); }},
          before_exchange);

@@ -81,8 +81,6 @@ void GrowingPlant::prefetch_for_derivation() const {
     derivation.prefetch();
     prefetch_column(string->letters);
     prefetch_column(string->parameters);
-    prefetch_column(string->identities);
-    prefetch_column(string->parents);
     prefetch_column(string->births);
 }
 

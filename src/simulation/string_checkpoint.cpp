@@ -31,22 +31,36 @@ void restore_column(Column<T>& column, std::size_t& memory, std::istream& in) {
     }
 }
 
+void save_siblings(const SiblingTable& siblings, std::ostream& out) {
+    Column<Siblings> rows;
+    for (std::size_t k = 0; k < siblings.size(); ++k) rows.push_back(siblings[k]);
+    save_column(rows, out);
+}
+
+void restore_siblings(SiblingTable& siblings, std::size_t& memory, std::istream& in) {
+    Column<Siblings> rows;
+    restore_column(rows, memory, in);
+    siblings = SiblingTable().grown(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) siblings.added(k) = rows[k];
+}
+
 }  // namespace
 
 void save_string(const ModuleString& string, std::ostream& out) {
     save_column(string.letters, out);
     save_column(string.parameters, out);
-    save_column(string.identities, out);
-    save_column(string.parents, out);
     save_column(string.births, out);
+    save_siblings(string.siblings, out);
 }
 
 void restore_string(ModuleString& string, std::size_t memory, std::istream& in) {
     restore_column(string.letters, memory, in);
     restore_column(string.parameters, memory, in);
-    restore_column(string.identities, memory, in);
-    restore_column(string.parents, memory, in);
     restore_column(string.births, memory, in);
+    restore_siblings(string.siblings, memory, in);
+    for (const Birth& birth : string.births) {
+        if (birth.siblings >= string.siblings.size()) throw RunError("the checkpoint's lineages are damaged");
+    }
 }
 
 }  // namespace espalier

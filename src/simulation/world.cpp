@@ -20,7 +20,7 @@
 namespace espalier {
 namespace {
 
-constexpr std::uint64_t checkpoint_signature = 0x32'646c'726f'57;  // "World2"
+constexpr std::uint64_t checkpoint_signature = 0x33'646c'726f'57;  // "World3"
 
 class Stopwatch {
 public:

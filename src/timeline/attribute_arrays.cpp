@@ -81,11 +81,11 @@ void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) 
     for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
         const Plant& plant = plants_[owner.plant];
         const ModuleString& string = *plant.frame->string;
-        identity.put(i, plant.lineage ? string.identities[owner.module] : 0);
-        parent.put(i, plant.lineage ? string.parents[owner.module] : 0);
+        identity.put(i, plant.lineage ? string.identity(owner.module) : 0);
+        parent.put(i, plant.lineage ? string.parent(owner.module) : 0);
         number.put(i, plant.frame->plant);
         symbol.put(i, (*plant.symbols)[string.letters[owner.module]]);
-        birth.put(i, plant.lineage ? static_cast<std::int32_t>(string.births[owner.module]) : 0);
+        birth.put(i, plant.lineage ? static_cast<std::int32_t>(string.step_of_birth(owner.module)) : 0);
         order.put(i, owner.order);
         colour.put(i, owner.colour);
         kind.put(i, static_cast<std::uint8_t>(owner.kind));

@@ -25,7 +25,7 @@ std::size_t internodes_born(int step, const ModuleString& string, const Column<I
     if (!string.has_lineage()) return 0;
     const auto born = static_cast<std::uint32_t>(step);
     const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::size_t sum) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += string.births[internodes[i].module] == born;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += string.step_of_birth(internodes[i].module) == born;
         return sum;
     };
     constexpr std::size_t worth_sharing = std::size_t{1} << 15;
@@ -92,13 +92,13 @@ void InternodeLives::record(int step, const PlantFrame& plant, std::span<const s
         const Internode& internode = internodes[i];
         const std::uint32_t module = internode.module;
         part = i > 0 && internodes[i - 1].module == module ? part + 1 : 0;
-        const Identity identity = string.identities[module];
-        const bool is_new = static_cast<std::int64_t>(string.births[module]) > previous_step_;
+        const Identity identity = string.identity(module);
+        const bool is_new = static_cast<std::int64_t>(string.step_of_birth(module)) > previous_step_;
         const std::uint32_t at = is_new ? begin_life(identity, part) : life_of(identity, part, expected);
         lives_[at] = {identity,
-                      string.parents[module],
+                      string.parent(module),
                       part,
-                      static_cast<std::int32_t>(string.births[module]),
+                      static_cast<std::int32_t>(string.step_of_birth(module)),
                       0,
                       true,
                       symbols[string.letters[module]],

@@ -25,7 +25,7 @@ struct GrowingFolder {
             if (step >= 2 && step <= 5) plant.add_internode(2, 1, 2, 1, 1, {0, height, 0}, {3, height + 4, 0}, 0.25);
             if (step >= 4) {
                 plant.add_triangle(50);
-                plant.string.births.back() = 4;
+                test::set_lineage(plant.string, plant.string.size() - 1, 50, 0, 4);
             }
             record(timeline, step, {&plant});
         }

@@ -80,7 +80,9 @@ struct RecordedFolder {
             internode.tip.x += 5;
         }
         right.add_triangle(50);
-        std::fill(right.string.births.begin(), right.string.births.end(), 0u);  // it was there at step 0
+        for (std::size_t i = 0; i < right.string.size(); ++i) {  // it was there at step 0
+            test::set_lineage(right.string, i, right.string.identity(i), right.string.parent(i), 0);
+        }
         for (const int step : {0, 4}) {
             Fields fields;
             fields.provide(light_field(0.5f + static_cast<float>(step)));

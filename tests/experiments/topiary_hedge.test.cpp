@@ -79,7 +79,7 @@ std::set<Identity> identities(const World& world, std::size_t plant, const std::
     std::set<Identity> found;
     const ModuleString& string = world.string(plant);
     for (std::size_t i = 0; i < string.size(); ++i) {
-        if (symbol(world, plant, i) == of) found.insert(string.identities[i]);
+        if (symbol(world, plant, i) == of) found.insert(string.identity(i));
     }
     return found;
 }

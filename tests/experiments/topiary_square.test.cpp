@@ -101,7 +101,7 @@ TEST_CASE("square: a segment that ends outside is cut in the following step; eve
         for (const Internode& internode : plant.interpretation.geometry.internodes) {
             if (outside_square(internode.tip) == 0) continue;
             CHECK(glm::distance(internode.base, internode.tip) == Approx(1));
-            outside_now.insert(plant.string.identities[internode.module]);
+            outside_now.insert(plant.string.identity(internode.module));
         }
         CHECK(outside_now.size() <= 1);
         for (Identity identity : outside_now) CHECK(!outside.contains(identity));

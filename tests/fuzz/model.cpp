@@ -45,16 +45,33 @@ const View& view() {
     return known;
 }
 
+bool same(const ModuleString& a, const ModuleString& b) {
+    if (a.letters != b.letters || a.parameters != b.parameters || a.births.size() != b.births.size()) return false;
+    for (std::size_t i = 0; i < a.births.size(); ++i) {
+        if (a.identity(i) != b.identity(i) || a.parent(i) != b.parent(i)) return false;
+    }
+    return true;
+}
+
+/// Every step is done twice, the second time one module after the other, with what came before it.
 void grow(const std::shared_ptr<const Model>& model) {
     DerivationSettings settings;
+    settings.lineage = true;
     settings.memory = memory;
     settings.input_folder = "/nonexistent";
     settings.print = [](const std::string&) {};
-    Derivation derivation(compile(model), settings);
-    ModuleString string, next;
+    const auto compiled = compile(model);
+    Derivation derivation(compiled, settings);
+    settings.one_by_one = true;
+    settings.memory = 16 * memory;  // what grows one module after the other has more room than it needs
+    Derivation reference(compiled, settings);
+    ModuleString string, next, expected;
     derivation.start(string);
+    reference.start(expected);
     for (int step = 0; step < steps && !derivation.stopped(); ++step) {
         derivation.step(string, next);
+        reference.step(string, expected);
+        if (!same(next, expected)) __builtin_trap();
         std::swap(string, next);
     }
     interpret(*model, string, view().turtle, &derivation);

@@ -234,11 +234,6 @@ void add_busy_tree(ModelBuilder& model) {
     model.add(model.make({{"F", 1}}, {{"F", 1}}, {}, {model.module("F", {formal(0) + formal(1) * number(0.5)})}));
 }
 
-bool same(const ModuleString& a, const ModuleString& b) {
-    return a.letters == b.letters && a.parameters == b.parameters && a.identities == b.identities &&
-           a.parents == b.parents && a.births == b.births;
-}
-
 }  // namespace
 
 TEST_CASE("one thread and two write the same string", "[lsystem]") {
@@ -342,4 +337,47 @@ TEST_CASE("a model that lies where another lay before is derived by its own prog
         CHECK(grow(derivation, 1).parameters == Column<double>{1.0 + k});
     }
     CHECK_NOFAIL(places.size() < 50);  // a sanitizer's allocator gives no place twice
+}
+
+TEST_CASE("a module replaced by one of its own letter stays who it is", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("F", {number(1)})};
+    model.rule({{"F", 1}}, {model.module("F", {formal(0) * number(1.5) + number(1)})});
+    Derivation derivation(model.compiled(), with_lineage());
+    ModuleString string, next;
+    derivation.start(string);
+    derivation.step(string, next);
+    CHECK(next.parameters[0] == 2.5);
+    CHECK(next.identity(0) == string.identity(0));
+    CHECK(next.step_of_birth(0) == 0);
+}
+
+TEST_CASE("the End block runs after the last of many steps", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = model.word("A");
+    model.rule("A", "AB");
+    model.system().derivation_length = number(3);
+    model.system().end = {run(call(Function::stop, {number(0)}))};
+    Derivation derivation(model.compiled(), with_lineage());
+    ModuleString string, next;
+    derivation.start(string);
+    for (int step = 1; step <= 3; ++step) {
+        CHECK_FALSE(derivation.stopped());
+        derivation.step(string, next);
+        std::swap(string, next);
+    }
+    CHECK(derivation.stopped());
+}
+
+TEST_CASE("values that are not finite, and strings whose parameters do not fit, are refused", "[lsystem]") {
+    ModelBuilder model;
+    model.system().axiom = {model.module("F", {number(1.5e308)})};
+    model.rule({{"F", 1}}, {model.module("F", {formal(0) * number(1.5) + number(1)})});
+    Derivation derivation(model.compiled(), with_lineage());
+    ModuleString string, next;
+    derivation.start(string);
+    CHECK_THROWS_AS(derivation.step(string, next), RunError);
+    string.parameters[0] = 1;
+    string.parameters.push_back(1);
+    CHECK_THROWS_AS(derivation.step(string, next), RunError);
 }

@@ -327,7 +327,7 @@ bool agrees(const Plain& plain, const Modules& axiom, std::size_t threads) {
     derivation.start(string);
     derivation.step(string, next);
     const RandomKey key(7, 0, Stream::derivation, std::bit_cast<std::uint64_t>(1.0));
-    const auto uniform = [&](std::size_t i) { return RandomDraws(key, string.identities[i], 1).uniform(); };
+    const auto uniform = [&](std::size_t i) { return RandomDraws(key, string.identity(i), 1).uniform(); };
     return modules_of(next, model.model().alphabet) == plain.step(axiom, uniform);
 }
 
@@ -370,23 +370,23 @@ TEST_CASE("neighbours do not depend on the parts that a string is looked at in",
     for (unsigned seed = 0; seed < 2000; ++seed) {
         Randomly random(seed);
         const ModuleString string = short_string(random);
-        Gazes gazes;
-        gazes.ring = random.once_in(2);
-        for (Gaze* gaze : {&gazes.left, &gazes.right, &gazes.next}) {
-            gaze->wanted = true;
+        ContextSides sides;
+        sides.ring = random.once_in(2);
+        for (ContextSide* side : {&sides.left, &sides.right, &sides.next}) {
+            side->wanted = true;
             for (std::uint16_t letter = 0; letter < 7; ++letter) {
-                gaze->codes.push_back(random.once_in(3) ? Gaze::keeps : letter);
+                side->codes.push_back(random.once_in(3) ? ContextSide::ignored : letter);
             }
         }
-        gazes.next.branches = false;
-        gazes.left.codes[Alphabet::open_bracket] = Gaze::keeps;
+        sides.next.branches = false;
+        sides.left.codes[Alphabet::open_bracket] = ContextSide::ignored;
         for (const bool positions : {false, true}) {
-            gazes.positions = positions;
+            sides.positions = positions;
             Neighbours whole;
-            whole.find(gazes, string);
+            whole.find(sides, string);
             for (const std::size_t grain : {1, 2, 3, 7}) {
                 Neighbours parts(grain);
-                parts.find(gazes, string);
+                parts.find(sides, string);
                 INFO("seed " << seed << ", grain " << grain);
                 REQUIRE(parts.left == whole.left);
                 REQUIRE(parts.right == whole.right);
@@ -402,25 +402,25 @@ TEST_CASE("both sides seen at once are those that are looked for one after the o
     for (unsigned seed = 0; seed < 2000; ++seed) {
         Randomly random(seed);
         const ModuleString string = short_string(random);
-        Gazes gazes;
-        gazes.left.wanted = gazes.right.wanted = true;
+        ContextSides sides;
+        sides.left.wanted = sides.right.wanted = true;
         for (std::uint16_t letter = 0; letter < 7; ++letter) {
             const bool keeps = letter > Alphabet::close_bracket && random.once_in(3);
-            gazes.left.codes.push_back(keeps ? Gaze::keeps : letter);
-            gazes.right.codes.push_back(keeps ? Gaze::keeps : static_cast<std::uint16_t>(10 + letter));
+            sides.left.codes.push_back(keeps ? ContextSide::ignored : letter);
+            sides.right.codes.push_back(keeps ? ContextSide::ignored : static_cast<std::uint16_t>(10 + letter));
         }
-        gazes.left.codes[Alphabet::open_bracket] = Gaze::keeps;
+        sides.left.codes[Alphabet::open_bracket] = ContextSide::ignored;
         Neighbours expected;
-        expected.find(gazes, string);
-        gazes.at_once = true;
+        expected.find(sides, string);
+        sides.at_once = true;
         for (const std::size_t grain : {1, 2, 3, 7, 100}) {
             Neighbours found(grain);
-            found.find(gazes, string);
+            found.find(sides, string);
             INFO("seed " << seed << ", grain " << grain);
             REQUIRE(found.left_classes == expected.left_classes);
             for (std::size_t i = 0; i < string.size(); ++i) {
                 const LetterId letter = string.letters[i];
-                const bool asks = letter > Alphabet::close_bracket && gazes.right.codes[letter] != Gaze::keeps;
+                const bool asks = letter > Alphabet::close_bracket && sides.right.codes[letter] != ContextSide::ignored;
                 if (asks) REQUIRE(found.right_classes[i] == expected.right_classes[i]);
             }
         }

@@ -209,6 +209,22 @@ inline DerivationSettings with_lineage(std::uint64_t seed = 1, std::uint32_t pla
     return settings;
 }
 
+inline std::vector<Identity> identities_of(const ModuleString& string) {
+    std::vector<Identity> all;
+    for (std::size_t i = 0; i < string.births.size(); ++i) all.push_back(string.identity(i));
+    return all;
+}
+
+/// The same modules, who are the same, have the same parents and are as old.
+inline bool same(const ModuleString& a, const ModuleString& b) {
+    if (a.letters != b.letters || a.parameters != b.parameters || a.has_lineage() != b.has_lineage()) return false;
+    for (std::size_t i = 0; i < a.births.size(); ++i) {
+        if (a.identity(i) != b.identity(i) || a.parent(i) != b.parent(i)) return false;
+        if (a.step_of_birth(i) != b.step_of_birth(i)) return false;
+    }
+    return true;
+}
+
 /// The string after some steps.
 inline ModuleString grow(Derivation& derivation, int steps) {
     ModuleString string, next;

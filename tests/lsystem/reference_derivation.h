@@ -154,9 +154,9 @@ inline PlainString plain_copy(const ModuleString& string, const Alphabet& alphab
         copy[i].values.assign(value, value + arity);
         value += arity;
         if (!string.has_lineage()) continue;
-        copy[i].identity = string.identities[i];
-        copy[i].parent = string.parents[i];
-        copy[i].birth = string.births[i];
+        copy[i].identity = string.identity(i);
+        copy[i].parent = string.parent(i);
+        copy[i].birth = string.step_of_birth(i);
     }
     return copy;
 }

@@ -187,8 +187,6 @@ TEST_CASE("mycelis-delays: what happens below does not depend on the top", "[her
     }
     const std::size_t parameters = parameter_offsets(cut.string, cut.model->alphabet)[at];
     cut.string.letters.resize(at);
-    cut.string.identities.resize(at);
-    cut.string.parents.resize(at);
     cut.string.births.resize(at);
     cut.string.parameters.resize(parameters);
     plant.grow(40);

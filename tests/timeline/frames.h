@@ -3,6 +3,8 @@
 
 #include "espalier/timeline/timeline.h"
 
+#include "lineage.h"
+
 #include <glm/geometric.hpp>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -55,9 +57,7 @@ struct HandmadePlant {
     std::uint32_t add(const std::string& symbol, std::vector<double> parameters, Identity identity, Identity parent,
                       std::uint32_t birth) {
         string.append(model.alphabet.letter(symbol, static_cast<int>(parameters.size())), parameters);
-        string.identities.push_back(identity);
-        string.parents.push_back(parent);
-        string.births.push_back(birth);
+        test::append_lineage(string, identity, parent, birth);
         return static_cast<std::uint32_t>(string.size() - 1);
     }
 

@@ -335,8 +335,6 @@ TEST_CASE("text that names no parameter is refused before the run", "[timeline]"
 TEST_CASE("a plant without lineage is recorded with identities of 0", "[timeline]") {
     const RunFolder folder;
     HandmadePlant plant = branched_plant();
-    plant.string.identities.clear();
-    plant.string.parents.clear();
     plant.string.births.clear();
     const auto data = recorded(folder, plant, "lifespans = false");
     CHECK(values(data->GetCellData(), "identity") == std::vector<double>{0, 0});

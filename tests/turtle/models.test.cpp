@@ -164,7 +164,7 @@ TEST_CASE("queries in pictures are not sent, those of the string are", "[turtle]
     CHECK(drawn.answers[0].position.y == 1);
     CHECK(drawn.answers[0].module == 2);
     REQUIRE(drawn.queries.size() == 1);
-    CHECK(drawn.queries[0].identity == plant.string.identities[5]);
+    CHECK(drawn.queries[0].identity == plant.string.identity(5));
 }
 
 TEST_CASE("declared processes are asked by name from a model file", "[turtle]") {

@@ -2,6 +2,7 @@
 #include "espalier/base/error.h"
 
 #include "catch.h"
+#include "lineage.h"
 #include "turtle/drawing.h"
 #include "turtle/walk/parallel_walk.h"
 
@@ -190,7 +191,9 @@ TEST_CASE("labels, and the lineage of queries, are the same from several threads
         RandomString random(2000 + seed);
         Drawing drawing(random.of(symbols, 1600));
         drawing.model.texts = {"%.2f of %g", "leaf"};
-        for (std::size_t i = 0; i < drawing.string.size(); ++i) drawing.string.identities.push_back(3 * i + seed);
+        for (std::size_t i = 0; i < drawing.string.size(); ++i) {
+            test::append_lineage(drawing.string, 3 * i + seed, 0, 0);
+        }
         const Outcome whole = walked(drawing, 0);
         for (const std::size_t chunk : {1, 50}) {
             CHECK(walked(drawing, chunk) == whole);

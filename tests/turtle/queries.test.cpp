@@ -2,6 +2,7 @@
 #include "espalier/turtle/symbol.h"
 
 #include "catch.h"
+#include "lineage.h"
 #include "turtle/drawing.h"
 
 #include <fmt/format.h>
@@ -129,7 +130,7 @@ TEST_CASE("the following module is the next one, a bracket too, and none at the 
 
 TEST_CASE("a query carries identities where the string keeps them", "[turtle]") {
     Drawing drawing("F?E(1)F");
-    for (Identity identity : {11, 12, 13, 14}) drawing.string.identities.push_back(identity);
+    for (Identity identity : {11, 12, 13, 14}) test::append_lineage(drawing.string, identity, 0, 0);
     const Query query = drawing.draw().queries.at(0);
     CHECK(query.identity == 13);
     CHECK(query.following_identity == 14);

@@ -1,5 +1,5 @@
-// Derivation: old string in, new string out. Two passes over the string (match and measure, then write),
-// parallel over chunks unless the model's productions have an order as part of their meaning.
+// Derivation: old string in, new string out. A production is chosen for every module, then the new string is written;
+// in parallel, unless the order of the productions is part of the model's meaning.
 #pragma once
 
 #include "espalier/base/random.h"
@@ -20,9 +20,11 @@ namespace espalier {
 struct DerivationSettings {
     std::uint64_t seed = 0;
     std::uint32_t plant = 0;
-    /// Keep identity, parent and birth of every module. Models and homomorphisms that draw random numbers keep
-    /// identities without it: where that will do, of those letters alone that may come to draw.
+    /// Keep who every module is, who bore it and when. Models that take random numbers keep it without being asked.
     bool lineage = false;
+    /// Replace one module after the other and look for contexts step by step: slow, and what the faster ways are
+    /// compared with.
+    bool one_by_one = false;
     /// Bytes this plant's strings may take; a step that would exceed them throws RunError before it allocates.
     std::size_t memory = std::size_t(-1);
     /// Where fopen() looks for files to read, besides those the model itself wrote.
@@ -45,7 +47,7 @@ bool has_order(const CompiledModel& compiled);
 bool draws_random_numbers(const CompiledModel& compiled);
 
 /// The growth of one plant: the model's globals, arrays and step counter, and the rule that turns a string into the
-/// next. Random draws depend on seed, plant, module identity, step and draw number only.
+/// next. Random numbers depend on seed, plant, module identity, step and their own number only.
 class Derivation {
 public:
     Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings = {});
@@ -64,11 +66,6 @@ public:
     /// A hint that step() will be called soon.
     void prefetch() const;
 
-    /// Up to so many steps at once, of which only the last string is wanted; fewer if the model stops or changes its
-    /// length. Faster than one by one where nothing but its letter decides what becomes of a module. `spare`'s memory
-    /// is used and its content lost.
-    void advance(ModuleString& string, ModuleString& spare, int steps);
-
     /// Bytes that a step from `string`, which the last step made, holds besides it and its successor: what is chosen
     /// for its modules and what they see of each other. Told from the modules, not from the memory at hand.
     std::size_t working_memory(const ModuleString& string) const;
@@ -85,7 +82,7 @@ public:
     /// Replaces a module by its picture (homomorphism), depth first to the maximum depth, for interpretation.
     /// Appends to `picture` and returns how many modules it stands for: 1, more for a predecessor of several, 0 if no
     /// production applies. `links` belong to `string`.
-    /// Contexts are those of the original string; draws come from the homomorphism's own stream. Thread safe.
+    /// Contexts are those of the original string; random numbers come from the homomorphism's own stream. Thread safe.
     std::size_t picture(const ModuleString& string, const std::vector<std::size_t>* offsets, const BranchLinks& links,
                         std::size_t module, std::size_t parameters_at, ModuleString& picture) const;
     /// False if `picture` returns 0 for this letter whatever its context.

@@ -3,6 +3,7 @@
 
 #include "espalier/base/column.h"
 #include "espalier/lsystem/alphabet.h"
+#include "espalier/lsystem/lineage.h"
 
 #include <cstdint>
 #include <span>
@@ -11,24 +12,29 @@
 
 namespace espalier {
 
-/// A module's name for life: a hash of its parent's identity, the step of its birth and its place among its siblings.
-using Identity = std::uint64_t;
-
-/// Columns: one letter a module; the parameters of all modules, each owning as many as its letter's arity; and, only
-/// where something reads them, identities (of all, or of who may come to draw), or with parents' and steps of birth.
+/// Columns: one letter a module; the parameters of all modules, each owning as many as its letter's arity; and, where
+/// the lineage is kept, one birth a module with the table of siblings that births point to.
 struct ModuleString {
     Column<LetterId> letters;
     Column<double> parameters;
-    Column<Identity> identities;
-    Column<Identity> parents;
-    Column<std::uint32_t> births;
+    Column<Birth> births;
+    SiblingTable siblings;
 
     std::size_t size() const { return letters.size(); }
     bool empty() const { return letters.empty(); }
-    bool has_identities() const { return !letters.empty() && identities.size() == letters.size(); }
-    bool has_lineage() const {
-        return has_identities() && parents.size() == letters.size() && births.size() == letters.size();
+    bool has_lineage() const { return !letters.empty() && births.size() == letters.size(); }
+
+    // Of a string that has its lineage.
+    Identity identity(std::size_t module) const {
+        return siblings[births[module].siblings].identity(births[module].place);
     }
+    /// 0 for modules of the axiom.
+    Identity parent(std::size_t module) const {
+        const Siblings& born = siblings[births[module].siblings];
+        return born.depth == Siblings::axiom ? 0 : born.parent;
+    }
+    std::uint32_t step_of_birth(std::size_t module) const { return siblings[births[module].siblings].step; }
+
     /// Forgets the modules, keeps the memory.
     void clear();
     /// Appends one module without lineage; for building strings by hand.

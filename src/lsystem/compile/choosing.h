@@ -12,56 +12,46 @@ namespace espalier {
 
 class CompiledSystem;
 
-/// What a letter between two classes of neighbours becomes, where the table of choices does not tell.
+/// What becomes of a letter between two classes of neighbours.
 struct Outcome {
     enum class Way : std::uint8_t {
-        known,    ///< choice `index`
-        drawn,    ///< by lottery `index`
-        matched,  ///< by trying the productions of trial `index`
-        tested,   ///< by the conditions of trial `index`, which can be evaluated for many modules at once
-        spelled,  ///< the first of trial `index` whose strict predecessor's letters stand there
+        known,    ///< choice `index` of the letter
+        sampled,  ///< one of pool `index`, by a random number
+        matched,  ///< by trying the candidates `index`
+        tested,   ///< by the conditions of the candidates `index`, which can be evaluated for many modules at once
     };
     Way way = Way::known;
     std::uint32_t index = 0;
 };
 
-/// Productions that may apply, in file order: trials[begin] to trials[end].
-struct Trial {
+/// Productions that may apply, in file order: Choosing::candidates[begin] to candidates[end].
+struct Candidates {
     std::uint32_t begin = 0, end = 0;
 };
 
-/// Productions of constant weights that all apply. The choice is that after as many limits as are not above the draw,
-/// in units of 2^-53.
-struct Lottery {
+/// Productions of constant weights that all apply. The choice is that after as many limits as are not above the random
+/// number, in units of 2^-53.
+struct Pool {
     std::vector<std::uint64_t> limits;
-    std::vector<std::uint32_t> prizes;  ///< one more than limits: plans, among Plans::choices
-};
-
-/// What the table tells of a letter between two classes of neighbours.
-struct Told {
-    std::uint64_t holding = 0;  ///< Plans::holdings of the letter
-    bool changes = false;       ///< the module does not simply live on, for all that is told
+    std::vector<std::uint32_t> plans;  ///< one more than limits: among Plans::choices
 };
 
 struct Choosing {
-    Gazes gazes;
+    ContextSides sides;
     /// A pattern ends branches with `=`, or names brackets to its left: they are followed by their partners.
     bool needs_partners = false;
 
     // Tables by letter * places + left class * right_classes + right class.
-    std::vector<Told> told;
+    std::vector<Lookup> lookups;
     std::vector<Outcome> outcomes;
-    std::vector<const Plan*> plans;      ///< of outcomes that are known
-    std::vector<std::uint32_t> lengths;  ///< of the same
     std::uint32_t left_classes = 1, right_classes = 1;
-    bool tells_all = true;
 
     std::uint32_t places() const { return left_classes * right_classes; }
 
-    std::vector<Trial> trials;
-    std::vector<std::uint32_t> tried;  ///< indices of productions
-    std::vector<LetterId> ranks;       ///< choice of each production, among its letter's
-    std::vector<Lottery> lotteries;
+    std::vector<Candidates> trials;
+    std::vector<std::uint32_t> candidates;  ///< of all trials: indices of productions
+    std::vector<LetterId> ranks;            ///< choice of each production, among its letter's
+    std::vector<Pool> pools;
 };
 
 /// For `system.rules`, whose plans are made. Neighbours are also those that its decomposition asks for.

@@ -1,6 +1,5 @@
 #include "lsystem/compile/compiled_model.h"
 
-#include "lsystem/compile/foreseeing.h"
 #include "lsystem/programs/limits.h"
 
 #include <fmt/format.h>
@@ -56,7 +55,6 @@ private:
     std::optional<Lane> lane(const Expression& expression, const std::vector<CompiledPattern>& strict) const;
     std::optional<Lane> sum_lane(const Expression& expression, const std::vector<CompiledPattern>& strict) const;
     void index(CompiledRules& rules) const;
-    void find_drawers();
     std::int32_t always(const CompiledRules& rules, LetterId letter) const;
     static void find_laid_out(CompiledRules& rules);
     void place_registers();
@@ -88,7 +86,6 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     compiled_->homomorphism = compile_rules(system_.homomorphism.productions, weighted(system_.homomorphism));
     compile_depth(system_.homomorphism, compiled_->homomorphism);
     find_laid_out(compiled_->homomorphism);
-    find_drawers();
     compiled_->may_cut = writes_cut(*model_) && !compiled_->rules.has(Alphabet::cut);
     compiled_->plans = make_plans(*compiled_);
     compiled_->ring = system_.ring;
@@ -97,7 +94,6 @@ std::unique_ptr<CompiledSystem> SystemCompiler::compile() {
     place_registers();
     make_columns();
     compiled_->choosing = make_choosing(*compiled_);
-    plan_ahead(*compiled_, compiled_->plans);
     return std::move(compiled_);
 }
 
@@ -227,46 +223,33 @@ CompiledProduction SystemCompiler::compile_production(const Production& producti
         compiled.arities.push_back(static_cast<std::uint16_t>(production.successor[k].arguments.size()));
         compiled.parameters += compiled.arities.back();
     }
-    compiled.writes_draw = compiled.after.effects.draws || compiled.successor.effects.draws;
-    compiled.tests_draw =
-        compiled.before.effects.draws || compiled.condition.effects.draws || compiled.weight.effects.draws;
+    compiled.writing_samples = compiled.after.effects.samples || compiled.successor.effects.samples;
+    compiled.testing_samples =
+        compiled.before.effects.samples || compiled.condition.effects.samples || compiled.weight.effects.samples;
     descend(compiled);
     find_lanes(compiled);
     return compiled;
 }
 
-bool lives_on_in_place(const Kin& kin) {
-    if (kin.heirs.size() != kin.length) return false;
-    for (std::size_t s = 0; s < kin.length; ++s) {
-        if (kin.heirs[s] != s) return false;
-    }
-    return true;
-}
-
-// Each strict module in turn hands its identity to the first successor module of its symbol that nobody has claimed.
 void SystemCompiler::descend(CompiledProduction& production) const {
-    Kin& kin = production.kin;
-    production.descents.resize(production.length);
-    kin.heirs.resize(production.strict.size(), Descent::none);
+    Descent& descent = production.descent;
+    descent.carries.resize(production.length, Descent::none);
+    descent.heirs.resize(production.strict.size(), Descent::none);
     for (std::uint32_t s = 0; s < production.strict.size(); ++s) {
         const SymbolId symbol = model_->alphabet.symbol_of(production.strict[s].letter);
-        for (std::size_t k = 0; k < production.length; ++k) {
-            Descent& descent = production.descents[k];
-            if (descent.heir_of != Descent::born || model_->alphabet.symbol_of(production.letters[k]) != symbol)
-                continue;
-            descent.heir_of = s;
-            kin.heirs[s] = static_cast<std::uint32_t>(k);
+        for (std::uint32_t k = 0; k < production.length; ++k) {
+            const bool is_taken = descent.carries[k] != Descent::none;
+            if (is_taken || model_->alphabet.symbol_of(production.letters[k]) != symbol) continue;
+            descent.carries[k] = s;
+            descent.heirs[s] = k;
             break;
         }
     }
-    std::uint32_t place = 0;
-    for (Descent& descent : production.descents) {
-        if (descent.heir_of == Descent::born) descent.place = place++;
-        kin.places.push_back(descent.place);
+    for (const std::uint32_t carried : descent.carries) {
+        descent.births.push_back({0, descent.born});
+        descent.born += carried == Descent::none;
     }
-    kin.length = production.length;
-    kin.places.resize(whole_blocks(kin.length, lineage_block));
-    kin.same = lives_on_in_place(kin);
+    descent.births.resize(whole_blocks(production.length, birth_block));
 }
 
 /// True if the expression or block reads a formal of one of the patterns.
@@ -386,54 +369,6 @@ void SystemCompiler::index(CompiledRules& rules) const {
     for (std::size_t l = 0; l < letters; ++l) rules.always[l] = always(rules, static_cast<LetterId>(l));
 }
 
-/// The kin of a production among letters that come to draw; who bears or hands on an identity that is kept has one.
-Kin kin_among(const std::vector<std::uint8_t>& drawers, const CompiledProduction& production) {
-    Kin kin;
-    std::vector<std::uint32_t> among(production.length);
-    for (std::size_t k = 0; k < production.length; ++k) {
-        among[k] = static_cast<std::uint32_t>(kin.length);
-        if (!drawers[production.letters[k]]) continue;
-        kin.places.push_back(production.descents[k].place);
-        ++kin.length;
-    }
-    kin.places.resize(whole_blocks(kin.length, lineage_block));
-    for (std::size_t s = 0; s < production.strict.size(); ++s) {
-        if (!drawers[production.strict[s].letter]) continue;
-        const std::uint32_t heir = production.kin.heirs[s];
-        const bool kept = heir != Descent::none && drawers[production.letters[heir]];
-        kin.heirs.push_back(kept ? among[heir] : Descent::none);
-    }
-    kin.same = lives_on_in_place(kin);
-    return kin;
-}
-
-/// Letters whose modules may draw, who bear such, and who hand their identities on to such.
-void SystemCompiler::find_drawers() {
-    CompiledRules& rules = compiled_->rules;
-    std::vector<std::uint8_t>& drawers = compiled_->drawers;
-    drawers.assign(model_->alphabet.size(), 0);
-    bool found = false;
-    const auto name = [&](LetterId letter) {
-        found |= !drawers[letter];
-        drawers[letter] = 1;
-    };
-    for (const CompiledProduction& production : rules.productions) {
-        const LetterId letter = production.strict[0].letter;
-        const bool chosen_by_lot = rules.stochastic && rules.always[letter] < 0;
-        if (chosen_by_lot || production.tests_draw || production.writes_draw) name(letter);
-    }
-    while (std::exchange(found, false)) {
-        for (const CompiledProduction& production : rules.productions) {
-            for (std::size_t k = 0; k < production.length; ++k) {
-                if (!drawers[production.letters[k]]) continue;
-                const std::uint32_t heir_of = production.descents[k].heir_of;
-                name(production.strict[heir_of == Descent::born ? 0 : heir_of].letter);
-            }
-        }
-    }
-    for (CompiledProduction& production : rules.productions) production.drawers = kin_among(drawers, production);
-}
-
 void SystemCompiler::find_laid_out(CompiledRules& rules) {
     for (const std::int32_t always : rules.always) {
         const CompiledProduction* picture = always < 0 ? nullptr : &rules.productions[static_cast<std::size_t>(always)];
@@ -522,14 +457,22 @@ void SystemCompiler::make_columns() {
             return ColumnProgram::make(program, compiled_->constants, compiled_->formals, place);
         };
         if (!production.before.empty()) continue;
-        if (production.has_condition && !production.tests_draw) production.tests = columns(production.condition);
-        if (production.affine || !production.after.empty() || production.writes_draw) continue;
+        if (production.has_condition && !production.testing_samples) production.tests = columns(production.condition);
+        if (production.affine || !production.after.empty() || production.writing_samples) continue;
         production.values = columns(production.rest_places.empty() ? production.successor : production.rest);
         compiled_->computes_columns |= production.values.has_value();
     }
 }
 
 }  // namespace
+
+bool Descent::in_place() const {
+    if (carries.size() != heirs.size()) return false;
+    for (std::uint32_t k = 0; k < carries.size(); ++k) {
+        if (carries[k] != k) return false;
+    }
+    return true;
+}
 
 Variables CompiledSystem::variables() const {
     Variables fresh;
@@ -539,6 +482,12 @@ Variables CompiledSystem::variables() const {
         fresh.arrays.back().resize(array.size);
     }
     return fresh;
+}
+
+bool CompiledSystem::uses_files() const {
+    bool orders = rules.effects.ordered || decomposition.effects.ordered;
+    for (const Program* block : {&start, &start_each, &end_each, &end, &axiom}) orders |= block->effects.ordered;
+    return orders;
 }
 
 std::size_t CompiledSystem::bytes_of_variables() const {
@@ -556,7 +505,8 @@ std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model)
     compiled->nested = compiled->enclosure.open != no_letter || compiled->enclosure.open_scaled != no_letter;
     compiled->uses_context = compiled->any(&CompiledSystem::uses_context);
     compiled->binds_context = compiled->any(&CompiledSystem::binds_context);
-    compiled->draws = compiled->any(&CompiledSystem::draws);
+    compiled->uses_files = compiled->any(&CompiledSystem::uses_files);
+    compiled->samples = compiled->any(&CompiledSystem::samples);
     compiled->source = std::move(model);
     require_lenders(*compiled);
     return compiled;
@@ -571,7 +521,7 @@ bool has_order(const CompiledModel& compiled) {
 }
 
 bool draws_random_numbers(const CompiledModel& compiled) {
-    return compiled.any(&CompiledSystem::draws);
+    return compiled.any(&CompiledSystem::samples);
 }
 
 }  // namespace espalier

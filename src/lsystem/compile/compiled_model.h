@@ -34,19 +34,18 @@ struct CompiledPattern {
     bool is_ordinary_right() const { return !skip_branch && letter != Alphabet::open_bracket; }
 };
 
-/// Where a module of a successor comes from: the strict predecessor's module it carries on, or born with a place.
+/// Where the modules of a successor come from: each module that is replaced hands its identity to the first of its
+/// symbol that has none, and the others are born.
 struct Descent {
-    static constexpr std::uint32_t none = 0xFFFFFFFF, born = none;
-    std::uint32_t heir_of = born;
-    std::uint32_t place = 0;
-};
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-/// What modules of a successor inherit: those of all letters, or of those alone whose identities are kept.
-struct Kin {
-    std::vector<std::uint32_t> places;  ///< of their descents, padded to whole blocks
-    std::vector<std::uint32_t> heirs;   ///< of each strict module the place among these, or Descent::none
-    std::size_t length = 0;
-    bool same = false;  ///< each lives on in its place, so that nobody need be told from those that do not change
+    std::vector<std::uint32_t> heirs;    ///< of each module that is replaced: the module that carries it on, or `none`
+    std::vector<std::uint32_t> carries;  ///< of each module of the successor: which of those it carries on, or `none`
+    std::vector<Birth> births;           ///< of each its place among those that are born, padded to whole blocks
+    std::uint32_t born = 0;
+
+    /// The successor is what it replaces, module by module.
+    bool in_place() const;
 };
 
 struct CompiledProduction {
@@ -56,8 +55,7 @@ struct CompiledProduction {
     bool has_condition = false, has_weight = false;
     std::vector<LetterId> letters;  ///< of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
-    std::vector<Descent> descents;
-    Kin kin, drawers;
+    Descent descent;
     std::size_t length = 0;
     std::size_t parameters = 0;
     Lanes lanes;
@@ -70,8 +68,8 @@ struct CompiledProduction {
     std::optional<ColumnProgram> values;  ///< of `rest` or, where nothing is a lane, the successor
     bool reads_context = false;           ///< the successor needs parameters of modules in the context
     bool decomposes = false;              ///< what it writes may be decomposed
-    bool writes_draw = false;             ///< after-block or successor take random numbers
-    bool tests_draw = false;              ///< before-block, condition or weight take random numbers
+    bool writing_samples = false;         ///< after-block or successor take random numbers
+    bool testing_samples = false;         ///< before-block, condition or weight take random numbers
 
     bool context_free() const { return left.empty() && right.empty(); }
     /// It is about one module and the nearest neighbours of that.
@@ -79,8 +77,6 @@ struct CompiledProduction {
         return strict.size() == 1 && (left.empty() || (left.size() == 1 && left[0].is_ordinary_left())) &&
                (right.empty() || (right.size() == 1 && right[0].is_ordinary_right()));
     }
-    /// It applies wherever the letters of its strict predecessor stand.
-    bool spelled() const { return context_free() && before.empty() && !has_condition; }
 };
 
 /// Productions by the letter of their first strict module.
@@ -91,7 +87,7 @@ struct CompiledRules {
     /// The production that replaces every module of a letter whatever surrounds it, -1 if none or it depends.
     std::vector<std::int32_t> always;
     /// Of a homomorphism, by letter: the production that is always its picture, with lanes for values and no picture in
-    /// turn; null: a painter must find out.
+    /// turn; null: a writer must find out.
     std::vector<const CompiledProduction*> laid_out;
     bool stochastic = false;
     bool uses_context = false;
@@ -136,8 +132,7 @@ public:
     const LSystem* system = nullptr;
     std::size_t index = 0;  ///< among the model's L-systems; 0 is the main one
     CompiledRules rules, decomposition, homomorphism;
-    std::vector<std::uint8_t> drawers;  ///< by letter: its modules, or what `rules` make of them, may take draws
-    Plans plans;                        ///< of `rules`
+    Plans plans;  ///< of `rules`
     Choosing choosing;
     Program start, start_each, end_each, end;
     Program axiom, length, seed;
@@ -165,14 +160,13 @@ public:
     }
     /// Modules are replaced one after the other: as ordered() says, or since a predecessor may reach beyond a cut.
     bool serial() const { return ordered() || (may_cut && rules.follows(Alphabet::cut)); }
-    /// Measured, then written; else in one pass.
-    bool in_two_passes() const { return !serial() && decomposition.empty(); }
-    bool draws() const {
-        return rules.effects.draws || rules.stochastic || decomposition.effects.draws || decomposition.stochastic;
+    bool samples() const {
+        return rules.effects.samples || rules.stochastic || decomposition.effects.samples || decomposition.stochastic;
     }
     /// Pictures take random numbers, which are those of the module they are of.
-    bool picture_draws() const { return homomorphism.effects.draws || homomorphism.stochastic; }
+    bool picture_samples() const { return homomorphism.effects.samples || homomorphism.stochastic; }
     bool uses_context() const { return rules.uses_context || decomposition.uses_context; }
+    bool uses_files() const;
     bool binds_context() const { return rules.binds_context || decomposition.binds_context; }
 };
 
@@ -189,7 +183,7 @@ struct Enclosure {
 
 Enclosure enclosure_of(const Alphabet& alphabet);
 
-class Painter;
+class PictureWriter;
 
 class CompiledModel {
 public:
@@ -198,8 +192,10 @@ public:
     Enclosure enclosure;
     /// The string may hold sub-L-systems.
     bool nested = false;
-    bool uses_context = false, binds_context = false, draws = false;             ///< one of the L-systems does
-    mutable tbb::enumerable_thread_specific<std::shared_ptr<Painter>> painters;  ///< of all plants that grow from it
+    // One of the L-systems does.
+    bool uses_context = false, binds_context = false, samples = false, uses_files = false;
+    mutable tbb::enumerable_thread_specific<std::shared_ptr<PictureWriter>>
+        picture_writers;  ///< of all plants that grow from it
 
     const CompiledSystem& main() const { return *systems.front(); }
     /// The L-system of a number; null if there is none.

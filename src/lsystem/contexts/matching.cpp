@@ -19,7 +19,7 @@ const CompiledProduction* Matcher::choose(const CompiledRules& rules, std::span<
                                           const Site& site) {
     if (candidates.empty()) return nullptr;
     machine_.forget_reseeding();
-    if (rules.effects.draws || rules.stochastic) machine_.draw_with(RandomDraws(key_, site.drawer, step_));
+    if (rules.effects.samples || rules.stochastic) machine_.sample_with(RandomDraws(key_, site.identity, step_));
     if (rules.stochastic) return choose_by_weight(rules, candidates, site);
     for (const std::uint32_t candidate : candidates) {
         const CompiledProduction& production = rules.productions[candidate];
@@ -59,9 +59,9 @@ const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules,
     }
     if (!(sum > 0)) return nullptr;
     const CompiledProduction* chosen = nullptr;
-    RandomDraws draws = machine_.draws();
-    double left = draws.uniform() * sum;
-    machine_.draw_with(draws);
+    RandomDraws random = machine_.random_numbers();
+    double left = random.uniform() * sum;
+    machine_.sample_with(random);
     for (const Weighted& candidate : pool_) {
         if (candidate.weight == 0) continue;
         chosen = candidate.production;
@@ -82,8 +82,9 @@ void Matcher::bind(const CompiledProduction& production, const Site& site) {
 }
 
 void Matcher::begin_successor(const CompiledProduction& production, const Site& site) {
-    const bool draws = production.successor.effects.draws || production.after.effects.draws;
-    if (draws && !machine_.reseeded()) machine_.draw_with(RandomDraws(key_, site.drawer, step_, successor_draws));
+    const bool samples = production.successor.effects.samples || production.after.effects.samples;
+    if (samples && !machine_.reseeded())
+        machine_.sample_with(RandomDraws(key_, site.identity, step_, first_of_successor));
 }
 
 bool Matcher::match_strict(const CompiledProduction& production, const Site& site) const {

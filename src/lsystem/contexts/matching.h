@@ -16,7 +16,7 @@ struct StringView {
     const ModuleString* string = nullptr;
     const std::uint32_t* partner = nullptr;  ///< BranchLinks::partner
     const std::size_t* offsets = nullptr;    ///< parameter offsets, or else `places`
-    const Neighbours* neighbours = nullptr;  ///< by Choosing::gazes
+    const Neighbours* neighbours = nullptr;  ///< by Choosing::sides
     const ParameterPlaces* places = nullptr;
 };
 
@@ -27,7 +27,7 @@ struct Site {
     std::size_t parameters_at = 0;  ///< of `first` in the string
     LetterId letter = no_letter;
     const double* values = nullptr;
-    Identity drawer = 0;
+    Identity identity = 0;  ///< whose random numbers are taken
     std::size_t width = 0;  ///< modules replaced at once; 0: as many as the production's strict predecessor has
     /// Letters behind `letter`, where that is not the string's module `first`.
     const LetterId* following = nullptr;
@@ -50,10 +50,10 @@ public:
     /// Strict predecessors end before this module: what stands beyond belongs to another L-system.
     void limit(std::size_t module) { limit_ = module; }
 
-    /// Draws of tests are numbered from 0, those of successors from `successor_draws`.
-    static constexpr std::uint32_t successor_draws = 0x80000000;
+    /// Random numbers of tests are numbered from 0, those of successors from here.
+    static constexpr std::uint32_t first_of_successor = 0x80000000;
 
-    void set_draws(RandomKey key, std::uint32_t step) {
+    void set_random(RandomKey key, std::uint32_t step) {
         key_ = key;
         step_ = step;
     }
@@ -74,7 +74,7 @@ public:
             for (std::uint32_t k = 0; k < pattern.arity; ++k) formals[pattern.first_formal + k] = *values++;
         }
     }
-    /// Begins the draws of the successor.
+    /// Begins the random numbers of the successor.
     void begin_successor(const CompiledProduction& production, const Site& site);
 
 private:

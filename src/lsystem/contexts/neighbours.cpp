@@ -24,8 +24,8 @@ std::size_t parts_of(std::size_t modules, std::size_t grain) {
 template <class Value, bool Forward>
 class Look {
 public:
-    Look(const Gaze& gaze, const ModuleString& string, Column<Value>& column, std::vector<Section<Value>>& parts)
-        : gaze_(gaze), letters_(string.letters.data()), size_(string.size()), column_(column), parts_(parts) {}
+    Look(const ContextSide& side, const ModuleString& string, Column<Value>& column, std::vector<Section<Value>>& parts)
+        : side_(side), letters_(string.letters.data()), size_(string.size()), column_(column), parts_(parts) {}
 
     void run(bool ring, std::size_t grain) {
         split(grain);
@@ -58,14 +58,14 @@ private:
 
     static Value pass(Value state, std::uint16_t code, std::size_t module) {
         const auto becomes = static_cast<Value>(is_class ? code : module);
-        return code == Gaze::keeps ? state : becomes;
+        return code == ContextSide::ignored ? state : becomes;
     }
 
     void scan(Section<Value>& part);
     void join(bool ring);
     void complete(const Section<Value>& part);
 
-    const Gaze& gaze_;
+    const ContextSide& side_;
     const LetterId* letters_;
     std::size_t size_;
     Column<Value>& column_;
@@ -81,8 +81,8 @@ void Look<Value, Forward>::scan(Section<Value>& part) {
     // Kept at hand: writing to a column of bytes might, for all the compiler knows, change the members.
     Value* const out = column_.data();
     const LetterId* const letters = letters_;
-    const std::uint16_t* const codes = gaze_.codes.data();
-    const LetterId enters = gaze_.branches ? begins : no_letter, leaves = gaze_.branches ? ends : no_letter;
+    const std::uint16_t* const codes = side_.codes.data();
+    const LetterId enters = side_.branches ? begins : no_letter, leaves = side_.branches ? ends : no_letter;
     Value state = unknown;
     std::size_t i = Forward ? part.begin : part.end - 1;
     for (std::size_t n = part.end - part.begin; n > 0; --n, Forward ? ++i : --i) {
@@ -144,10 +144,10 @@ using LookLeft = Look<std::uint8_t, true>;
 
 /// Looks to both sides: who stands there becomes the left neighbour of those that follow, and is told as the right one
 /// to the module that waits for it.
-void scan_both(const Gazes& gazes, const LetterId* letters, Section<std::uint8_t>& part, Sight& sight,
+void scan_both(const ContextSides& sides, const LetterId* letters, Section<std::uint8_t>& part, Sight& sight,
                std::uint8_t* const lefts, std::uint8_t* const rights) {
-    const std::uint16_t* const left_codes = gazes.left.codes.data();
-    const std::uint16_t* const right_codes = gazes.right.codes.data();
+    const std::uint16_t* const left_codes = sides.left.codes.data();
+    const std::uint16_t* const right_codes = sides.right.codes.data();
     const auto end_of_branch = static_cast<std::uint8_t>(right_codes[Alphabet::close_bracket]);
     part.exits.clear();
     sight.firsts.clear();
@@ -161,7 +161,7 @@ void scan_both(const Gazes& gazes, const LetterId* letters, Section<std::uint8_t
         const LetterId letter = letters[i];
         lefts[i] = left;
         if (letter > Alphabet::close_bracket) {
-            const bool keeps = left_codes[letter] == Gaze::keeps;
+            const bool keeps = left_codes[letter] == ContextSide::ignored;
             *(keeps ? &sight.nobody : waits) = static_cast<std::uint8_t>(right_codes[letter]);
             waits = keeps ? waits : rights + i;
             left = keeps ? left : static_cast<std::uint8_t>(left_codes[letter]);
@@ -191,13 +191,13 @@ void scan_both(const Gazes& gazes, const LetterId* letters, Section<std::uint8_t
 
 }  // namespace
 
-void Neighbours::find_both(const Gazes& gazes, const ModuleString& string) {
-    LookLeft look(gazes.left, string, left_classes, classes_);
+void Neighbours::find_both(const ContextSides& sides, const ModuleString& string) {
+    LookLeft look(sides.left, string, left_classes, classes_);
     look.split(grain_);
     right_classes.resize(string.size());
     sights_.resize(classes_.size());
     for_each_part(classes_.size(), [&](std::size_t k) {
-        scan_both(gazes, string.letters.data(), classes_[k], sights_[k], left_classes.data(), right_classes.data());
+        scan_both(sides, string.letters.data(), classes_[k], sights_[k], left_classes.data(), right_classes.data());
     });
     look.complete(false);
     join_sights();
@@ -225,20 +225,20 @@ void Neighbours::join_sights() {
     }
 }
 
-void Neighbours::find(const Gazes& gazes, const ModuleString& string) {
+void Neighbours::find(const ContextSides& sides, const ModuleString& string) {
     if (string.empty()) return;
-    if (gazes.positions) {
-        if (gazes.left.wanted) Look<std::uint32_t, true>(gazes.left, string, left, positions_).run(gazes.ring, grain_);
-        if (gazes.right.wanted)
-            Look<std::uint32_t, false>(gazes.right, string, right, positions_).run(gazes.ring, grain_);
-        if (gazes.next.wanted) Look<std::uint32_t, false>(gazes.next, string, next, positions_).run(gazes.ring, grain_);
-    } else if (gazes.at_once) {
-        find_both(gazes, string);
+    if (sides.positions) {
+        if (sides.left.wanted) Look<std::uint32_t, true>(sides.left, string, left, positions_).run(sides.ring, grain_);
+        if (sides.right.wanted)
+            Look<std::uint32_t, false>(sides.right, string, right, positions_).run(sides.ring, grain_);
+        if (sides.next.wanted) Look<std::uint32_t, false>(sides.next, string, next, positions_).run(sides.ring, grain_);
+    } else if (sides.at_once) {
+        find_both(sides, string);
     } else {
-        if (gazes.left.wanted)
-            Look<std::uint8_t, true>(gazes.left, string, left_classes, classes_).run(gazes.ring, grain_);
-        if (gazes.right.wanted)
-            Look<std::uint8_t, false>(gazes.right, string, right_classes, classes_).run(gazes.ring, grain_);
+        if (sides.left.wanted)
+            Look<std::uint8_t, true>(sides.left, string, left_classes, classes_).run(sides.ring, grain_);
+        if (sides.right.wanted)
+            Look<std::uint8_t, false>(sides.right, string, right_classes, classes_).run(sides.ring, grain_);
     }
 }
 

@@ -10,19 +10,19 @@
 namespace espalier {
 
 /// One way of looking along the string: each module that is passed keeps the neighbour or becomes it.
-struct Gaze {
+struct ContextSide {
     bool wanted = false;
     bool branches = true;              ///< brackets begin and end branches; else they are modules like others
-    std::vector<std::uint16_t> codes;  ///< by letter: its class, or `keeps` if it is passed over
+    std::vector<std::uint16_t> codes;  ///< by letter: its class, or `ignored`
 
-    static constexpr std::uint16_t keeps = 0xFF00;
+    static constexpr std::uint16_t ignored = 0xFF00;
 };
 
 /// What productions ask of a string's neighbours.
-struct Gazes {
-    Gaze left;
-    Gaze right;
-    Gaze next;               ///< to the right, but into branches: for patterns that name `[`
+struct ContextSides {
+    ContextSide left;
+    ContextSide right;
+    ContextSide next;        ///< to the right, but into branches: for patterns that name `[`
     bool positions = false;  ///< where neighbours stand; else the classes of their letters are enough
     bool ring = false;
     /// Who is passed over and who is a bracket does not ask what stands to the right: both sides' classes are found in
@@ -31,9 +31,9 @@ struct Gazes {
 };
 
 /// What Neighbours takes for each module.
-inline std::size_t bytes_of_neighbours(const Gazes& gazes) {
-    const std::size_t columns = std::size_t{gazes.left.wanted} + gazes.right.wanted + gazes.next.wanted;
-    return columns * (gazes.positions ? sizeof(std::uint32_t) : sizeof(std::uint8_t));
+inline std::size_t bytes_of_neighbours(const ContextSides& sides) {
+    const std::size_t columns = std::size_t{sides.left.wanted} + sides.right.wanted + sides.next.wanted;
+    return columns * (sides.positions ? sizeof(std::uint32_t) : sizeof(std::uint8_t));
 }
 
 /// A part of the string, seen from inside: what its modules see beyond it is filled in when all parts are known.
@@ -68,7 +68,7 @@ public:
     /// So many modules are looked at by one thread before another may have its turn.
     explicit Neighbours(std::size_t modules = 8192) : grain_(modules) {}
 
-    void find(const Gazes& gazes, const ModuleString& string);
+    void find(const ContextSides& sides, const ModuleString& string);
 
     // Positions, or `none`.
     Column<std::uint32_t> left, right, next;
@@ -76,7 +76,7 @@ public:
     Column<std::uint8_t> left_classes, right_classes;
 
 private:
-    void find_both(const Gazes& gazes, const ModuleString& string);
+    void find_both(const ContextSides& sides, const ModuleString& string);
     void join_sights();
 
     std::size_t grain_;

@@ -15,7 +15,7 @@ void Derivation::save(std::ostream& out) const {
     put(out, static_cast<std::int32_t>(state.length));
     put(out, static_cast<std::uint8_t>(state.services.stopped));
     put(out, state.services.salt);
-    put(out, state.block_draws);
+    put(out, state.block_random);
     put_variables(out, state.variables);
     state.sub_systems.save(out);
     state.files.save(out);
@@ -28,7 +28,7 @@ void Derivation::restore(std::istream& in) {
     const auto length = get<std::int32_t>(in);
     const auto stopped = get<std::uint8_t>(in);
     const auto salt = get<std::uint64_t>(in);
-    const auto draws = get(in, RandomDraws(RandomKey(), 0, 0));
+    const auto random = get(in, RandomDraws(RandomKey(), 0, 0));
     Variables variables = state.variables;
     get_variables(in, variables);
     state.sub_systems.restore(in, *state.model);
@@ -38,7 +38,7 @@ void Derivation::restore(std::istream& in) {
     state.length = length;
     state.services.stopped = stopped != 0;
     state.services.salt = salt;
-    state.block_draws = draws;
+    state.block_random = random;
     ++state.generation;
 }
 

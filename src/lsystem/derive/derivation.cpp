@@ -1,8 +1,7 @@
-#include "base/excerpt.h"
-#include "base/prefetch.h"
-#include "lsystem/derive/powers.h"
-#include "lsystem/derive/small_step.h"
-#include "lsystem/homomorphism/painter.h"
+#include "espalier/base/excerpt.h"
+#include "espalier/base/prefetch.h"
+
+#include "lsystem/homomorphism/picture_writer.h"
 
 #include <fmt/format.h>
 
@@ -15,15 +14,9 @@ namespace espalier {
 namespace {
 
 constexpr double most_steps = 1e9;
-constexpr int longest_leap = 64;  // what words become is remembered for every step of a leap
 
-Ancestry ancestry_of(const CompiledModel& model, const DerivationSettings& settings) {
-    if (settings.lineage) return Ancestry::whole;
-    if (model.nested || model.any(&CompiledSystem::picture_draws)) return Ancestry::identities;
-    if (!model.draws) return Ancestry::none;
-    // Who is replaced by its letter alone is not measured, so that nobody counts how many have identities.
-    const bool measured = model.main().in_two_passes() && !model.main().plans.all_known;
-    return measured ? Ancestry::drawers : Ancestry::identities;
+bool keeps_lineage(const CompiledModel& model, const DerivationSettings& settings) {
+    return settings.lineage || model.nested || model.samples || model.any(&CompiledSystem::picture_samples);
 }
 
 std::uint64_t next_serial() {
@@ -37,9 +30,9 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     : model(std::move(compiled)),
       main(model->main()),
       machines(main, variables, services),
-      steps_are_small(given.lineage && has_small_steps(*model)),
+      in_order(given.one_by_one || model->nested || main.serial()),
+      lineage(keeps_lineage(*model, given)),
       settings(std::move(given)),
-      ancestry(ancestry_of(*model, settings)),
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
       serial(next_serial()) {
@@ -94,7 +87,7 @@ void Derivation::State::evaluate_seed() {
     double seed = 0;
     in_block(block_machine, "the seed", [&] { seed = block_machine.evaluate(main.seed); });
     services.salt = std::bit_cast<std::uint64_t>(seed);
-    block_draws = RandomDraws(key(Stream::blocks), 0, 0);
+    block_random = RandomDraws(key(Stream::blocks), 0, 0);
 }
 
 void Derivation::State::reset() {
@@ -106,19 +99,19 @@ void Derivation::State::reset() {
     step = 0;
     services.stopped = false;
     services.salt = 0;
-    block_draws = RandomDraws(key(Stream::blocks), 0, 0);
+    block_random = RandomDraws(key(Stream::blocks), 0, 0);
     if (!main.seed.empty() && !main.seed.reads_variables()) evaluate_seed();
 }
 
 void Derivation::State::in_block(Machine& machine, const std::string& name, const std::function<void()>& work) {
-    machine.draw_with(block_draws);
+    machine.sample_with(block_random);
     try {
         work();
     } catch (const EvaluationError& error) {
         throw RunError(fmt::format("{}{}{}, in {} at step {}{}", to_string(error.place),
                                    error.place.known() ? ": " : "", error.what(), name, step, excerpt(error.place)));
     }
-    block_draws = machine.draws();
+    block_random = machine.random_numbers();
 }
 
 void Derivation::State::run_block(const Program& block, const char* name) {
@@ -146,15 +139,12 @@ void Derivation::State::follow_length() {
 void Derivation::State::evaluate_axiom(ModuleString& string) {
     const CompiledSystem& compiled = main;
     const std::size_t parameters = compiled.axiom.results.size();
-    const auto drawers = [&](LetterId letter) { return compiled.drawers[letter] != 0; };
-    const Extent extent{
-        compiled.axiom_letters.size(), parameters,
-        static_cast<std::size_t>(std::count_if(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), drawers))};
-    const std::size_t bytes = bytes_needed(extent, ancestry);
+    const Extent extent{compiled.axiom_letters.size(), parameters, 1};
+    const std::size_t bytes = bytes_needed(extent, lineage);
     if (bytes > settings.memory) {
         throw RunError(fmt::format("the axiom takes {} bytes, more than the memory of {}", bytes, settings.memory));
     }
-    resize(string, extent, ancestry);
+    resize(string, extent, lineage);
     std::copy(compiled.axiom_letters.begin(), compiled.axiom_letters.end(), string.letters.begin());
     const std::vector<ModuleTemplate>& modules = compiled.system->axiom;
     in_block(block_machine, "the axiom", [&] {
@@ -172,15 +162,13 @@ void Derivation::State::evaluate_axiom(ModuleString& string) {
             }
         }
     });
-    if (ancestry == Ancestry::none) return;
-    const Brood brood(mix(0x6573'7061'6c69'6572, settings.plant), 0);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < string.size(); ++i) {
-        if (ancestry == Ancestry::drawers && !drawers(string.letters[i])) continue;
-        string.identities[kept++] = brood.born(static_cast<std::uint32_t>(i));
-    }
-    std::fill(string.parents.begin(), string.parents.end(), Identity{0});
-    std::fill(string.births.begin(), string.births.end(), 0u);
+    if (lineage) bear_axiom(string);
+}
+
+void Derivation::State::bear_axiom(ModuleString& string) const {
+    string.siblings = SiblingTable().grown(1);
+    string.siblings.added(0) = {mix(0x6573'7061'6c69'6572, settings.plant), 0, Siblings::axiom};
+    for (std::uint32_t i = 0; i < string.births.size(); ++i) string.births[i] = {0, i};
 }
 
 // `%` deletes everything from itself to the end of its branch, to `$`, or to the end of the string.
@@ -199,7 +187,7 @@ std::size_t Derivation::State::end_of_cut(const ModuleString& from, std::size_t 
     return stop;
 }
 
-void Derivation::State::find_kept(const ModuleString& from) {
+void Derivation::State::find_what_lives_on(const ModuleString& from) {
     scratch->kept.clear();
     std::size_t begin = 0;
     const LetterId* const letters = from.letters.data();
@@ -217,33 +205,36 @@ void Derivation::State::find_kept(const ModuleString& from) {
     if (begin < from.size()) scratch->kept.emplace_back(begin, from.size());
 }
 
-StepInput Derivation::State::prepare(const ModuleString& from) {
-    if (ancestry > Ancestry::drawers && from.identities.size() != from.size()) {
-        throw RunError("the string has no identities: derive from a string that start() or step() made");
-    }
-    if (ancestry == Ancestry::whole && (from.parents.size() != from.size() || from.births.size() != from.size())) {
-        throw RunError("the string has no lineage: derive from a string that start() or step() made");
-    }
-    if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
-    if (!model->nested) find_kept(from);
-    StringView view{&from};
-    if (model->uses_context && (model->nested || main.choosing.needs_partners)) {
+/// One by one, and where several L-systems share the string, contexts are looked for step by step.
+void Derivation::State::find_contexts(const ModuleString& from, StringView& view) {
+    if (!model->uses_context) return;
+    const bool step_by_step = model->nested || settings.one_by_one;
+    if (step_by_step || main.choosing.needs_partners) {
         link_branches(from, scratch->links);
         view.partner = scratch->links.partner.data();
     }
-    // Where several L-systems share the string, each has neighbours of its own: they are looked for one by one.
-    if (model->uses_context && !model->nested) {
-        scratch->neighbours.find(main.choosing.gazes, from);
+    if (!step_by_step) {
+        scratch->neighbours.find(main.choosing.sides, from);
         view.neighbours = &scratch->neighbours;
     }
-    if (model->binds_context && (model->nested || main.choosing.gazes.positions)) {
+    if (model->binds_context && (step_by_step || main.choosing.sides.positions)) {
         if (scratch->places.find(from, model->source->alphabet.arities().data()) != from.parameters.size()) {
             throw RunError("the string's parameters do not fit its modules");
         }
         view.places = &scratch->places;
     }
-    const RandomKey draws = model->draws ? key(Stream::derivation) : RandomKey();
-    return {main, from, view, draws, step, ancestry, settings.memory, scratch->kept};
+}
+
+StepInput Derivation::State::read(const ModuleString& from) {
+    if (lineage && from.births.size() != from.size()) {
+        throw RunError("the string has no lineage: derive from a string that start() or step() made");
+    }
+    if (from.size() >= BranchLinks::none) throw RunError("the string has more than 4,294,967,294 modules");
+    find_what_lives_on(from);
+    StringView view{&from};
+    find_contexts(from, view);
+    const RandomKey random = model->samples ? key(Stream::derivation) : RandomKey();
+    return {main, from, view, random, step, lineage, settings.memory, scratch->kept};
 }
 
 void Derivation::State::warn_of_depth() {
@@ -259,21 +250,17 @@ void Derivation::State::warn_of_depth() {
 }
 
 void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
-    const StepInput input = prepare(from);
-    if (main.in_two_passes()) return rewrite_in_two_passes(input, *scratch, forecast, machines, to);
-    rewrite_in_one_pass(input, *scratch, machines, services, to, depth_limit);
-    follow_length();
+    const Workplace workplace(from.size(), own_scratch);
+    scratch = &workplace.scratch();
+    const StepInput input = read(from);
+    if (in_order)
+        rewrite_in_order(input, to);
+    else if (!main.decomposition.empty())
+        rewrite_and_decompose(input, *scratch, machines, services, to, depth_limit);
+    else
+        rewrite_in_parallel(input, *scratch, machines, to);
+    if (in_order) follow_length();
     warn_of_depth();
-}
-
-int Derivation::State::leap(const ModuleString& from, ModuleString& to, int steps) {
-    if (steps < 2 || ancestry != Ancestry::none || !has_powers(*model)) return 0;
-    const int leapt = std::min(steps, longest_leap);
-    if (!raise_to_power(main, from, leapt, settings.memory, to)) return 0;
-    step += static_cast<std::uint32_t>(leapt);
-    variables.globals[0] = step;
-    ++generation;
-    return leapt;
 }
 
 Derivation::Derivation(std::shared_ptr<const CompiledModel> model, DerivationSettings settings)
@@ -299,23 +286,11 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     State& state = *state_;
     state.variables.globals[0] = ++state.step;
     ++state.generation;
-    const bool runs_blocks = !state.steps_are_small || steps_done() == length();
-    if (!runs_blocks && rewrite_small(state.main.plans, from, state.step, state.settings.memory, to)) {
-        state.forecast.letters = nullptr;
-        return;
-    }
     state.run_block(state.main.start_each, "the StartEach block");
-    {
-        const Workplace workplace(from.size(), state.own_scratch);
-        state.scratch = &workplace.scratch();
-        if (state.model->nested)
-            state.rewrite_nested(from, to);
-        else
-            state.rewrite(from, to);
-    }
+    state.rewrite(from, to);
     state.run_block(state.main.end_each, "the EndEach block");
     if (steps_done() == length()) state.run_block(state.main.end, "the End block");
-    state.files.flush_all();
+    if (state.model->uses_files) state.files.flush_all();
 }
 
 // What a step of a small string touches.
@@ -325,32 +300,21 @@ void Derivation::prefetch() const {
     espalier::prefetch(&state, head);
     espalier::prefetch(&state.services.stopped, sizeof(bool));
     espalier::prefetch(&state.settings.memory, sizeof(std::size_t));
-    espalier::prefetch(&state.forecast.letters, sizeof(void*));
-}
-
-void Derivation::advance(ModuleString& string, ModuleString& spare, int steps) {
-    const int planned = length();
-    while (steps > 0 && !stopped() && length() == planned) {
-        const int leapt = state_->leap(string, spare, steps);
-        if (leapt == 0) step(string, spare);
-        std::swap(string, spare);
-        steps -= std::max(leapt, 1);
-    }
 }
 
 // What small strings need is their thread's.
 std::size_t Derivation::working_memory(const ModuleString& string) const {
     const State& state = *state_;
     const CompiledSystem& main = state.main;
-    const std::size_t foreseen = 2 * state.forecast.changes.size() * sizeof(Change);
-    if (string.size() <= grain) return foreseen;
+    if (string.size() <= grain) return 0;
     std::size_t of_module = 0;
-    if (main.in_two_passes() && !main.plans.all_known) of_module += sizeof(LetterId) + sizeof(Change);
-    if (state.model->uses_context) of_module += bytes_of_neighbours(main.choosing.gazes);
+    const bool chooses = !state.in_order && main.decomposition.empty() && !main.plans.all_known;
+    if (chooses) of_module += sizeof(LetterId) + sizeof(Replacement);
+    if (state.model->uses_context) of_module += bytes_of_neighbours(main.choosing.sides);
     if (state.model->uses_context && main.choosing.needs_partners) of_module += sizeof(std::uint32_t);
     if (state.model->binds_context) of_module += sizeof(std::uint32_t);
-    const std::size_t pieces = main.in_two_passes() ? 0 : string.content();
-    return foreseen + pieces + of_module * string.size();
+    const std::size_t pieces = state.in_order || main.decomposition.empty() ? 0 : string.content();
+    return pieces + of_module * string.size();
 }
 
 void Derivation::set_memory(std::size_t bytes) {

@@ -3,7 +3,7 @@
 
 #include "espalier/lsystem/derivation.h"
 
-#include "lsystem/derive/rewriting.h"
+#include "lsystem/derive/step.h"
 #include "lsystem/derive/sub_systems.h"
 #include "lsystem/programs/files.h"
 
@@ -21,7 +21,7 @@ struct Derivation::State {
     void reset();
     void run_block(const Program& block, const char* name);
     void follow_length();
-    /// Runs what belongs to no module; its draws form one sequence from the beginning of the growth.
+    /// Runs what belongs to no module; its random numbers form one sequence from the beginning of the growth.
     void in_block(Machine& machine, const std::string& name, const std::function<void()>& work);
     RandomKey key(Stream stream) const { return RandomKey(settings.seed, settings.plant, stream, services.salt); }
     /// Runs something with services that print nothing and write nothing.
@@ -29,14 +29,14 @@ struct Derivation::State {
     void evaluate_seed();
     void evaluate_length();
     void evaluate_axiom(ModuleString& string);
-    void find_kept(const ModuleString& from);
+    void bear_axiom(ModuleString& string) const;
+    void find_what_lives_on(const ModuleString& from);
     std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;
-    StepInput prepare(const ModuleString& from);
+    void find_contexts(const ModuleString& from, StringView& view);
+    StepInput read(const ModuleString& from);
     void rewrite(const ModuleString& from, ModuleString& to);
-    /// Several steps at once; returns how many, 0 if the model does not allow it.
-    int leap(const ModuleString& from, ModuleString& to, int steps);
-    /// The same where the string holds sub-L-systems.
-    void rewrite_nested(const ModuleString& from, ModuleString& to);
+    /// One module after the other, each by the rules of the L-system it belongs to.
+    void rewrite_in_order(const StepInput& input, ModuleString& to);
     void warn_of_depth();
     void warn_once(const Place& place, const std::string& message);
 
@@ -49,21 +49,20 @@ struct Derivation::State {
     bool length_is_set = false;  ///< by set_length(), not by the model
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
-    const bool steps_are_small;  ///< those of small strings: see small_step.h
-    /// Grows with every change of variables, so that painters know what they have seen.
+    const bool in_order;  ///< steps replace one module after the other
+    const bool lineage;   ///< births are kept: somebody asks, or random numbers are taken
+    /// Grows with every change of variables, so that writers of pictures know what they have seen.
     std::uint64_t generation = 0;
     Scratch* scratch = nullptr;  ///< lent for the step at hand
     Variables variables;
     Services services;
     DerivationSettings settings;
-    Ancestry ancestry;
 
     ModelFiles files;
-    Forecast forecast;  ///< of the string that was written last
     std::unique_ptr<Scratch> own_scratch;
     SubSystems sub_systems;
     Machine block_machine;
-    RandomDraws block_draws{RandomKey(), 0, 0};
+    RandomDraws block_random{RandomKey(), 0, 0};
     /// Never the same for two states.
     const std::uint64_t serial;
     std::mutex warning;

@@ -33,16 +33,22 @@ void Expansion::evaluate(const CompiledProduction& production, const double* val
     require_finite(production, successor_.data());
 }
 
+void Expansion::begin_births(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
+                             std::uint32_t depth) {
+    const Siblings born{strict[0].identity, step, depth};
+    origin_ = born.origin();
+    if (siblings_ && production.descent.born > 0) row_ = siblings_->add(born);
+}
+
 void Expansion::push_successor(const CompiledProduction& production, const double* values, const Lineage* strict,
                                std::uint32_t step, std::uint32_t depth, ModuleStack& stack) {
     evaluate(production, values);
-    const Brood brood(strict[0].identity, step);
+    begin_births(production, strict, step, depth);
     const double* end = successor_.data() + production.parameters;
     for (std::size_t k = production.length; k-- > 0;) {
         const std::uint16_t arity = production.arities[k];
         end -= arity;
-        stack.push({production.letters[k], arity, depth, lineage(production.descents[k], strict, brood, step, depth)},
-                   end);
+        stack.push({production.letters[k], arity, depth, lineage(production.descent, k, strict)}, end);
     }
 }
 

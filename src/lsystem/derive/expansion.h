@@ -2,17 +2,33 @@
 #pragma once
 
 #include "lsystem/contexts/matching.h"
-#include "lsystem/derive/rewriting.h"
+#include "lsystem/derive/step.h"
 
 #include <vector>
 
 namespace espalier {
 
-/// Life of one module: who it is, who bore it, when.
+/// Who a module is.
 struct Lineage {
     Identity identity = 0;
-    Identity parent = 0;
-    std::uint32_t birth = 0;
+    Birth birth{0, 0};
+};
+
+/// Rows of siblings that a part of the new string adds behind those of the old one.
+class AddedSiblings {
+public:
+    explicit AddedSiblings(std::size_t before) : before_(before) {}
+
+    /// Returns the row.
+    std::uint32_t add(const Siblings& born) {
+        rows_.push_back(born);
+        return static_cast<std::uint32_t>(before_ + rows_.size() - 1);
+    }
+    const Column<Siblings>& rows() const { return rows_; }
+
+private:
+    std::size_t before_;
+    Column<Siblings> rows_;
 };
 
 /// A stack of modules that wait to be replaced, with their values; no memory is taken per module once it is warm.
@@ -70,8 +86,9 @@ private:
 /// Applies one set of rules to modules, over and over down to its maximum depth.
 class Expansion {
 public:
-    Expansion(const CompiledRules& rules, Matcher& matcher, Machine& machine)
-        : rules_(rules), matcher_(matcher), machine_(machine) {}
+    /// Who is born is told `siblings`, unless that is null.
+    Expansion(const CompiledRules& rules, Matcher& matcher, Machine& machine, AddedSiblings* siblings)
+        : rules_(rules), matcher_(matcher), machine_(machine), siblings_(siblings) {}
 
     /// Replaces what is on the stack until nothing is left, handing each finished module to `emit`.
     /// Contexts are those of the module at `origin`. Throws EvaluationError; `letter` and `values` then tell whose.
@@ -101,12 +118,19 @@ private:
     Machine& machine_;
     const CompiledProduction* choose(const ModuleStack& stack, Site& site);
     void evaluate(const CompiledProduction& production, const double* values);
-    static Lineage lineage(const Descent& descent, const Lineage* strict, const Brood& brood, std::uint32_t step,
-                           std::uint32_t depth) {
-        if (descent.heir_of != Descent::born) return strict[descent.heir_of];
-        return {brood.born(descent.place, depth), strict[0].identity, step};
+    void begin_births(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
+                      std::uint32_t depth);
+    /// Of a module of the successor.
+    Lineage lineage(const Descent& descent, std::size_t k, const Lineage* strict) const {
+        if (descent.carries[k] != Descent::none) return strict[descent.carries[k]];
+        const std::uint32_t place = descent.births[k].place;
+        return {mix(origin_ ^ place), {row_, place}};
     }
 
+    AddedSiblings* siblings_;
+    // Of those who are born of the module at hand.
+    std::uint64_t origin_ = 0;
+    std::uint32_t row_ = 0;
     std::vector<double> values_, successor_;
     ModuleStack::Entry entry_;
     // Of predecessors of several modules.
@@ -126,7 +150,7 @@ inline const ModuleStack::Entry* Expansion::replace(ModuleStack& stack, const Si
     }
     Site site = origin;
     site.letter = entry_.letter;
-    site.drawer = mix(entry_.lineage.identity, entry_.depth + 1);
+    site.identity = mix(entry_.lineage.identity, entry_.depth + 1);
     const CompiledProduction* const production = choose(stack, site);
     if (!production) return &entry_;
     matcher_.begin_successor(*production, site);
@@ -142,11 +166,11 @@ template <class Emitter>
 void Expansion::emit_successor(const CompiledProduction& production, const double* values, const Lineage* strict,
                                std::uint32_t step, Emitter&& emit) {
     evaluate(production, values);
-    const Brood brood(strict[0].identity, step);
+    begin_births(production, strict, step, 0);
     const double* at = successor_.data();
     for (std::size_t k = 0; k < production.length; ++k) {
         const std::uint16_t arity = production.arities[k];
-        emit(production.letters[k], at, arity, lineage(production.descents[k], strict, brood, step, 0));
+        emit(production.letters[k], at, arity, lineage(production.descent, k, strict));
         at += arity;
     }
 }

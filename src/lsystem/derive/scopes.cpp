@@ -53,7 +53,7 @@ void Scopes::find(const CompiledModel& model, const ModuleString& string, std::u
             close_scope();
         } else if (model.enclosure.opens(letter)) {
             end_run(i + 1, next);
-            open(model, string.parameters[at], string.identities.empty() ? mix(i) : string.identities[i], step);
+            open(model, string.parameters[at], string.has_lineage() ? string.identity(i) : mix(i), step);
         }
         at = next;
     }

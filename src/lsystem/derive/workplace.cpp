@@ -1,6 +1,6 @@
 #include "lsystem/derive/workplace.h"
 
-#include "lsystem/derive/rewriting.h"
+#include "lsystem/derive/step.h"
 
 #include <algorithm>
 

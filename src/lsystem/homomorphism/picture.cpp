@@ -1,11 +1,11 @@
 // Homomorphism: the picture of a module, for interpretation. Looking never changes growth.
 #include "lsystem/derive/lanes.h"
-#include "lsystem/homomorphism/painter.h"
+#include "lsystem/homomorphism/picture_writer.h"
 
 namespace espalier {
 namespace {
 
-bool draws(const CompiledSystem& system, LetterId letter) {
+bool has_picture(const CompiledSystem& system, LetterId letter) {
     return system.homomorphism.has(letter) && system.homomorphism.maximum_depth > 0;
 }
 
@@ -34,9 +34,9 @@ bool Derivation::has_homomorphism() const {
 
 bool Derivation::may_have_picture(LetterId letter) const {
     const CompiledModel& model = *state_->model;
-    if (!model.nested) return draws(model.main(), letter);
+    if (!model.nested) return has_picture(model.main(), letter);
     return std::any_of(model.systems.begin(), model.systems.end(),
-                       [&](const auto& system) { return draws(*system, letter); });
+                       [&](const auto& system) { return has_picture(*system, letter); });
 }
 
 std::size_t Derivation::picture(const ModuleString& string, const std::vector<std::size_t>* offsets,
@@ -50,15 +50,15 @@ std::size_t Derivation::picture(const ModuleString& string, const std::vector<st
         const CompiledProduction* simple = state.main.homomorphism.laid_out[letter];
         if (simple && lay_out(*simple, values, picture)) return 1;
     }
-    std::shared_ptr<Painter>& painter = state.model->painters.local();
-    if (!painter) painter = std::make_shared<Painter>(*state.model);
-    painter->work_for(state);
-    const Identity identity = string.has_identities() ? string.identities[module] : mix(module);
+    std::shared_ptr<PictureWriter>& writer = state.model->picture_writers.local();
+    if (!writer) writer = std::make_shared<PictureWriter>(*state.model);
+    writer->work_for(state);
+    const Identity identity = string.has_lineage() ? string.identity(module) : mix(module);
     const Subject subject{string,
                           {&string, links.partner.data(), offsets ? offsets->data() : nullptr},
                           {module, parameters_at, letter, values, identity}};
     try {
-        return painter->paint(subject, picture);
+        return writer->write(subject, picture);
     } catch (const EvaluationError& error) {
         throw RunError(describe(error, state.model->source->alphabet, letter, values, state.step));
     }

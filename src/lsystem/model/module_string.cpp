@@ -20,9 +20,8 @@ std::size_t held(const Column<T>& column) {
 void ModuleString::clear() {
     letters.clear();
     parameters.clear();
-    identities.clear();
-    parents.clear();
     births.clear();
+    siblings.clear();
 }
 
 void ModuleString::append(LetterId letter, std::span<const double> values) {
@@ -31,11 +30,11 @@ void ModuleString::append(LetterId letter, std::span<const double> values) {
 }
 
 std::size_t ModuleString::content() const {
-    return filled(letters) + filled(parameters) + filled(identities) + filled(parents) + filled(births);
+    return filled(letters) + filled(parameters) + filled(births) + siblings.bytes();
 }
 
 std::size_t ModuleString::bytes() const {
-    return held(letters) + held(parameters) + held(identities) + held(parents) + held(births);
+    return held(letters) + held(parameters) + held(births) + siblings.bytes();
 }
 
 std::vector<std::size_t> parameter_offsets(const ModuleString& string, const Alphabet& alphabet) {

@@ -76,8 +76,8 @@ private:
 struct Batch {
     std::size_t count = 0;
     ColumnProgram::Modules modules;
-    std::array<double*, ColumnProgram::lanes> to;  ///< where their successors' parameters begin
-    std::array<std::uint32_t, ColumnProgram::lanes> changes;
+    std::array<double*, ColumnProgram::lanes> to;            ///< where their successors' parameters begin
+    std::array<std::uint32_t, ColumnProgram::lanes> places;  ///< among what waits
 };
 
 }  // namespace espalier

@@ -116,7 +116,7 @@ bool is_pure(Function function) {
     return function <= Function::noise;
 }
 
-bool draws(Function function) {
+bool samples(Function function) {
     return function >= Function::ran && function <= Function::biran;
 }
 
@@ -229,22 +229,22 @@ double call(Function function, std::span<const double> values, bool quirks) {
     }
 }
 
-double draw(Function function, std::span<const double> values, RandomDraws& draws, const Place& place) {
+double sample(Function function, std::span<const double> values, RandomDraws& random, const Place& place) {
     const bool finite = std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
     require(finite, function, "the arguments must be finite numbers", values, place);
     switch (function) {
         case Function::ran:
-            return values[0] * draws.uniform();
+            return values[0] * random.uniform();
         case Function::nran:
-            return values[0] + values[1] * draws.normal();
+            return values[0] + values[1] * random.normal();
         case Function::bran:
             require(values[0] > 0 && values[1] > 0, function, "both shapes must be positive", values, place);
-            return draws.beta(values[0], values[1]);
+            return random.beta(values[0], values[1]);
         default:
             require(values[0] >= 0 && values[0] <= most_tosses, function, "tosses must be from 0 to 1e8", values,
                     place);
             require(values[1] >= 0 && values[1] <= 1, function, "the probability must be from 0 to 1", values, place);
-            return draws.binomial(values[0], values[1]);
+            return random.binomial(values[0], values[1]);
     }
 }
 

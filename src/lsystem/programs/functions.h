@@ -26,7 +26,7 @@ const char* name_of(Function function);
 Arguments arguments_of(Function function);
 /// A function of its arguments alone, so that it may be folded.
 bool is_pure(Function function);
-bool draws(Function function);
+bool samples(Function function);
 /// Its calls have an order that matters: it prints, uses files, seeds, stops or changes the derivation length.
 bool has_order(Function function);
 
@@ -38,7 +38,7 @@ double remainder(double a, double b, bool quirks, const Place& place);
 /// A pure function.
 double call(Function function, std::span<const double> values, bool quirks);
 /// ran, nran, bran, biran. Throws EvaluationError for arguments they are not defined for.
-double draw(Function function, std::span<const double> values, RandomDraws& draws, const Place& place);
+double sample(Function function, std::span<const double> values, RandomDraws& random, const Place& place);
 
 /// Gradient noise in [-1, 1], 0 at whole coordinates (Perlin 2002's interpolant over hashed gradients).
 double gradient_noise(double x, double y, double z);

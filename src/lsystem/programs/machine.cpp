@@ -132,12 +132,12 @@ void Machine::run(const Program& program) {
 double Machine::call(const Instruction& instruction, const Place& place) {
     const std::span<const double> values(registers_.data() + instruction.a, instruction.count);
     if (is_pure(instruction.function)) return espalier::call(instruction.function, values, quirks_);
-    if (espalier::draws(instruction.function)) return draw(instruction.function, values, draws_, place);
+    if (espalier::samples(instruction.function)) return sample(instruction.function, values, random_, place);
     switch (instruction.function) {
         case Function::srand:
             // The stream begins anew with the seed, whoever draws from it.
             services_->salt = std::bit_cast<std::uint64_t>(values[0]);
-            draws_ = RandomDraws(RandomKey(services_->seed, services_->plant, stream_, services_->salt), 0, 0);
+            random_ = RandomDraws(RandomKey(services_->seed, services_->plant, stream_, services_->salt), 0, 0);
             reseeded_ = true;
             return values[0];
         case Function::stop:

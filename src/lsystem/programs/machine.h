@@ -57,8 +57,8 @@ public:
         services_ = services;
         stream_ = stream;
     }
-    void draw_with(const RandomDraws& draws) { draws_ = draws; }
-    const RandomDraws& draws() const { return draws_; }
+    void sample_with(const RandomDraws& numbers) { random_ = numbers; }
+    const RandomDraws& random_numbers() const { return random_; }
     /// True once after a program called srand: its stream goes on until the module is done.
     bool reseeded() const { return reseeded_; }
     void forget_reseeding() { reseeded_ = false; }
@@ -101,7 +101,7 @@ private:
     Variables* variables_ = nullptr;
     Services* services_ = nullptr;
     Stream stream_ = Stream::blocks;
-    RandomDraws draws_{RandomKey(), 0, 0};
+    RandomDraws random_{RandomKey(), 0, 0};
     bool reseeded_ = false;
 };
 

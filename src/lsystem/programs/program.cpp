@@ -60,7 +60,7 @@ bool is_unary(Operator op) {
 Effects& Effects::operator|=(const Effects& other) {
     assigns |= other.assigns;
     ordered |= other.ordered;
-    draws |= other.draws;
+    samples |= other.samples;
     loops |= other.loops;
     return *this;
 }

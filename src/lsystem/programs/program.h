@@ -92,7 +92,7 @@ struct ScanCall {
 struct Effects {
     bool assigns = false;  ///< writes globals or arrays
     bool ordered = false;  ///< prints, uses files, seeds, stops or changes the derivation length
-    bool draws = false;    ///< takes random numbers
+    bool samples = false;  ///< takes random numbers
     bool loops = false;
 
     Effects& operator|=(const Effects& other);

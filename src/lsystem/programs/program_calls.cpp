@@ -36,7 +36,7 @@ ProgramCompiler::Operand ProgramCompiler::function(const Expression& expression)
             emit({Opcode::copy, Function::sin, 0, first + k, values[k], 0}, expression.place);
         }
     }
-    if (draws(function)) program_.effects.draws = true;
+    if (samples(function)) program_.effects.samples = true;
     if (has_order(function)) program_.effects.ordered = true;
     return emit({Opcode::call, function, count, temporary(), first, expression.index}, expression.place);
 }

@@ -36,7 +36,9 @@ double height(const PlantGeometry& geometry) {
 // Modules whose life began after `step`.
 std::size_t born_after(const ModuleString& string, int step) {
     std::size_t born = 0;
-    for (const std::uint32_t birth : string.births) born += static_cast<std::int64_t>(birth) > step;
+    for (std::size_t module = 0; module < string.births.size(); ++module) {
+        born += static_cast<std::int64_t>(string.step_of_birth(module)) > step;
+    }
     return born;
 }
 

@@ -219,7 +219,7 @@ void Walk::ask() {
     const std::size_t arity = model_->alphabet.arity(letter_);
     if (in_picture_ || arity == 0) return;
     const std::size_t next = std::size_t(module_) + 1;
-    const bool last = next >= string_->size(), known = string_->has_identities();
+    const bool last = next >= string_->size(), known = string_->has_lineage();
     const double* const values = string_->parameters.data() + parameters_at_;
     Query& query = queries_.add();  // unwritten: every member is set
     query.process = processes_ ? (*processes_)[letter_] : std::int16_t(-1);
@@ -230,8 +230,8 @@ void Walk::ask() {
     query.parameters = {values, arity};
     query.following_parameters = {};
     if (!last) query.following_parameters = {values + arity, std::size_t(model_->alphabet.arity(query.following))};
-    query.identity = known ? string_->identities[module_] : 0;
-    query.following_identity = known && !last ? string_->identities[next] : 0;
+    query.identity = known ? string_->identity(module_) : 0;
+    query.following_identity = known && !last ? string_->identity(next) : 0;
     query.pose = turtle().pose;
     query.width = turtle().width;
     query.scale = turtle().scale;

@@ -1,4 +1,4 @@
-#include "lsystem/homomorphism/painter.h"
+#include "lsystem/homomorphism/picture_writer.h"
 
 #include <fmt/format.h>
 
@@ -17,24 +17,24 @@ bool changes(const CompiledRules& rules) {
 
 }  // namespace
 
-Brush::Brush(const CompiledSystem& system)
+SystemPictures::SystemPictures(const CompiledSystem& system)
     : rules(system.homomorphism),
       machine(system.machine()),
       matcher(system, machine),
-      expansion(system.homomorphism, matcher, machine) {
+      expansion(system.homomorphism, matcher, machine, nullptr) {
     for (const CompiledProduction& production : rules.productions) {
         final.push_back(rules.maximum_depth <= 1 || !rules.follow(production));
     }
 }
 
-Painter::Painter(const CompiledModel& model) : model_(model) {
+PictureWriter::PictureWriter(const CompiledModel& model) : model_(model) {
     for (const auto& system : model_.systems) {
-        brushes_.push_back(std::make_unique<Brush>(*system));
+        systems_.push_back(std::make_unique<SystemPictures>(*system));
         changes_ |= changes(system->homomorphism);
     }
 }
 
-void Painter::work_for(Derivation::State& state) {
+void PictureWriter::work_for(Derivation::State& state) {
     if (serial_ == state.serial) return;
     serial_ = state.serial;
     state_ = &state;
@@ -42,18 +42,18 @@ void Painter::work_for(Derivation::State& state) {
     string_ = nullptr;
 }
 
-void Painter::prepare(const CompiledSystem& system, Variables& variables, const StringView& view) {
-    Brush& used = brush(system);
+void PictureWriter::prepare(const CompiledSystem& system, Variables& variables, const StringView& view) {
+    SystemPictures& used = pictures_of(system);
     used.machine.attach(&variables, &services_, Stream::homomorphism);
     used.matcher.view(view);
-    if (!system.picture_draws()) return;
-    used.matcher.set_draws(RandomKey(state_->settings.seed, state_->settings.plant, Stream::homomorphism,
-                                     system.homomorphism.salt.value_or(state_->services.salt)),
-                           state_->step);
+    if (!system.picture_samples()) return;
+    used.matcher.set_random(RandomKey(state_->settings.seed, state_->settings.plant, Stream::homomorphism,
+                                      system.homomorphism.salt.value_or(state_->services.salt)),
+                            state_->step);
 }
 
 /// A homomorphism that multiplies at every depth is caught before it has eaten the machine.
-void Painter::require_bounds(const ModuleString& picture, const CompiledProduction& production) const {
+void PictureWriter::require_bounds(const ModuleString& picture, const CompiledProduction& production) const {
     if (picture.size() % modules_between_looks != 0) return;
     if (picture.size() < most_modules && picture.bytes() <= state_->settings.memory) return;
     throw RunError(
@@ -62,7 +62,7 @@ void Painter::require_bounds(const ModuleString& picture, const CompiledProducti
                     to_string(production.source->place), picture.size()));
 }
 
-std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
+std::size_t PictureWriter::write(const Subject& subject, ModuleString& picture) {
     services_.salt = state_->services.salt;
     services_.stopped = false;
     const CompiledSystem* system = &model_.main();
@@ -79,13 +79,13 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
     } else {
         prepare(*system, state_->variables, subject.view);
     }
-    Brush& used = brush(*system);
+    SystemPictures& used = pictures_of(*system);
     const CompiledProduction* production = used.matcher.choose(system->homomorphism, subject.site);
     if (production && !model_.nested && used.is_final(*production)) {
         used.matcher.begin_successor(*production, subject.site);
         lay_out(used, *production, picture);
     } else if (production) {
-        strict_.assign(production->strict.size(), {subject.site.drawer, 0, 0});
+        strict_.assign(production->strict.size(), {subject.site.identity});
         used.matcher.begin_successor(*production, subject.site);
         stack_.clear();
         used.expansion.push_successor(*production, subject.site.values, strict_.data(), state_->step, 1, stack_);
@@ -100,7 +100,7 @@ std::size_t Painter::paint(const Subject& subject, ModuleString& picture) {
     return production ? production->strict.size() : 0;
 }
 
-void Painter::lay_out(Brush& used, const CompiledProduction& production, ModuleString& picture) const {
+void PictureWriter::lay_out(SystemPictures& used, const CompiledProduction& production, ModuleString& picture) const {
     if (!production.after.empty()) used.machine.run(production.after);
     used.machine.run(production.successor);
     const std::size_t first = picture.parameters.size();
@@ -116,8 +116,8 @@ void Painter::lay_out(Brush& used, const CompiledProduction& production, ModuleS
     picture.letters.insert(picture.letters.end(), letters, letters + production.length);
 }
 
-void Painter::expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
-    brush(model_.main())
+void PictureWriter::expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
+    pictures_of(model_.main())
         .expansion.run(stack_, subject.site, state_->step, [&](const ModuleStack::Entry& entry, const double* values) {
             picture.append(entry.letter, {values, entry.arity});
             require_bounds(picture, production);
@@ -125,11 +125,11 @@ void Painter::expand(const Subject& subject, const CompiledProduction& productio
 }
 
 // What the picture encloses in ?(id) ... $ is drawn by that L-system's homomorphism.
-void Painter::expand_nested(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
+void PictureWriter::expand_nested(const Subject& subject, const CompiledProduction& production, ModuleString& picture) {
     inner_.clear();
     level_ = 0;
     while (!stack_.empty()) {
-        Expansion& expansion = brush(current()).expansion;
+        Expansion& expansion = pictures_of(current()).expansion;
         const ModuleStack::Entry* finished = expansion.replace(stack_, subject.site, state_->step);
         if (!finished) continue;
         picture.append(finished->letter, {expansion.values(), finished->arity});
@@ -138,7 +138,7 @@ void Painter::expand_nested(const Subject& subject, const CompiledProduction& pr
     }
 }
 
-void Painter::pass(LetterId letter, const double* values, const Subject& subject) {
+void PictureWriter::pass(LetterId letter, const double* values, const Subject& subject) {
     if (letter == Alphabet::open_bracket) {
         ++level_;
     } else if (letter == Alphabet::close_bracket) {
@@ -151,7 +151,7 @@ void Painter::pass(LetterId letter, const double* values, const Subject& subject
     }
 }
 
-void Painter::open(double id, const Subject& subject) {
+void PictureWriter::open(double id, const Subject& subject) {
     const CompiledSystem* const system = model_.labelled(id);
     bool inside = system == nullptr;
     for (const Inner& around : inner_) inside |= around.system == system;
@@ -173,7 +173,7 @@ void Painter::open(double id, const Subject& subject) {
     inner_.push_back({system, std::move(variables), level_});
 }
 
-void Painter::look_at(const ModuleString& string) {
+void PictureWriter::look_at(const ModuleString& string) {
     if (string_ == string.letters.data() && size_ == string.size() && generation_ == state_->generation) return;
     scopes_.find(model_, string, state_->step);
     string_ = string.letters.data();
@@ -185,7 +185,7 @@ void Painter::look_at(const ModuleString& string) {
 }
 
 /// A copy of the variables of a scope, and of those around it. One that was never entered is started for the picture.
-Variables& Painter::variables_of(std::uint32_t scope) {
+Variables& PictureWriter::variables_of(std::uint32_t scope) {
     if (variables_[scope]) return *variables_[scope];
     const Scope& own = scopes_.all()[scope];
     const Variables* const grown = scope == 0 ? &state_->variables : state_->sub_systems.find(own);
@@ -197,16 +197,16 @@ Variables& Painter::variables_of(std::uint32_t scope) {
 }
 
 // Its real Start block is still to come: this one is neither heard nor seen.
-void Painter::run_start(const CompiledSystem& system, Variables& variables) {
+void PictureWriter::run_start(const CompiledSystem& system, Variables& variables) {
     state_->rehearse([&](Services& silent) {
         Machine machine = system.machine();
         machine.attach(&variables, &silent, Stream::blocks);
-        machine.draw_with(state_->block_draws);
+        machine.sample_with(state_->block_random);
         machine.run(system.start);
     });
 }
 
-void Painter::forget_variables() {
+void PictureWriter::forget_variables() {
     for (const std::uint32_t scope : made_) variables_[scope] = nullptr;
     made_.clear();
 }

@@ -1,4 +1,4 @@
-// Draws the pictures of modules: one painter per model and thread, whoever's plant it is.
+// Writes the pictures of modules, which the homomorphism makes: one writer per model and thread, whoever's plant it is.
 #pragma once
 
 #include "lsystem/derive/derivation_state.h"
@@ -10,9 +10,9 @@
 namespace espalier {
 
 /// What one L-system's homomorphism needs.
-struct Brush {
-    explicit Brush(const CompiledSystem& system);
-    Brush(const Brush&) = delete;
+struct SystemPictures {
+    explicit SystemPictures(const CompiledSystem& system);
+    SystemPictures(const SystemPictures&) = delete;
 
     /// The production's successor has no picture in turn: it is laid out as it is.
     bool is_final(const CompiledProduction& production) const {
@@ -33,15 +33,15 @@ struct Subject {
     Site site;
 };
 
-class Painter {
+class PictureWriter {
 public:
-    explicit Painter(const CompiledModel& model);
+    explicit PictureWriter(const CompiledModel& model);
 
-    /// Paints for this plant from now on.
+    /// Writes for this plant from now on.
     void work_for(Derivation::State& state);
     /// Appends the picture to `picture`; returns how many modules it replaces, 0 if no production applies.
     /// Throws EvaluationError.
-    std::size_t paint(const Subject& subject, ModuleString& picture);
+    std::size_t write(const Subject& subject, ModuleString& picture);
 
 private:
     /// A sub-L-system that the picture itself opens.
@@ -51,11 +51,11 @@ private:
         int level;
     };
 
-    Brush& brush(const CompiledSystem& system) { return *brushes_[system.index]; }
+    SystemPictures& pictures_of(const CompiledSystem& system) { return *systems_[system.index]; }
     void prepare(const CompiledSystem& system, Variables& variables, const StringView& view);
     void require_bounds(const ModuleString& picture, const CompiledProduction& production) const;
     /// Lays out the successor of a final production.
-    void lay_out(Brush& used, const CompiledProduction& production, ModuleString& picture) const;
+    void lay_out(SystemPictures& used, const CompiledProduction& production, ModuleString& picture) const;
     /// Lays out what is on the stack.
     void expand(const Subject& subject, const CompiledProduction& production, ModuleString& picture);
     void expand_nested(const Subject& subject, const CompiledProduction& production, ModuleString& picture);
@@ -73,8 +73,8 @@ private:
     Derivation::State* state_ = nullptr;
     std::uint64_t serial_ = 0;  ///< of the plant's state: another may come to lie where one was
     const CompiledModel& model_;
-    std::vector<std::unique_ptr<Brush>> brushes_;  ///< of each L-system
-    bool changes_ = false;                         ///< homomorphisms assign, or more
+    std::vector<std::unique_ptr<SystemPictures>> systems_;  ///< of each L-system
+    bool changes_ = false;                                  ///< homomorphisms assign, or more
     ModuleStack stack_;
     std::vector<Lineage> strict_;
     // What the blocks of a picture assign, seed or stop holds for that picture only.

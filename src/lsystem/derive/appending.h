@@ -1,36 +1,31 @@
-// Rewriting in string order, appending.
+// Rewriting one module after the other, appending what replaces it: with decomposition, or where the order matters.
 #pragma once
 
 #include "lsystem/derive/expansion.h"
-#include "lsystem/derive/rewriting.h"
+#include "lsystem/derive/step.h"
 
 #include <atomic>
+#include <deque>
 
 namespace espalier {
 
-/// A string that grows within the step's memory.
-class GrowingString {
+/// A part of the new string, which grows within the step's memory. Rows of siblings come behind those of the old
+/// string; of parts that are joined, each counts its own from there.
+class GrowingPart {
 public:
-    /// Of memory that is lent only what is used counts: how much there is depends on who had it before.
-    enum class Room { own, lent };
+    /// `bytes` counts what all strings of this step hold.
+    GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes);
 
-    /// `bytes` counts what all strings that grow in this step hold.
-    GrowingString(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes, Room room = Room::own);
-
-    void append(LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
+    void append(LetterId letter, const double* values, std::size_t arity, const Birth& birth) {
         if (string_.letters.size() == modules_ || parameters_ - string_.parameters.size() < arity) grow(1, arity);
         string_.letters.push_back(letter);
         string_.parameters.insert(string_.parameters.end(), values, values + arity);
-        if (input_.ancestry == Ancestry::none) return;
-        string_.identities.push_back(lineage.identity);
-        if (input_.ancestry == Ancestry::identities) return;
-        string_.parents.push_back(lineage.parent);
-        string_.births.push_back(lineage.birth);
+        if (input_.lineage) string_.births.push_back(birth);
     }
-
     /// Appends modules of the old string that live on; `parameters` begin at `values`.
     void append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters);
 
+    AddedSiblings siblings;
     std::vector<std::uint64_t> uses;  ///< of each production of the main L-system, for when memory runs out
 
 private:
@@ -44,34 +39,33 @@ private:
 };
 
 /// Rewrites ranges of the string by the rules of one L-system.
-class OnePass {
+class Appending {
 public:
-    OnePass(const StepInput& input, Machine& machine, Services& services, GrowingString& out);
+    Appending(const StepInput& input, Machine& machine, Services& services, GrowingPart& out);
 
     /// Returns where it ended: a predecessor of several modules that names `%` may reach beyond `end`.
     std::size_t run(std::size_t begin, std::size_t end, std::size_t parameters_at);
     /// The same, but modules from `end` on are another L-system's, as is what stands between ?() and $ in successors.
     void run_within(std::size_t begin, std::size_t end, std::size_t parameters_at, const Enclosure& enclosure);
+    /// The random numbers that services tell of, after a block may have seeded them anew.
+    void follow_seed();
     bool reached_limit() const { return decomposition_.reached_limit(); }
 
 private:
     std::size_t rewrite(const Site& site);
-    bool lives_on(LetterId letter) const { return !model_.rules.has(letter) && !model_.decomposition.has(letter); }
+    bool lives_on(LetterId letter) const { return !system_.rules.has(letter) && !system_.decomposition.has(letter); }
     Lineage lineage(std::size_t module) const {
-        if (input_.ancestry == Ancestry::none) return {};
-        if (input_.ancestry == Ancestry::identities) return {input_.from.identities[module]};
-        return {input_.from.identities[module], input_.from.parents[module], input_.from.births[module]};
+        return input_.lineage ? Lineage{input_.from.identity(module), input_.from.births[module]} : Lineage{};
     }
     void decompose(const Site& site);
     void decompose_within(const Site& site);
     void follow_reseeding();
-    void set_draws();
 
     const StepInput& input_;
-    const CompiledSystem& model_;
+    const CompiledSystem& system_;
     Machine& machine_;
     Services& services_;
-    GrowingString& out_;
+    GrowingPart& out_;
     Matcher matcher_;
     Expansion rewriting_, decomposition_;
     ModuleStack stack_;
@@ -80,5 +74,11 @@ private:
     const Enclosure* enclosure_ = nullptr;
     bool decomposing_ = false;
 };
+
+/// Makes `to` of parts, in their order, while `held` bytes are held besides.
+void join(const StepInput& input, const std::vector<ModuleString>& pieces, const std::deque<GrowingPart>& parts,
+          std::size_t held, ModuleString& to);
+/// Gives a string that was written as a whole the rows of its siblings.
+void add_siblings(const StepInput& input, const GrowingPart& part, ModuleString& to);
 
 }  // namespace espalier

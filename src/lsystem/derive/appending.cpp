@@ -1,0 +1,248 @@
+#include "lsystem/derive/appending.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace espalier {
+
+// Of the string's memory only what is used counts: how much there is depends on who had it before.
+GrowingPart::GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
+    : siblings(input.from.siblings.size()), string_(string), input_(input), bytes_(bytes) {
+    string_.clear();
+}
+
+void GrowingPart::grow(std::size_t more_modules, std::size_t more_parameters) {
+    const std::size_t modules = string_.letters.size() + more_modules;
+    const std::size_t parameters = string_.parameters.size() + more_parameters;
+    if (modules > modules_) modules_ = std::max<std::size_t>(1024, (modules - 1) * 2);
+    if (parameters > parameters_) parameters_ = std::max<std::size_t>(1024, parameters * 2);
+    const std::size_t needed = bytes_needed({modules_, parameters_, siblings.rows().size()}, input_.lineage);
+    const std::size_t total = bytes_ += needed > held_ ? needed - held_ : 0;
+    held_ = std::max(held_, needed);
+    if (total > input_.memory || modules_ >= BranchLinks::none) refuse_memory(input_, modules_, total, uses);
+    string_.letters.reserve(modules_);
+    string_.parameters.reserve(parameters_);
+    if (input_.lineage) string_.births.reserve(modules_);
+}
+
+void GrowingPart::append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters) {
+    const bool has_room =
+        end - begin <= modules_ - string_.letters.size() && parameters <= parameters_ - string_.parameters.size();
+    if (!has_room) grow(end - begin, parameters);
+    const auto append = [&](auto& column, const auto& old) {
+        column.insert(column.end(), old.data() + begin, old.data() + end);
+    };
+    append(string_.letters, input_.from.letters);
+    string_.parameters.insert(string_.parameters.end(), values, values + parameters);
+    if (input_.lineage) append(string_.births, input_.from.births);
+}
+
+Appending::Appending(const StepInput& input, Machine& machine, Services& services, GrowingPart& out)
+    : input_(input),
+      system_(input.system),
+      machine_(machine),
+      services_(services),
+      out_(out),
+      matcher_(input.system, input.view, machine),
+      rewriting_(system_.rules, matcher_, machine, input.lineage ? &out.siblings : nullptr),
+      decomposition_(system_.decomposition, matcher_, machine, input.lineage ? &out.siblings : nullptr) {
+    matcher_.set_random(input.key, input.step);
+    if (system_.index == 0) out_.uses.resize(system_.rules.productions.size());
+}
+
+namespace {
+
+/// Whether what a successor writes stands within a sub-L-system that the same successor opened.
+class Inside {
+public:
+    bool any() const { return open_ > 0; }
+    void pass(LetterId letter, const Enclosure& enclosure) {
+        if (letter == Alphabet::open_bracket) {
+            ++level_;
+        } else if (letter == Alphabet::close_bracket) {
+            if (level_-- == opened_at_) open_ = 0;
+        } else if (enclosure.opens(letter)) {
+            if (open_++ == 0) opened_at_ = level_;
+        } else if (letter == enclosure.close && open_ > 0) {
+            --open_;
+        }
+    }
+
+private:
+    int level_ = 0, opened_at_ = 0, open_ = 0;
+};
+
+}  // namespace
+
+std::size_t Appending::run(std::size_t begin, std::size_t end, std::size_t parameters_at) {
+    const auto arities = system_.source->alphabet.arities();
+    const LetterId* letters = input_.from.letters.data();
+    const double* values = input_.from.parameters.data() + parameters_at;
+    std::size_t i = begin;
+    while (i < end) {
+        if (lives_on(letters[i])) {
+            const std::size_t first = i;
+            const double* const first_values = values;
+            for (; i < end && lives_on(letters[i]); ++i) values += arities[letters[i]];
+            out_.append_run(first, i, first_values, static_cast<std::size_t>(values - first_values));
+            continue;
+        }
+        const auto at = static_cast<std::size_t>(values - input_.from.parameters.data());
+        const Site site{i, at, letters[i], values, lineage(i).identity, 0};
+        std::size_t consumed = 0;
+        try {
+            decomposing_ = false;
+            consumed = rewrite(site);
+        } catch (const EvaluationError& error) {
+            const LetterId letter = decomposing_ ? decomposition_.letter() : letters[i];
+            throw RunError(describe(error, system_.source->alphabet, letter,
+                                    decomposing_ ? decomposition_.values() : values, input_.step));
+        }
+        for (const std::size_t next = i + consumed; i < next; ++i) values += arities[letters[i]];
+    }
+    return i;
+}
+
+/// Replaces the modules at a site; returns how many they were.
+std::size_t Appending::rewrite(const Site& site) {
+    const CompiledProduction* production = matcher_.choose(system_.rules, site);
+    const std::size_t width = production ? production->strict.size() : 1;
+    if (production) {
+        if (system_.index == 0) ++out_.uses[static_cast<std::size_t>(production - system_.rules.productions.data())];
+        matcher_.begin_successor(*production, site);
+        strict_.clear();
+        for (std::size_t k = 0; k < width; ++k) strict_.push_back(lineage(site.first + k));
+        if (!production->decomposes && !enclosure_) {
+            rewriting_.emit_successor(
+                *production, site.values, strict_.data(), input_.step,
+                [&](LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
+                    out_.append(letter, values, arity, lineage.birth);
+                });
+            follow_reseeding();
+            return width;
+        }
+        rewriting_.push_successor(*production, site.values, strict_.data(), input_.step, 0, stack_);
+        follow_reseeding();
+    } else {
+        const int arity = system_.source->alphabet.arity(site.letter);
+        if (!system_.decomposition.has(site.letter)) {
+            out_.append(site.letter, site.values, static_cast<std::size_t>(arity), lineage(site.first).birth);
+            return 1;
+        }
+        stack_.push({site.letter, static_cast<std::uint16_t>(arity), 0, lineage(site.first)}, site.values);
+    }
+    Site origin = site;
+    origin.width = width;
+    decompose(origin);
+    return width;
+}
+
+void Appending::run_within(std::size_t begin, std::size_t end, std::size_t parameters_at, const Enclosure& enclosure) {
+    enclosure_ = &enclosure;
+    matcher_.limit(end);
+    follow_seed();
+    run(begin, end, parameters_at);
+}
+
+void Appending::decompose(const Site& site) {
+    decomposing_ = true;
+    if (!enclosure_) {
+        decomposition_.run(stack_, site, input_.step, [&](const ModuleStack::Entry& entry, const double* values) {
+            out_.append(entry.letter, values, entry.arity, entry.lineage.birth);
+        });
+    } else {
+        decompose_within(site);
+    }
+    follow_reseeding();
+}
+
+void Appending::decompose_within(const Site& site) {
+    Inside inside;
+    while (!stack_.empty()) {
+        if (inside.any()) {
+            const ModuleStack::Entry entry = stack_.pop(values_);
+            out_.append(entry.letter, values_.data(), entry.arity, entry.lineage.birth);
+            inside.pass(entry.letter, *enclosure_);
+            continue;
+        }
+        const ModuleStack::Entry* finished = decomposition_.replace(stack_, site, input_.step);
+        if (!finished) continue;
+        out_.append(finished->letter, decomposition_.values(), finished->arity, finished->lineage.birth);
+        inside.pass(finished->letter, *enclosure_);
+    }
+}
+
+// srand() in a production begins the stream anew for all modules that follow, too.
+void Appending::follow_reseeding() {
+    if (machine_.reseeded()) follow_seed();
+}
+
+void Appending::follow_seed() {
+    matcher_.set_random(RandomKey(services_.seed, services_.plant, Stream::derivation, services_.salt), input_.step);
+}
+
+namespace {
+
+template <class T>
+void copy_column(const Column<T>& from, Column<T>& to, std::size_t at) {
+    if (!from.empty()) std::memcpy(to.data() + at, from.data(), from.size() * sizeof(T));
+}
+
+void copy_rows(const StepInput& input, const GrowingPart& part, std::size_t at, ModuleString& to) {
+    const Column<Siblings>& rows = part.siblings.rows();
+    for (std::size_t k = 0; k < rows.size(); ++k) to.siblings.added(input.from.siblings.size() + at + k) = rows[k];
+}
+
+/// `at`: where the part begins in the new string.
+void copy_part(const StepInput& input, const ModuleString& piece, const GrowingPart& part, const Extent& at,
+               ModuleString& to) {
+    copy_column(piece.letters, to.letters, at.modules);
+    copy_column(piece.parameters, to.parameters, at.parameters);
+    const std::size_t rows_before = input.from.siblings.size();
+    for (std::size_t k = 0; k < piece.births.size(); ++k) {
+        Birth& birth = to.births[at.modules + k] = piece.births[k];
+        if (birth.siblings >= rows_before) birth.siblings += static_cast<std::uint32_t>(at.siblings);
+    }
+    if (input.lineage) copy_rows(input, part, at.siblings, to);
+}
+
+}  // namespace
+
+void join(const StepInput& input, const std::vector<ModuleString>& pieces, const std::deque<GrowingPart>& parts,
+          std::size_t held, ModuleString& to) {
+    std::vector<Extent> at;
+    Extent all;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        at.push_back(all);
+        all += {pieces[k].size(), pieces[k].parameters.size(), parts[k].siblings.rows().size()};
+    }
+    make_room(input, all, held, to, [] { return std::vector<std::uint64_t>(); });
+    tbb::parallel_for(std::size_t{0}, parts.size(),
+                      [&](std::size_t k) { copy_part(input, pieces[k], parts[k], at[k], to); });
+    if (input.lineage) drop_unused_siblings(to);
+}
+
+void add_siblings(const StepInput& input, const GrowingPart& part, ModuleString& to) {
+    if (!input.lineage) return;
+    to.siblings = input.from.siblings.grown(part.siblings.rows().size());
+    copy_rows(input, part, 0, to);
+    drop_unused_siblings(to);
+}
+
+void rewrite_and_decompose(const StepInput& input, Scratch& scratch, Machines& machines, Services& services,
+                           ModuleString& to, std::atomic<bool>& limit) {
+    make_chunks(input, scratch);
+    std::atomic<std::size_t> bytes = bytes_before(input);
+    if (scratch.pieces.size() < scratch.chunks.size()) scratch.pieces.resize(scratch.chunks.size());
+    std::deque<GrowingPart> parts;
+    for (std::size_t k = 0; k < scratch.chunks.size(); ++k) parts.emplace_back(scratch.pieces[k], input, bytes);
+    for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) {
+        Appending appending(input, machine, services, parts[static_cast<std::size_t>(&chunk - scratch.chunks.data())]);
+        appending.run(chunk.begin, chunk.end, chunk.parameters_begin);
+        if (appending.reached_limit()) limit = true;
+    });
+    // Parts of small strings are the thread's.
+    join(input, scratch.pieces, parts, input.from.size() <= grain ? bytes_before(input) : bytes.load(), to);
+}
+
+}  // namespace espalier

@@ -1,0 +1,60 @@
+// Match and choose, prefix sum, write: every chunk of the old string knows where its part of the new one begins.
+#include "lsystem/derive/choose.h"
+#include "lsystem/derive/write.h"
+
+namespace espalier {
+namespace {
+
+/// What a chunk's modules are replaced by; where letters tell all, in the thread's memory.
+std::span<const Replacement> replacements_of(const StepInput& input, const Chunk& chunk) {
+    if (!input.system.plans.all_known) return chunk.replacements;
+    static thread_local Column<Replacement> known;
+    const std::size_t count = list_known_replacements(input, chunk, known);
+    return {known.data(), count};
+}
+
+std::vector<std::uint64_t> count_uses(const StepInput& input, const std::vector<Chunk>& chunks) {
+    const std::vector<CompiledProduction>& productions = input.system.rules.productions;
+    std::vector<std::uint64_t> uses(productions.size());
+    for (const Chunk& chunk : chunks) {
+        std::size_t replaced = chunk.begin;  // modules before this one
+        for (const Replacement& replacement : replacements_of(input, chunk)) {
+            if (replacement.module < replaced) continue;
+            const Plan& plan = input.system.plans.choices[replacement.plan];
+            if (plan.production) ++uses[static_cast<std::size_t>(plan.production - productions.data())];
+            replaced = replacement.module + plan.width;
+        }
+    }
+    return uses;
+}
+
+/// Turns what the chunks become into places, and makes room for the new string.
+void place(const StepInput& input, std::vector<Chunk>& chunks, ModuleString& to) {
+    Extent all;
+    for (Chunk& chunk : chunks) {
+        chunk.at = all;
+        all += chunk.becomes;
+    }
+    make_room(input, all, bytes_before(input), to, [&] { return count_uses(input, chunks); });
+}
+
+}  // namespace
+
+void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
+    make_chunks(input, scratch);
+    if (!input.system.plans.all_known) {
+        scratch.outcomes.resize(input.system.choosing.places() > 1 ? input.from.size() : 0);
+        scratch.replacements.resize(input.from.size() + scratch.chunks.size());
+        for_each_chunk(scratch.chunks, machines,
+                       [&](Chunk& chunk, Machine& machine) { choose_replacements(input, scratch, chunk, machine); });
+    }
+    place(input, scratch.chunks, to);
+    for_each_chunk(scratch.chunks, machines, [&](Chunk& chunk, Machine& machine) {
+        const std::span<const Replacement> replacements = replacements_of(input, chunk);
+        write(input, chunk, replacements, machine, to);
+        if (input.lineage) write_births(input, chunk, replacements, to);
+    });
+    if (input.lineage) drop_unused_siblings(to);
+}
+
+}  // namespace espalier

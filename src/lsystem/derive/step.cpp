@@ -1,0 +1,174 @@
+#include "lsystem/derive/step.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace espalier {
+namespace {
+
+template <class T>
+void resize_column(Column<T>& column, std::size_t size, std::size_t spare) {
+    const std::size_t room = column.capacity();
+    if (column.size() == size && (size == 0 || room - size >= spare)) return;
+    column.clear();
+    if (size > 0 && room < size + spare) {
+        Column<T>().swap(column);
+        column.reserve(size + size / 8 + spare);
+    }
+    column.resize(size);
+}
+
+/// Adds up what letters alone say of a chunk.
+void count_known(const StepInput& input, Chunk& chunk) {
+    const PackedSizes& sizes = input.system.plans.sizes;
+    const std::uint64_t* const of_letter = sizes.of_letter.data();
+    const LetterId* const letters = input.from.letters.data();
+    const auto field = [](std::uint64_t sum, int k) { return sum >> k * PackedSizes::bits & PackedSizes::mask; };
+    for (std::size_t i = chunk.begin; i < chunk.end;) {
+        const std::size_t end = std::min(i + sizes.at_once, chunk.end);
+        std::uint64_t sum = 0;
+        for (; i < end; ++i) sum += of_letter[letters[i]];
+        chunk.becomes += {field(sum, 0), field(sum, 1), field(sum, 3)};
+        chunk.parameters_end += field(sum, 2);
+    }
+}
+
+/// The same for plans that are too large to be added up together.
+void count_one_by_one(const StepInput& input, Chunk& chunk) {
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+        const Plan& plan = input.system.plans.of_letter(input.from.letters[i]);
+        chunk.becomes += {plan.length, plan.parameters, plan.bears};
+        chunk.parameters_end += plan.reads;
+    }
+}
+
+void count(const StepInput& input, Chunk& chunk) {
+    const Plans& plans = input.system.plans;
+    if (plans.all_known) return plans.sizes.at_once > 0 ? count_known(input, chunk) : count_one_by_one(input, chunk);
+    if (input.from.parameters.empty()) return;
+    const std::uint16_t* const arities = input.system.source->alphabet.arities().data();
+    const LetterId* const letters = input.from.letters.data();
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) chunk.parameters_end += arities[letters[i]];
+}
+
+void require_parameters(const StepInput& input, std::size_t parameters) {
+    if (parameters == input.from.parameters.size()) return;
+    throw RunError(fmt::format("the string holds {} parameters, but its modules have {}", input.from.parameters.size(),
+                               parameters));
+}
+
+/// The first place from `at` on that no production reaches across.
+std::size_t border(const StepInput& input, std::size_t at, std::size_t end) {
+    const LetterId* const letters = input.from.letters.data();
+    while (at < end && input.system.rules.joins(letters[at - 1], letters[at])) ++at;
+    return at;
+}
+
+void split(const StepInput& input, std::size_t begin, std::size_t end, std::vector<Chunk>& chunks) {
+    for (std::size_t at = begin; at < end; at = chunks.back().end) {
+        chunks.emplace_back();
+        chunks.back().begin = at;
+        chunks.back().end = border(input, std::min(end, at + grain), end);
+    }
+}
+
+}  // namespace
+
+void make_chunks(const StepInput& input, Scratch& scratch) {
+    std::vector<Chunk>& chunks = scratch.chunks;
+    chunks.clear();
+    std::vector<std::size_t> cut;  // chunks that are not kept; counted, too, so that others know where they begin
+    std::size_t at = 0;
+    const auto split_cut = [&](std::size_t end) {
+        const std::size_t first = chunks.size();
+        split(input, at, end, chunks);
+        for (std::size_t k = first; k < chunks.size(); ++k) cut.push_back(k);
+    };
+    for (const auto& [begin, end] : input.kept) {
+        split_cut(begin);
+        split(input, begin, end, chunks);
+        at = end;
+    }
+    split_cut(input.from.size());
+
+    if (chunks.size() == 1)
+        count(input, chunks[0]);
+    else
+        tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
+    std::size_t parameters = 0;
+    for (Chunk& chunk : chunks) {
+        chunk.parameters_begin = parameters;
+        chunk.parameters_end = parameters += chunk.parameters_end;
+    }
+    require_parameters(input, parameters);
+    for (const std::size_t k : cut) {
+        chunks[k].end = chunks[k].begin;
+        chunks[k].parameters_end = chunks[k].parameters_begin;
+        chunks[k].becomes = {};
+    }
+    if (!chunks.empty()) chunks.back().is_last = true;
+}
+
+std::size_t bytes_needed(const Extent& extent, bool lineage) {
+    const std::size_t bytes = extent.modules * sizeof(LetterId) + extent.parameters * sizeof(double);
+    return lineage ? bytes + extent.modules * sizeof(Birth) + extent.siblings * sizeof(Siblings) : bytes;
+}
+
+void resize(ModuleString& string, const Extent& extent, bool lineage) {
+    resize_column(string.letters, extent.modules, spare_letters);
+    resize_column(string.parameters, extent.parameters, spare_values);
+    resize_column(string.births, lineage ? extent.modules : 0, spare_births);
+    string.siblings.clear();
+}
+
+void make_room(const StepInput& input, const Extent& added, std::size_t held, ModuleString& to,
+               const std::function<std::vector<std::uint64_t>()>& uses) {
+    const std::size_t siblings = input.from.siblings.size() + added.siblings;
+    const std::size_t bytes = held + bytes_needed({added.modules, added.parameters, siblings}, input.lineage);
+    const bool is_countable = added.modules < BranchLinks::none && siblings < BranchLinks::none;
+    if (bytes > input.memory || !is_countable) refuse_memory(input, added.modules, bytes, uses());
+    resize(to, added, input.lineage);
+    if (input.lineage) to.siblings = input.from.siblings.grown(added.siblings);
+}
+
+void refuse_memory(const StepInput& input, std::size_t modules, std::size_t bytes,
+                   const std::vector<std::uint64_t>& uses) {
+    const CompiledProduction* fastest = nullptr;
+    std::uint64_t most = 0;
+    for (std::size_t p = 0; p < uses.size(); ++p) {
+        const CompiledProduction& production = input.system.rules.productions[p];
+        if (production.length <= production.strict.size()) continue;
+        const std::uint64_t added = uses[p] * (production.length - production.strict.size());
+        if (added <= most) continue;
+        most = added;
+        fastest = &production;
+    }
+    std::string message =
+        fmt::format("step {}: the string would grow to {} modules and {} MiB, more than its memory of {} MiB",
+                    input.step, modules, bytes >> 20, input.memory >> 20);
+    if (fastest) {
+        const Place& place = fastest->source->place;
+        message += fmt::format("; the production{}{} for {} adds the most, {} modules", place.known() ? " at " : "",
+                               to_string(place), input.system.source->alphabet.name(fastest->strict[0].letter), most);
+    }
+    throw RunError(message);
+}
+
+void drop_unused_siblings(ModuleString& string) {
+    constexpr std::size_t few = 8;
+    if (string.siblings.size() <= string.size() + string.size() / 2 + few) return;
+    const SiblingTable old = string.siblings;
+    Column<std::uint32_t> rows(old.size());  // where each goes
+    std::fill(rows.begin(), rows.end(), 0u);
+    for (const Birth& birth : string.births) rows[birth.siblings] = 1;
+    std::uint32_t kept = 0;
+    for (std::uint32_t& row : rows) kept += std::exchange(row, row ? kept : BranchLinks::none) != 0;
+    string.siblings = SiblingTable().grown(kept);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (rows[k] != BranchLinks::none) string.siblings.added(rows[k]) = old[k];
+    }
+    for (Birth& birth : string.births) birth.siblings = rows[birth.siblings];
+}
+
+}  // namespace espalier

@@ -1,0 +1,121 @@
+// One derivation step of a string: what the ways of doing it share.
+#pragma once
+
+#include "lsystem/compile/compiled_model.h"
+#include "lsystem/contexts/matching.h"
+#include "lsystem/derive/workplace.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace espalier {
+
+/// Everything a step reads.
+struct StepInput {
+    const CompiledSystem& system;
+    const ModuleString& from;
+    StringView view;
+    RandomKey key;
+    std::uint32_t step = 0;
+    bool lineage = false;  ///< births are kept
+    std::size_t memory = 0;
+    /// Ranges of modules that live on: the whole string but for what a `%` cuts off.
+    const std::vector<std::pair<std::size_t, std::size_t>>& kept;
+
+    /// For random numbers; 0 where nobody takes any.
+    Identity identity(std::size_t module) const { return lineage && system.samples() ? from.identity(module) : 0; }
+};
+
+/// A module that is replaced, or may be.
+struct Replacement {
+    std::size_t parameters_at;  ///< of the module, in the old string
+    std::uint32_t module;
+    std::uint32_t plan;  ///< among Plans::choices; the module's place in the table of outcomes until that is known
+};
+
+/// A range of the string that one thread rewrites.
+struct Chunk {
+    std::size_t begin = 0, end = 0;
+    std::size_t parameters_begin = 0, parameters_end = 0;
+    Extent becomes;  ///< what replaces it
+    Extent at;       ///< where that begins in the new string
+    /// Where letters do not tell all: what is replaced.
+    std::span<const Replacement> replacements;
+    bool is_last = false;  ///< behind it columns may have room for whole blocks
+    std::string error;
+};
+
+/// Memory that steps reuse.
+struct Scratch {
+    BranchLinks links;
+    Neighbours neighbours;
+    ParameterPlaces places;
+    std::vector<std::pair<std::size_t, std::size_t>> kept;
+    std::vector<Chunk> chunks;
+    Column<LetterId> outcomes;         ///< each module's place in the table of outcomes
+    Column<Replacement> replacements;  ///< of all chunks
+    std::vector<ModuleString> pieces;  ///< parts of the new string whose length is not known before they are written
+};
+
+/// Splits what is kept into chunks, finds where their parameters begin and, where letters tell all, what they become.
+/// Throws RunError if the string has not as many parameters as its letters say.
+void make_chunks(const StepInput& input, Scratch& scratch);
+
+/// Calls work(chunk, machine) for all chunks, in parallel if there are several. If several fail, the first in string
+/// order is reported.
+template <class Work>
+void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, Work&& work) {
+    if (chunks.size() == 1) return work(chunks[0], machines.local());
+    std::atomic<std::size_t> failed = chunks.size();
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) {
+        if (k > failed.load()) return;  // an earlier chunk's error will be reported
+        try {
+            work(chunks[k], machines.local());
+        } catch (const RunError& error) {
+            chunks[k].error = error.what();
+            std::size_t first = failed.load();
+            while (k < first && !failed.compare_exchange_weak(first, k)) {
+            }
+        }
+    });
+    if (failed < chunks.size()) throw RunError(chunks[failed].error);
+}
+
+/// Bytes of a string, without the room that its memory has besides: that may have been another plant's.
+std::size_t bytes_needed(const Extent& extent, bool lineage);
+inline std::size_t bytes_before(const StepInput& input) {
+    return bytes_needed({input.from.size(), input.from.parameters.size(), input.from.siblings.size()}, input.lineage);
+}
+
+/// Makes the columns of a string so large, giving memory back first if they are too small.
+void resize(ModuleString& string, const Extent& extent, bool lineage);
+
+/// Makes `to` as large as what the step from `input` writes, whose siblings come behind those of the old string. Throws
+/// RunError if the step would outgrow its memory with the `held` bytes of the old string and of parts; `uses` then
+/// counts the uses of each production.
+void make_room(const StepInput& input, const Extent& added, std::size_t held, ModuleString& to,
+               const std::function<std::vector<std::uint64_t>()>& uses);
+[[noreturn]] void refuse_memory(const StepInput& input, std::size_t modules, std::size_t bytes,
+                                const std::vector<std::uint64_t>& uses);
+
+/// Forgets rows of siblings that none of the string's modules belong to, once they are most of the table.
+void drop_unused_siblings(ModuleString& string);
+
+// The three ways of doing a step. All write the same string.
+
+/// Match and choose, prefix sum, write, in parallel: for productions that can be applied in any order, without
+/// decomposition.
+void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to);
+
+/// Chunks are rewritten and decomposed apart, and then joined. `limit` is set if decomposition stopped at its maximum
+/// depth though it could have gone on.
+void rewrite_and_decompose(const StepInput& input, Scratch& scratch, Machines& machines, Services& services,
+                           ModuleString& to, std::atomic<bool>& limit);
+
+}  // namespace espalier
