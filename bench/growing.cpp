@@ -26,8 +26,6 @@ void copy_column(const Column<T>& from, Column<T>& to) {
 void copy_columns(const ModuleString& from, ModuleString& to) {
     copy_column(from.letters, to.letters);
     copy_column(from.parameters, to.parameters);
-    copy_column(from.identities, to.identities);
-    copy_column(from.parents, to.parents);
     copy_column(from.births, to.births);
 }
 

@@ -71,6 +71,8 @@ public:
     std::size_t working_memory(const ModuleString& string) const;
     /// Instead of DerivationSettings::memory from now on.
     void set_memory(std::size_t bytes);
+    /// Instead of DerivationSettings::lineage, before start().
+    void set_lineage(bool kept);
 
     int steps_done() const;
     /// The model's derivation length, or what a scene set with set_length().

@@ -321,6 +321,11 @@ void Derivation::set_memory(std::size_t bytes) {
     state_->settings.memory = bytes;
 }
 
+void Derivation::set_lineage(bool kept) {
+    state_->settings.lineage = kept;
+    state_->lineage = keeps_lineage(*state_->model, state_->settings);
+}
+
 int Derivation::steps_done() const {
     return static_cast<int>(state_->step);
 }

@@ -50,7 +50,7 @@ struct Derivation::State {
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
     const bool in_order;  ///< steps replace one module after the other
-    const bool lineage;   ///< births are kept: somebody asks, or random numbers are taken
+    bool lineage;         ///< births are kept: somebody asks, or random numbers are taken
     /// Grows with every change of variables, so that writers of pictures know what they have seen.
     std::uint64_t generation = 0;
     Scratch* scratch = nullptr;  ///< lent for the step at hand
