@@ -20,7 +20,7 @@ void nested_branches(benchmark::State& state, bool with_context) {
         model.rule("", "A", "B", "A");
     else
         model.rule("A", "A");
-    derive(state, model, {.steps = 20, .counts = Counts::visits});
+    derive(state, model, {.steps = 20, .lineage = true, .counts = Counts::visits});
 }
 
 void right_context_across_branches(benchmark::State& state) {
@@ -46,7 +46,7 @@ void two_sided_context(benchmark::State& state) {
     }
     model.rule("+", "-");
     model.rule("-", "+");
-    derive(state, model, {.steps = 50, .counts = Counts::visits});
+    derive(state, model, {.steps = 50, .lineage = true, .counts = Counts::visits});
 }
 BENCHMARK(two_sided_context)->Arg(1)->Arg(2)->UseRealTime();
 
@@ -74,7 +74,7 @@ void signals_with_parameters(benchmark::State& state) {
         model.make({}, {{"I", 2}}, {{"I", 2}}, {model.module("I", {formal(0), formal(3) * number(0.5)})});
     falls.condition = number(0) < formal(3);
     model.add(std::move(falls));
-    derive(state, model, {.steps = 50, .counts = Counts::visits});
+    derive(state, model, {.steps = 50, .lineage = true, .counts = Counts::visits});
 }
 BENCHMARK(signals_with_parameters)->Arg(1)->UseRealTime();
 

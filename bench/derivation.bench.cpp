@@ -1,5 +1,5 @@
-// Derivation: a bare D0L plant and a parametric tree, each beside plain C++ for its rule; a stochastic bush.
-// Items are modules written.
+// Derivation as runs do it, with lineage: a bare D0L plant and a parametric tree, each beside plain C++ for its rule,
+// which keeps no lineage; a stochastic bush. Items are modules written.
 #include "growing.h"
 
 #include <string>
@@ -18,23 +18,23 @@ void make_bare_plant(ModelBuilder& model) {
 void bare_plant(benchmark::State& state) {
     ModelBuilder model;
     make_bare_plant(model);
-    derive(state, model, {.steps = 10});
-}
-BENCHMARK(bare_plant)->Arg(1)->Arg(2)->UseRealTime();
-
-void bare_plant_with_lineage(benchmark::State& state) {
-    ModelBuilder model;
-    make_bare_plant(model);
     derive(state, model, {.steps = 10, .lineage = true});
 }
-BENCHMARK(bare_plant_with_lineage)->Arg(1)->UseRealTime();
+BENCHMARK(bare_plant)->Arg(1)->UseRealTime();
 
-void bare_plant_with_lineage_copied(benchmark::State& state) {
+void bare_plant_without_lineage(benchmark::State& state) {
+    ModelBuilder model;
+    make_bare_plant(model);
+    derive(state, model, {.steps = 10});
+}
+BENCHMARK(bare_plant_without_lineage)->Arg(1)->UseRealTime();
+
+void bare_plant_copied(benchmark::State& state) {
     ModelBuilder model;
     make_bare_plant(model);
     copy(state, model, {.steps = 10, .lineage = true});
 }
-BENCHMARK(bare_plant_with_lineage_copied)->UseRealTime();
+BENCHMARK(bare_plant_copied)->UseRealTime();
 
 void bare_plant_plain(benchmark::State& state) {
     std::int64_t modules = 0;
@@ -59,49 +59,26 @@ void bare_plant_plain(benchmark::State& state) {
 }
 BENCHMARK(bare_plant_plain)->UseRealTime();
 
-/// Only the last string is wanted; modules of all strings are counted, as above.
-void bare_plant_leap(benchmark::State& state) {
-    ModelBuilder model;
-    make_bare_plant(model);
-    Derivation derivation(model.compiled());
-    ModuleString string, next;
-    std::int64_t each = 0, modules = 0;
-    derivation.start(string);
-    for (int k = 0; k < 10; ++k) {
-        derivation.step(string, next);
-        std::swap(string, next);
-        each += static_cast<std::int64_t>(string.size());
-    }
-    for (auto _ : state) {
-        derivation.start(string);
-        derivation.advance(string, next, 10);
-        benchmark::DoNotOptimize(string.letters.data());
-        modules += each;
-    }
-    state.SetItemsProcessed(modules);
-}
-BENCHMARK(bare_plant_leap)->UseRealTime();
-
 void honda_tree(benchmark::State& state) {
-    ModelBuilder model;
-    make_honda(model);
-    derive(state, model, {.steps = 19});
-}
-BENCHMARK(honda_tree)->Arg(1)->Arg(2)->UseRealTime();
-
-void honda_tree_with_lineage(benchmark::State& state) {
     ModelBuilder model;
     make_honda(model);
     derive(state, model, {.steps = 19, .lineage = true});
 }
-BENCHMARK(honda_tree_with_lineage)->Arg(1)->UseRealTime();
+BENCHMARK(honda_tree)->Arg(1)->Arg(2)->UseRealTime();
 
-void honda_tree_with_lineage_copied(benchmark::State& state) {
+void honda_tree_without_lineage(benchmark::State& state) {
+    ModelBuilder model;
+    make_honda(model);
+    derive(state, model, {.steps = 19});
+}
+BENCHMARK(honda_tree_without_lineage)->Arg(1)->UseRealTime();
+
+void honda_tree_copied(benchmark::State& state) {
     ModelBuilder model;
     make_honda(model);
     copy(state, model, {.steps = 19, .lineage = true});
 }
-BENCHMARK(honda_tree_with_lineage_copied)->UseRealTime();
+BENCHMARK(honda_tree_copied)->UseRealTime();
 
 /// The same tree with a condition on every production, so that each apex runs two programs.
 void honda_tree_with_conditions(benchmark::State& state) {
@@ -111,7 +88,7 @@ void honda_tree_with_conditions(benchmark::State& state) {
         production.condition = number(0) < formal(0) * formal(1);
         production.successor.back().arguments[0] = formal(0) * number(0.9) * number(1);
     }
-    derive(state, model, {.steps = 19});
+    derive(state, model, {.steps = 19, .lineage = true});
 }
 BENCHMARK(honda_tree_with_conditions)->Arg(1)->UseRealTime();
 
@@ -124,7 +101,7 @@ void honda_tree_with_choices(benchmark::State& state) {
         production.successor.back().arguments[0] =
             choose(formal(0) < formal(1), formal(0) * number(0.9), formal(0) * number(0.8));
     }
-    derive(state, model, {.steps = 19});
+    derive(state, model, {.steps = 19, .lineage = true});
 }
 BENCHMARK(honda_tree_with_choices)->Arg(1)->UseRealTime();
 
@@ -189,19 +166,19 @@ void stochastic_bush(benchmark::State& state) {
     };
     model.rule({{"A", 1}}, branch(30, 0.7)).weight = number(2);
     model.rule({{"A", 1}}, branch(-30, 0.5)).weight = number(1);
-    derive(state, model, {.steps = 18});
+    derive(state, model, {.steps = 18, .lineage = true});
 }
 BENCHMARK(stochastic_bush)->Arg(1)->UseRealTime();
 
-/// Bytes held for a whole tree, over what its content takes: 2 a symbol and 8 a parameter.
+/// Bytes held for a whole tree, over what its content takes: 2 a symbol, 8 a parameter, and 8 a module for its lineage.
 void bytes_per_module(benchmark::State& state) {
     ModelBuilder model;
     make_honda(model);
     double ratio = 0;
     for (auto _ : state) {
-        Derivation derivation(model.compiled());
+        Derivation derivation(model.compiled(), with_lineage());
         const ModuleString string = grow(derivation, 18);
-        ratio = double(string.bytes()) / double(2 * string.size() + 8 * string.parameters.size());
+        ratio = double(string.bytes()) / double(10 * string.size() + 8 * string.parameters.size());
     }
     state.counters["value"] = ratio;
 }
@@ -209,57 +186,62 @@ BENCHMARK(bytes_per_module)->UseRealTime();
 
 using Measure = Row::Measure;
 using Goal = Row::Goal;
-const Row bare_leap{"bare D0L plant, its last string, against plain C++ with std::string",
-                    "bare_plant_leap/real_time",
-                    "bare_plant_plain/real_time",
-                    Measure::rate,
-                    Goal::at_least,
-                    2};
-const Row bare{"bare D0L plant, every string of it, against the same",
+const Row bare{"bare D0L plant, against plain C++ with std::string and no lineage",
                "bare_plant/1/real_time",
                "bare_plant_plain/real_time",
                Measure::rate,
                Goal::at_least,
-               1};
-// Lineage is 20 bytes a module: memory sets the pace, and what a string without it takes says nothing of that.
-const Row bare_lineage{"bare D0L plant with its lineage, against copying its strings",
-                       "bare_plant_with_lineage/1/real_time",
-                       "bare_plant_with_lineage_copied/real_time",
+               0.25};
+const Row bare_without{"bare D0L plant without lineage, against the same",
+                       "bare_plant_without_lineage/1/real_time",
+                       "bare_plant_plain/real_time",
                        Measure::rate,
                        Goal::at_least,
-                       0.7};
-const Row honda_lineage{"parametric tree with its lineage, against copying its strings",
-                        "honda_tree_with_lineage/1/real_time",
-                        "honda_tree_with_lineage_copied/real_time",
-                        Measure::rate,
-                        Goal::at_least,
-                        0.7};
-const Row honda{"parametric tree, against C++ written for its rule",
+                       0.5};
+// Memory sets the pace, and what a string without lineage takes says nothing of that.
+const Row bare_copied{"bare D0L plant, against copying its strings",
+                      "bare_plant/1/real_time",
+                      "bare_plant_copied/real_time",
+                      Measure::rate,
+                      Goal::at_least,
+                      0.25};
+const Row honda{"parametric tree, against C++ written for its rule and no lineage",
                 "honda_tree/1/real_time",
                 "honda_tree_plain/real_time",
                 Measure::rate,
                 Goal::at_least,
-                0.5};
-// A machine that runs such programs module by module reaches 0.29.
+                0.25};
+const Row honda_without{"parametric tree without lineage, against the same",
+                        "honda_tree_without_lineage/1/real_time",
+                        "honda_tree_plain/real_time",
+                        Measure::rate,
+                        Goal::at_least,
+                        0.4};
+const Row honda_copied{"parametric tree, against copying its strings",
+                       "honda_tree/1/real_time",
+                       "honda_tree_copied/real_time",
+                       Measure::rate,
+                       Goal::at_least,
+                       0.3};
 const Row honda_conditions{"parametric tree with a condition and a program each, against that C++",
                            "honda_tree_with_conditions/1/real_time",
                            "honda_tree_plain/real_time",
                            Measure::rate,
                            Goal::at_least,
-                           0.3};
+                           0.2};
 const Row honda_choices{"parametric tree with && and ?: in its programs, against that C++",
                         "honda_tree_with_choices/1/real_time",
                         "honda_tree_plain/real_time",
                         Measure::rate,
                         Goal::at_least,
-                        0.3};
-const Row honda_2{"parametric tree with 2 threads, against the same on one",
+                        0.18};
+const Row honda_2{"parametric tree with 2 threads, against one",
                   "honda_tree/2/real_time",
-                  "honda_tree_plain/real_time",
-                  Measure::rate,
+                  "honda_tree/1/real_time",
+                  Measure::speedup,
                   Goal::at_least,
-                  0.9};
-const Row bush{"stochastic bush, against the parametric tree",
+                  1.5};
+const Row bush{"stochastic parametric bush, against the parametric tree",
                "stochastic_bush/1/real_time",
                "honda_tree/1/real_time",
                Measure::rate,

@@ -1,5 +1,6 @@
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/simulation.h"
+#include "espalier/turtle/asking.h"
 #include "espalier/turtle/interpretation.h"
 
 #include "command.h"
@@ -24,13 +25,6 @@ struct DeriveArguments {
     bool quiet = false;
     std::size_t memory = 0;
 };
-
-bool has_queries(const Alphabet& alphabet) {
-    for (std::size_t symbol = 0; symbol < alphabet.symbol_count(); ++symbol) {
-        if (alphabet.symbol_name(static_cast<SymbolId>(symbol)).starts_with('?')) return true;
-    }
-    return alphabet.find("s", 2) || alphabet.find("s", 3);  // the older name of ?P
-}
 
 // Answers ?P ?H ?L ?U ?Q; queries to processes keep their parameters.
 class TurtleAnswers {

@@ -32,6 +32,7 @@ public:
           record_(world_, options) {
         if (options.warn) options.warn(world_.warnings());
         if (!options.output.empty()) open_timeline();
+        if (!timeline_ || !timeline_->records()) world_.grow_unseen();
     }
 
     RunResult walk() {

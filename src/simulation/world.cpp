@@ -2,6 +2,7 @@
 
 #include "espalier/base/bytes.h"
 #include "espalier/base/read_log.h"
+#include "espalier/turtle/asking.h"
 
 #include "every_plant.h"
 #include "growing_plant.h"
@@ -69,6 +70,7 @@ struct World::State {
     Scene scene;
     MemoryShares shares;
     MemoryBudget memory;
+    bool is_seen = true;
     ReadLog* reads = ReadLog::current();  ///< of the thread that makes the world
     std::vector<GrowingPlant> plants;
     std::unique_ptr<Environment> environment;
@@ -127,6 +129,7 @@ void World::State::note_ends() {
 }
 
 void World::interpret() {
+    if (!state_->is_seen) return;
     const Stopwatch stopwatch(state_->times.interpret);
     for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
                     [&](GrowingPlant& plant, ModuleString&) {
@@ -137,6 +140,7 @@ void World::interpret() {
 }
 
 void World::exchange() {
+    if (!state_->is_seen) return;
     const Stopwatch stopwatch(state_->times.exchange);
     std::vector<PlantView> views;
     std::vector<ModuleString*> strings;
@@ -238,6 +242,15 @@ World& World::operator=(World&&) noexcept = default;
 void World::attach(Recorder& recorder) {
     state_->recorders.push_back(&recorder);
     state_->memory.count_recorder(recorder);
+}
+
+void World::grow_unseen() {
+    State& state = *state_;
+    const bool asks = std::any_of(state.plants.begin(), state.plants.end(), [](const GrowingPlant& plant) {
+        return has_queries(plant.model().alphabet);
+    });
+    state.is_seen = asks || !state.scene.environment.processes.empty();
+    for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
 }
 
 void World::save(std::ostream& out) const {

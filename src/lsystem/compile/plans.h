@@ -102,9 +102,9 @@ struct Plans {
     /// Of all letters, one after the other: the copy, then the letter's productions in file order.
     std::vector<Plan> choices;
     std::vector<std::uint32_t> first;  ///< by letter: its first choice
-    std::vector<std::uint32_t> known;  ///< by letter: the choice that its letter tells, else the copy
+    std::vector<std::uint32_t> known;  ///< by letter: the choice that the letter decides, else the copy
     std::vector<Lookup> lookups;       ///< by letter
-    bool all_known = true;             ///< letters tell all: no module needs choosing
+    bool all_known = true;             ///< letters alone decide: no module needs choosing
     PackedSizes sizes;                 ///< of known choices
     // The most that any plan reads and writes.
     std::size_t longest = 1, most_parameters = 0, most_read = 0;

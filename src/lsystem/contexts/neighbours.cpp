@@ -20,11 +20,11 @@ std::size_t parts_of(std::size_t modules, std::size_t grain) {
     return (modules + grain - 1) / grain;
 }
 
-/// Looks along a string in one direction. A state is what the next module sees: a neighbour's position, or its class.
+/// Scans a string in one direction. A state is the neighbour of the next module: its position, or its class.
 template <class Value, bool Forward>
-class Look {
+class Scan {
 public:
-    Look(const ContextSide& side, const ModuleString& string, Column<Value>& column, std::vector<Section<Value>>& parts)
+    Scan(const ContextSide& side, const ModuleString& string, Column<Value>& column, std::vector<Section<Value>>& parts)
         : side_(side), letters_(string.letters.data()), size_(string.size()), column_(column), parts_(parts) {}
 
     void run(bool ring, std::size_t grain) {
@@ -73,7 +73,7 @@ private:
 };
 
 template <class Value, bool Forward>
-void Look<Value, Forward>::scan(Section<Value>& part) {
+void Scan<Value, Forward>::scan(Section<Value>& part) {
     part.exits.clear();
     part.entries.resize(part.end - part.begin + 1);
     Value* const base = part.entries.data();
@@ -105,7 +105,7 @@ void Look<Value, Forward>::scan(Section<Value>& part) {
 
 /// Follows branches from part to part. A bracket that ends no branch lets nothing be seen beyond it.
 template <class Value, bool Forward>
-void Look<Value, Forward>::join(bool ring) {
+void Scan<Value, Forward>::join(bool ring) {
     std::vector<Value> branches;
     Value before = unknown;  // of the whole string: in a ring, what is seen from behind it
     for (std::size_t n = 0; n < parts_.size(); ++n) {
@@ -126,7 +126,7 @@ void Look<Value, Forward>::join(bool ring) {
 
 /// Fills in what lies before the part, and before the branches that end in it.
 template <class Value, bool Forward>
-void Look<Value, Forward>::complete(const Section<Value>& part) {
+void Scan<Value, Forward>::complete(const Section<Value>& part) {
     Value* const column = column_.data();
     std::size_t from = Forward ? part.begin : part.end;
     for (std::size_t k = 0; k < part.beyond.size(); ++k) {
@@ -140,105 +140,106 @@ void Look<Value, Forward>::complete(const Section<Value>& part) {
     }
 }
 
-using LookLeft = Look<std::uint8_t, true>;
+using ScanLeft = Scan<std::uint8_t, true>;
 
-/// Looks to both sides: who stands there becomes the left neighbour of those that follow, and is told as the right one
-/// to the module that waits for it.
-void scan_both(const ContextSides& sides, const LetterId* letters, Section<std::uint8_t>& part, Sight& sight,
+/// Scans for both sides: a module becomes the left neighbour of those that follow, and is entered as the right
+/// neighbour of the last module that has none yet.
+void scan_both(const ContextSides& sides, const LetterId* letters, Section<std::uint8_t>& part, PendingRight& pending,
                std::uint8_t* const lefts, std::uint8_t* const rights) {
     const std::uint16_t* const left_codes = sides.left.codes.data();
     const std::uint16_t* const right_codes = sides.right.codes.data();
     const auto end_of_branch = static_cast<std::uint8_t>(right_codes[Alphabet::close_bracket]);
     part.exits.clear();
-    sight.firsts.clear();
-    sight.branches.resize(part.end - part.begin + 1);
-    Sight::Branch* const base = sight.branches.data();
-    Sight::Branch* top = base;
+    pending.firsts.clear();
+    pending.branches.resize(part.end - part.begin + 1);
+    PendingRight::Branch* const base = pending.branches.data();
+    PendingRight::Branch* top = base;
     std::fill(rights + part.begin, rights + part.end, std::uint8_t{0});
-    std::uint8_t* waits = &sight.first;
-    std::uint8_t left = LookLeft::unknown;
+    std::uint8_t* entry = &pending.first;
+    std::uint8_t left = ScanLeft::unknown;
     for (std::size_t i = part.begin, end = part.end; i < end; ++i) {
         const LetterId letter = letters[i];
         lefts[i] = left;
         if (letter > Alphabet::close_bracket) {
             const bool keeps = left_codes[letter] == ContextSide::ignored;
-            *(keeps ? &sight.nobody : waits) = static_cast<std::uint8_t>(right_codes[letter]);
-            waits = keeps ? waits : rights + i;
+            *(keeps ? &pending.nobody : entry) = static_cast<std::uint8_t>(right_codes[letter]);
+            entry = keeps ? entry : rights + i;
             left = keeps ? left : static_cast<std::uint8_t>(left_codes[letter]);
         } else if (letter == Alphabet::open_bracket) {
-            *top++ = {waits, left};
-            waits = &sight.nobody;
+            *top++ = {entry, left};
+            entry = &pending.nobody;
         } else {
-            *waits = end_of_branch;
+            *entry = end_of_branch;
             if (top != base) {
                 --top;
-                waits = top->waits;
+                entry = top->entry;
                 left = top->left;
                 continue;
             }
             part.exits.push_back(static_cast<std::uint32_t>(i));
-            sight.firsts.push_back(sight.first);
-            waits = &sight.first;
-            left = LookLeft::unknown;
+            pending.firsts.push_back(pending.first);
+            entry = &pending.first;
+            left = ScanLeft::unknown;
         }
     }
     part.last = left;
-    sight.waits = waits;
-    sight.branches.resize(static_cast<std::size_t>(top - base));
+    pending.entry = entry;
+    pending.branches.resize(static_cast<std::size_t>(top - base));
     part.entries.clear();
-    for (const Sight::Branch& branch : sight.branches) part.entries.push_back(branch.left);
+    for (const PendingRight::Branch& branch : pending.branches) part.entries.push_back(branch.left);
 }
 
 }  // namespace
 
 void Neighbours::find_both(const ContextSides& sides, const ModuleString& string) {
-    LookLeft look(sides.left, string, left_classes, classes_);
-    look.split(grain_);
+    ScanLeft left_scan(sides.left, string, left_classes, classes_);
+    left_scan.split(grain_);
     right_classes.resize(string.size());
-    sights_.resize(classes_.size());
+    pending_.resize(classes_.size());
     for_each_part(classes_.size(), [&](std::size_t k) {
-        scan_both(sides, string.letters.data(), classes_[k], sights_[k], left_classes.data(), right_classes.data());
+        scan_both(sides, string.letters.data(), classes_[k], pending_[k], left_classes.data(), right_classes.data());
     });
-    look.complete(false);
-    join_sights();
+    left_scan.complete(false);
+    join_pending();
 }
 
-/// Tells those that wait at the end of a part what the next ones show them. Whoever waits in vain has no neighbour.
-void Neighbours::join_sights() {
+/// Tells those that wait at the end of a part what the next ones show them. Whoever entry in vain has no neighbour.
+void Neighbours::join_pending() {
     std::vector<std::uint8_t*> branches;
-    std::uint8_t* waits = nullptr;  // before the part
-    const auto tell = [&](std::uint8_t seen) {
-        if (waits) *waits = seen;
+    std::uint8_t* entry = nullptr;  // before the part
+    const auto enter = [&](std::uint8_t seen) {
+        if (entry) *entry = seen;
     };
-    for (const Sight& sight : sights_) {
-        for (const std::uint8_t seen : sight.firsts) {
-            tell(seen);
-            waits = branches.empty() ? nullptr : branches.back();
+    for (const PendingRight& pending : pending_) {
+        for (const std::uint8_t seen : pending.firsts) {
+            enter(seen);
+            entry = branches.empty() ? nullptr : branches.back();
             if (!branches.empty()) branches.pop_back();
         }
-        const auto known = [&](std::uint8_t* entry) {
-            return entry == &sight.first ? waits : entry == &sight.nobody ? nullptr : entry;
+        const auto known = [&](std::uint8_t* end) {
+            return end == &pending.first ? entry : end == &pending.nobody ? nullptr : end;
         };
-        if ((sight.branches.empty() ? sight.waits : sight.branches[0].waits) != &sight.first) tell(sight.first);
-        for (const Sight::Branch& branch : sight.branches) branches.push_back(known(branch.waits));
-        waits = known(sight.waits);
+        if ((pending.branches.empty() ? pending.entry : pending.branches[0].entry) != &pending.first)
+            enter(pending.first);
+        for (const PendingRight::Branch& branch : pending.branches) branches.push_back(known(branch.entry));
+        entry = known(pending.entry);
     }
 }
 
 void Neighbours::find(const ContextSides& sides, const ModuleString& string) {
     if (string.empty()) return;
     if (sides.positions) {
-        if (sides.left.wanted) Look<std::uint32_t, true>(sides.left, string, left, positions_).run(sides.ring, grain_);
+        if (sides.left.wanted) Scan<std::uint32_t, true>(sides.left, string, left, positions_).run(sides.ring, grain_);
         if (sides.right.wanted)
-            Look<std::uint32_t, false>(sides.right, string, right, positions_).run(sides.ring, grain_);
-        if (sides.next.wanted) Look<std::uint32_t, false>(sides.next, string, next, positions_).run(sides.ring, grain_);
+            Scan<std::uint32_t, false>(sides.right, string, right, positions_).run(sides.ring, grain_);
+        if (sides.next.wanted) Scan<std::uint32_t, false>(sides.next, string, next, positions_).run(sides.ring, grain_);
     } else if (sides.at_once) {
         find_both(sides, string);
     } else {
         if (sides.left.wanted)
-            Look<std::uint8_t, true>(sides.left, string, left_classes, classes_).run(sides.ring, grain_);
+            Scan<std::uint8_t, true>(sides.left, string, left_classes, classes_).run(sides.ring, grain_);
         if (sides.right.wanted)
-            Look<std::uint8_t, false>(sides.right, string, right_classes, classes_).run(sides.ring, grain_);
+            Scan<std::uint8_t, false>(sides.right, string, right_classes, classes_).run(sides.ring, grain_);
     }
 }
 

@@ -9,7 +9,8 @@
 
 namespace espalier {
 
-/// One way of looking along the string: each module that is passed keeps the neighbour or becomes it.
+/// One side of contexts: scanning along the string, each module becomes the neighbour of those that follow, or is
+/// ignored.
 struct ContextSide {
     bool wanted = false;
     bool branches = true;              ///< brackets begin and end branches; else they are modules like others
@@ -25,8 +26,8 @@ struct ContextSides {
     ContextSide next;        ///< to the right, but into branches: for patterns that name `[`
     bool positions = false;  ///< where neighbours stand; else the classes of their letters are enough
     bool ring = false;
-    /// Who is passed over and who is a bracket does not ask what stands to the right: both sides' classes are found in
-    /// one scan.
+    /// No production asks for the right neighbours of brackets or ignored modules: both sides' classes are found in one
+    /// scan.
     bool at_once = false;
 };
 
@@ -36,7 +37,7 @@ inline std::size_t bytes_of_neighbours(const ContextSides& sides) {
     return columns * (sides.positions ? sizeof(std::uint32_t) : sizeof(std::uint8_t));
 }
 
-/// A part of the string, seen from inside: what its modules see beyond it is filled in when all parts are known.
+/// A part of the string that is scanned by itself: neighbours beyond it are filled in when all parts are scanned.
 template <class Value>
 struct Section {
     std::size_t begin = 0, end = 0;
@@ -46,18 +47,19 @@ struct Section {
     std::vector<Value> beyond;         ///< what is seen before this part, and before the branch that each exit ends
 };
 
-/// What a part's modules wait for that look to the right, and what those that wait before it see of the part.
-struct alignas(64) Sight {
-    /// In a branch: the entry of the module that waits for its neighbour, and the class that is seen to the left.
+/// Where right neighbours are still to be entered at the end of a part, and what modules before the part see of it.
+struct alignas(64) PendingRight {
+    /// Of a branch: the entry of the module before it, and the class of its left neighbours.
     struct Branch {
-        std::uint8_t* waits;
+        std::uint8_t* entry;
         std::uint8_t left;
     };
-    Column<Branch> branches;           ///< begun in the part and not ended
-    std::uint8_t* waits = nullptr;     ///< behind the part
-    std::vector<std::uint8_t> firsts;  ///< seen first from before the part, and from before the branches that exits end
-    std::uint8_t first = 0;            ///< entry of those that wait before
-    std::uint8_t nobody = 0;           ///< entry of no module
+    Column<Branch> branches;        ///< begun in the part and not ended
+    std::uint8_t* entry = nullptr;  ///< of the last module of the part
+    std::vector<std::uint8_t>
+        firsts;               ///< right neighbours of modules before the part, and before branches that exits end
+    std::uint8_t first = 0;   ///< entry of a module before the part
+    std::uint8_t nobody = 0;  ///< entry of no module
 };
 
 /// Neighbours of the modules of one string, in the columns that are asked for; memory is reused.
@@ -65,7 +67,7 @@ class Neighbours {
 public:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-    /// So many modules are looked at by one thread before another may have its turn.
+    /// So many modules are scanned by one thread before another may have its turn.
     explicit Neighbours(std::size_t modules = 8192) : grain_(modules) {}
 
     void find(const ContextSides& sides, const ModuleString& string);
@@ -77,12 +79,12 @@ public:
 
 private:
     void find_both(const ContextSides& sides, const ModuleString& string);
-    void join_sights();
+    void join_pending();
 
     std::size_t grain_;
     std::vector<Section<std::uint32_t>> positions_;
     std::vector<Section<std::uint8_t>> classes_;
-    std::vector<Sight> sights_;
+    std::vector<PendingRight> pending_;
 };
 
 /// Where the parameters of each module begin, in half the memory that plain offsets take.

@@ -47,7 +47,7 @@ public:
     std::size_t run(std::size_t begin, std::size_t end, std::size_t parameters_at);
     /// The same, but modules from `end` on are another L-system's, as is what stands between ?() and $ in successors.
     void run_within(std::size_t begin, std::size_t end, std::size_t parameters_at, const Enclosure& enclosure);
-    /// The random numbers that services tell of, after a block may have seeded them anew.
+    /// Takes random numbers from the stream of the seed at hand, which a block may have set.
     void follow_seed();
     bool reached_limit() const { return decomposition_.reached_limit(); }
 

@@ -5,10 +5,11 @@
 
 namespace espalier {
 
-/// Where letters do not tell all: fills in what a chunk's modules are replaced by, and what it becomes.
+/// Where letters alone do not decide: fills in what a chunk's modules are replaced by, and what it becomes.
 void choose_replacements(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine);
 
-/// Where letters tell all: writes what a chunk's modules are replaced by to `replacements`; returns how many they are.
+/// Where letters alone decide: writes what a chunk's modules are replaced by to `replacements`; returns how many they
+/// are.
 std::size_t list_known_replacements(const StepInput& input, const Chunk& chunk, Column<Replacement>& replacements);
 
 /// Adds a module to those that wait, with its neighbours if productions may read their parameters.

@@ -30,10 +30,10 @@ struct Derivation::State {
     void evaluate_length();
     void evaluate_axiom(ModuleString& string);
     void bear_axiom(ModuleString& string) const;
-    void find_what_lives_on(const ModuleString& from);
+    void cut(const ModuleString& from);
     std::size_t end_of_cut(const ModuleString& from, std::size_t cut) const;
     void find_contexts(const ModuleString& from, StringView& view);
-    StepInput read(const ModuleString& from);
+    StepInput prepare(const ModuleString& from);
     void rewrite(const ModuleString& from, ModuleString& to);
     /// One module after the other, each by the rules of the L-system it belongs to.
     void rewrite_in_order(const StepInput& input, ModuleString& to);

@@ -86,12 +86,13 @@ private:
 /// Applies one set of rules to modules, over and over down to its maximum depth.
 class Expansion {
 public:
-    /// Who is born is told `siblings`, unless that is null.
+    /// Rows for those that are born are added to `siblings`, unless that is null.
     Expansion(const CompiledRules& rules, Matcher& matcher, Machine& machine, AddedSiblings* siblings)
         : rules_(rules), matcher_(matcher), machine_(machine), siblings_(siblings) {}
 
     /// Replaces what is on the stack until nothing is left, handing each finished module to `emit`.
-    /// Contexts are those of the module at `origin`. Throws EvaluationError; `letter` and `values` then tell whose.
+    /// Contexts are those of the module at `origin`. Throws EvaluationError; `letter` and `values` are then of the
+    /// module it is about.
     template <class Emitter>
     void run(ModuleStack& stack, const Site& origin, std::uint32_t step, Emitter&& emit);
 

@@ -5,7 +5,7 @@
 namespace espalier {
 namespace {
 
-/// What a chunk's modules are replaced by; where letters tell all, in the thread's memory.
+/// What a chunk's modules are replaced by; where letters alone decide, in the thread's memory.
 std::span<const Replacement> replacements_of(const StepInput& input, const Chunk& chunk) {
     if (!input.system.plans.all_known) return chunk.replacements;
     static thread_local Column<Replacement> known;

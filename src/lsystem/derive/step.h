@@ -45,7 +45,7 @@ struct Chunk {
     std::size_t parameters_begin = 0, parameters_end = 0;
     Extent becomes;  ///< what replaces it
     Extent at;       ///< where that begins in the new string
-    /// Where letters do not tell all: what is replaced.
+    /// Where letters alone do not decide: what is replaced.
     std::span<const Replacement> replacements;
     bool is_last = false;  ///< behind it columns may have room for whole blocks
     std::string error;
@@ -63,8 +63,8 @@ struct Scratch {
     std::vector<ModuleString> pieces;  ///< parts of the new string whose length is not known before they are written
 };
 
-/// Splits what is kept into chunks, finds where their parameters begin and, where letters tell all, what they become.
-/// Throws RunError if the string has not as many parameters as its letters say.
+/// Splits what is kept into chunks, finds where their parameters begin and, where letters alone decide, what they
+/// become. Throws RunError if the string has not as many parameters as its letters say.
 void make_chunks(const StepInput& input, Scratch& scratch);
 
 /// Calls work(chunk, machine) for all chunks, in parallel if there are several. If several fail, the first in string

@@ -45,7 +45,7 @@ public:
                                              std::uint32_t formals, const Place& place);
 
     /// Of `count` modules. `columns` is memory to work in. False if one of them
-    /// divides by zero where that is an error: whoever runs the program for each alone will tell which.
+    /// divides by zero where that is an error: running it for each alone says which.
     bool run(const Modules& modules, std::size_t count, const Variables& variables, bool quirks,
              std::vector<double>& columns) const;
     /// The values of a result, one a module, where `run` left them.

@@ -1,4 +1,4 @@
-// The files of a growing plant: fopen() and its kin, confined to the folders that the derivation was given.
+// The files of a growing plant: fopen() and related functions, confined to the folders that the derivation was given.
 #pragma once
 
 #include "espalier/base/error.h"

@@ -135,7 +135,7 @@ double Machine::call(const Instruction& instruction, const Place& place) {
     if (espalier::samples(instruction.function)) return sample(instruction.function, values, random_, place);
     switch (instruction.function) {
         case Function::srand:
-            // The stream begins anew with the seed, whoever draws from it.
+            // The stream begins anew with the seed, whoever takes numbers from it.
             services_->salt = std::bit_cast<std::uint64_t>(values[0]);
             random_ = RandomDraws(RandomKey(services_->seed, services_->plant, stream_, services_->salt), 0, 0);
             reseeded_ = true;

@@ -12,8 +12,8 @@ namespace espalier {
 /// Extents are numbered vvXmin, vvXmax, vvYmin, vvYmax, vvZmin, vvZmax, vvScale.
 double extent_of_view(const Resources& resources, std::uint32_t which);
 
-/// func, curveX, curveY, curveZ and curveGAL; `resources` may be null. A wrong id has the value 0 and is told to
-/// `warn`.
+/// func, curveX, curveY, curveZ and curveGAL; `resources` may be null. A wrong id has the value 0, and `warn` is
+/// called.
 double side_value(const Resources* resources, Function function, std::span<const double> values,
                   const std::function<void(const std::string&)>& warn);
 

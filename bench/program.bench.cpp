@@ -1,0 +1,117 @@
+// The program as users start it: what a run without recorders takes beside deriving the last string alone, and the most
+// memory that it holds.
+#include "table.h"
+#include "temporary_folder.h"
+
+#include <benchmark/benchmark.h>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+namespace espalier::bench {
+namespace {
+
+const char* const plant = R"(lsystem: 1
+derivation length: 10
+axiom: X
+X --> F-[[X]+X]+F[+FX]-X
+F --> FF
+endlsystem
+)";
+
+const char* const tree = R"(lsystem: 1
+derivation length: 20
+axiom: A(1,10)
+A(l,w) --> !(w)F(l)[&(45)B(l*0.6,w*0.707)]/(137.5)A(l*0.9,w*0.707)
+B(l,w) --> !(w)F(l)[-(45)C(l*0.6,w*0.707)]C(l*0.9,w*0.707)
+C(l,w) --> !(w)F(l)[+(45)B(l*0.6,w*0.707)]B(l*0.9,w*0.707)
+endlsystem
+)";
+
+const char* const scene = R"([[plant]]
+model = "model.l"
+[timeline]
+statistics = false
+skeleton = false
+)";
+
+/// Runs the program without its output; returns the most memory that it held, in MB.
+double run_program(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), ESPALIER_PROGRAM);
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        if (!std::freopen("/dev/null", "w", stdout)) _exit(127);
+        execv(pointers[0], pointers.data());
+        _exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        throw std::runtime_error("the program failed: " + arguments[1]);
+    }
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void measure(benchmark::State& state, const char* model, bool runs) {
+    const TemporaryFolder folder;
+    folder.write("model.l", model);
+    folder.write("scene.toml", scene);
+    const std::string path = folder.path().string();
+    const std::vector<std::string> run{"run",      path + "/scene.toml", "--threads", "1",
+                                       "--output", path + "/output",     "--quiet",   "--overwrite"};
+    const std::vector<std::string> derive{"derive", path + "/model.l", "--format", "counts"};
+    double peak = 0;
+    for (auto _ : state) peak = run_program(runs ? run : derive);
+    state.counters["value"] = peak;
+}
+
+void run_plant(benchmark::State& state) {
+    measure(state, plant, true);
+}
+BENCHMARK(run_plant)->UseRealTime();
+
+void derive_plant(benchmark::State& state) {
+    measure(state, plant, false);
+}
+BENCHMARK(derive_plant)->UseRealTime();
+
+void run_tree(benchmark::State& state) {
+    measure(state, tree, true);
+}
+BENCHMARK(run_tree)->UseRealTime();
+
+void derive_tree(benchmark::State& state) {
+    measure(state, tree, false);
+}
+BENCHMARK(derive_tree)->UseRealTime();
+
+using Measure = Row::Measure;
+using Goal = Row::Goal;
+const Row plant_run{"bare D0L plant, espalier run without recorders, against espalier derive",
+                    "run_plant/real_time",
+                    "derive_plant/real_time",
+                    Measure::time,
+                    Goal::at_most,
+                    2};
+const Row tree_run{"parametric tree, espalier run without recorders, against espalier derive",
+                   "run_tree/real_time",
+                   "derive_tree/real_time",
+                   Measure::time,
+                   Goal::at_most,
+                   2};
+const Row plant_memory{"bare D0L plant, espalier run without recorders: MB at most",
+                       "run_plant/real_time",
+                       "",
+                       Measure::value,
+                       Goal::at_most,
+                       120};
+
+}  // namespace
+}  // namespace espalier::bench
