@@ -195,8 +195,7 @@ void Derivation::set_memory(std::size_t bytes) {
 }
 
 void Derivation::set_lineage(bool kept) {
-    state_->settings.lineage = kept;
-    state_->lineage = keeps_lineage(*state_->model, state_->settings);
+    state_->lineage = state_->keeps_lineage(kept);
 }
 
 int Derivation::steps_done() const {

@@ -12,10 +12,6 @@ namespace {
 
 constexpr double most_steps = 1e9;
 
-bool keeps_lineage(const CompiledModel& model, const DerivationSettings& settings) {
-    return settings.lineage || model.nested || model.samples || model.any(&CompiledSystem::picture_samples);
-}
-
 std::uint64_t next_serial() {
     static std::atomic<std::uint64_t> last{0};
     return ++last;
@@ -28,7 +24,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
       main(model->main()),
       machines(main, variables, services),
       in_order(given.one_by_one || model->nested || main.serial()),
-      lineage(keeps_lineage(*model, given)),
+      lineage(keeps_lineage(given.lineage)),
       settings(std::move(given)),
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
@@ -58,6 +54,10 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
         block_machine.attach(&variables, &services, Stream::blocks);
         reset();
     }
+}
+
+bool Derivation::State::keeps_lineage(bool asked) const {
+    return asked || model->nested || model->samples || model->any(&CompiledSystem::picture_samples);
 }
 
 void Derivation::State::rehearse(const std::function<void(Services& silent)>& work) {

@@ -18,6 +18,7 @@ namespace espalier {
 struct Derivation::State {
     State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given);
 
+    bool keeps_lineage(bool asked) const;
     void reset();
     void run_block(const Program& block, const char* name);
     void follow_length();
