@@ -246,9 +246,8 @@ void World::attach(Recorder& recorder) {
 
 void World::grow_unseen() {
     State& state = *state_;
-    const bool asks = std::any_of(state.plants.begin(), state.plants.end(), [](const GrowingPlant& plant) {
-        return has_queries(plant.model().alphabet);
-    });
+    const bool asks = std::any_of(state.plants.begin(), state.plants.end(),
+                                  [](const GrowingPlant& plant) { return has_queries(plant.model().alphabet); });
     state.is_seen = asks || !state.scene.environment.processes.empty();
     for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
 }

@@ -25,7 +25,8 @@ std::size_t internodes_born(int step, const ModuleString& string, const Column<I
     if (!string.has_lineage()) return 0;
     const auto born = static_cast<std::uint32_t>(step);
     const auto count = [&](const tbb::blocked_range<std::size_t>& range, std::size_t sum) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += string.step_of_birth(internodes[i].module) == born;
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            sum += string.step_of_birth(internodes[i].module) == born;
         return sum;
     };
     constexpr std::size_t worth_sharing = std::size_t{1} << 15;

@@ -129,7 +129,7 @@ struct Dinosaur {
     void measure(const World& world, std::size_t plant, const Shape& shape) {
         std::set<Identity> outside_now;
         for (const Internode& internode : world.interpretation(plant).geometry.internodes) {
-            const Identity identity = world.string(plant).identities[internode.module];
+            const Identity identity = world.string(plant).identity(internode.module);
             const auto [known, is_new] = excess_.try_emplace(identity, 0);
             if (is_new) known->second = shape.distance(internode.tip);
             if (known->second <= 0) continue;
@@ -227,7 +227,7 @@ TEST_CASE("a hedge clipped closer grows anew near the cut, not in its core", "[t
     for (const Internode& internode : clipped.interpretation(0).geometry.internodes) {
         if (symbol(clipped, 0, internode.module) != "I") continue;
         CHECK(closer->distance(internode.base) <= 1e-9);
-        const Identity identity = clipped.string(0).identities[internode.module];
+        const Identity identity = clipped.string(0).identity(internode.module);
         if (before.contains(identity)) {
             ++(near_cut(internode.tip) ? nodes_near : nodes_in_core);
             old_nodes.push_back(internode.tip);

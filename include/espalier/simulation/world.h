@@ -33,8 +33,8 @@ public:
     /// the steps; after the last of them call its finish().
     void attach(Recorder& recorder);
 
-    /// Before start(): nobody will look at geometry or lineages. They are then not made, unless a process reads them or a
-    /// model asks the turtle; frames have strings without lineage and empty interpretations.
+    /// Before start(): nobody will look at geometry or lineages. They are then not made, unless a process reads them or
+    /// a model asks the turtle; frames have strings without lineage and empty interpretations.
     void grow_unseen();
 
     /// Frame 0: every axiom, interpreted, exchanged and recorded.
