@@ -1,10 +1,10 @@
 #include "espalier/lsystem/derivation.h"
 #include "espalier/simulation/simulation.h"
-#include "espalier/turtle/asking.h"
 #include "espalier/turtle/interpretation.h"
 
 #include "command.h"
 #include "options.h"
+#include "turtle/asking.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,12 +2,12 @@
 
 #include "espalier/base/bytes.h"
 #include "espalier/base/read_log.h"
-#include "espalier/turtle/asking.h"
 
 #include "every_plant.h"
 #include "growing_plant.h"
 #include "memory_budget.h"
 #include "string_checkpoint.h"
+#include "turtle/asking.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "espalier/turtle/asking.h"
+#include "turtle/asking.h"
 
 namespace espalier {
 

@@ -1,7 +1,6 @@
 // The order of a derivation: Start and axiom; then in each step StartEach, cut, match, choose, write or decompose,
 // EndEach; and End after the last.
-#include "espalier/base/prefetch.h"
-
+#include "base/prefetch.h"
 #include "lsystem/derive/derivation_state.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "lsystem/derive/derivation_state.h"
 
-#include "espalier/base/excerpt.h"
+#include "base/excerpt.h"
 
 #include <fmt/format.h>
 

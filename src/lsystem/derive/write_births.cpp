@@ -1,6 +1,5 @@
 // Who the modules of the new string are, who bore them, and when.
-#include "espalier/base/vector_clones.h"
-
+#include "base/vector_clones.h"
 #include "lsystem/derive/write.h"
 
 namespace espalier {
