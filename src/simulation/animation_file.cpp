@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 constexpr int most_frames = 1000000000;
@@ -129,4 +129,4 @@ Animation read_animation_file(const std::filesystem::path& path) {
     return read_animation_text(read_text(path), path.string());
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

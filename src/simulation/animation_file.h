@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct Animation {
     FrameSelection frames{1, 1, {}};
@@ -23,4 +23,4 @@ struct Animation {
 Animation read_animation_file(const std::filesystem::path& path);
 Animation read_animation_text(const std::string& text, const std::string& name);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -15,7 +15,7 @@
 #include <map>
 #include <optional>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -247,4 +247,4 @@ EnvironmentFile read_environment_file(const fs::path& path, const fs::path& fold
     return FileReader(folder).read(path);
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

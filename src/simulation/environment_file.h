@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// What an environment file makes of a scene.
 struct EnvironmentFile {
@@ -24,4 +24,4 @@ struct EnvironmentFile {
 /// that names them, then in `folder`. Throws UserError if nothing here answers under the name it gives.
 EnvironmentFile read_environment_file(const std::filesystem::path& path, const std::filesystem::path& folder = {});
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -16,7 +16,7 @@
 #include <mutex>
 #include <span>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// What went wrong first, in the order of the plants, whichever thread failed first.
 class FirstFailure {
@@ -77,4 +77,4 @@ void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, PrefetchPla
     failure.throw_if_any(plants);
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 // A column's beginning; what follows the processor asks for itself.
@@ -100,4 +100,4 @@ PlantFrame GrowingPlant::frame(std::vector<Quantity> quantities) const {
             description->palette.get()};
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

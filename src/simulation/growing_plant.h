@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// What a Plant of the scene has become: its derivation, and its values of the current step.
 class GrowingPlant {
@@ -66,4 +66,4 @@ private:
     bool asks_ = false;
 };
 
-}  // namespace espalier
+}  // namespace espalier::simulation

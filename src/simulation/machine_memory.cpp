@@ -6,7 +6,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::simulation {
 
 std::size_t default_memory() {
     std::size_t bytes =
@@ -29,4 +29,4 @@ std::size_t peak_memory() {
     return static_cast<std::size_t>(usage.ru_maxrss) * unit;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

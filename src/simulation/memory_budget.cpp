@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 // ", most of them F, which the production at plant.l:4:1 writes most of": what a plant grew too large by.
@@ -121,4 +121,4 @@ void MemoryBudget::require(const PlantMemory& needed, std::span<const GrowingPla
                     commonest_module(largest.model(), *largest.string)));
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// A budget divided between the plants and the fields of the processes.
 struct MemoryShares {
@@ -58,4 +58,4 @@ private:
     std::atomic<std::size_t> strings_{0};
 };
 
-}  // namespace espalier
+}  // namespace espalier::simulation

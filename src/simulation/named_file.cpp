@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::simulation {
 
 namespace fs = std::filesystem;
 
@@ -31,4 +31,4 @@ std::string toml_text(const std::string& text) {
     return quoted + "\"";
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// The file called `name` beside the one that names it, or else in `folder`. Throws UserError if it is in neither.
 std::filesystem::path named_file(const std::string& name, const std::filesystem::path& beside,
@@ -15,4 +15,4 @@ std::filesystem::path named_file(const std::string& name, const std::filesystem:
 /// A text as TOML writes it, in quotes.
 std::string toml_text(const std::string& text);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <set>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -248,4 +248,4 @@ std::vector<std::string> unused_files(const ObjectFiles& object) {
     return unused;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 std::string entry(const std::string& key, const std::filesystem::path& path) {
@@ -69,4 +69,4 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options) {
     return scene;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

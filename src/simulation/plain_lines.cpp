@@ -1,6 +1,6 @@
 #include "plain_lines.h"
 
-namespace espalier {
+namespace espalier::simulation {
 
 std::vector<PlainLine> plain_lines(std::string_view text, const std::string& name) {
     std::vector<PlainLine> lines;
@@ -34,4 +34,4 @@ std::optional<int> leading_integer(std::string_view word) {
     return negative ? -number : number;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct PlainLine {
     std::string text;  ///< without its line end, be it \n or \r\n
@@ -24,4 +24,4 @@ std::string trimmed(std::string_view text);
 /// The number a word begins with, as atoi() reads it, within a thousand millions; nothing if it begins with none.
 std::optional<int> leading_integer(std::string_view word);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

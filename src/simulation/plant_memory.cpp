@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace espalier {
+namespace espalier::simulation {
 
 // Of small strings always as if there were two that fit: when memory gets scarce there will be.
 void PlantMemory::set_strings(const ModuleString* before, std::size_t modules_before, const ModuleString& now,
@@ -55,4 +55,4 @@ std::size_t PlantMemory::total() const {
     return strings + drawn + drawn_before + recorded.kept + std::max(recorded.frame, recorded.finish);
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// Counted from the values, not from the memory they lie in: how much room that has depends on the threads and on which
 /// frames are still read; where a run ends must not.
@@ -31,4 +31,4 @@ struct PlantMemory {
     std::size_t total() const;
 };
 
-}  // namespace espalier
+}  // namespace espalier::simulation

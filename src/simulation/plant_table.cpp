@@ -11,7 +11,7 @@
 #include <limits>
 #include <set>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 constexpr double most_plants = 1e6;
@@ -204,4 +204,4 @@ std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistake
     return plants;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

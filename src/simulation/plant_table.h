@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// Collects the mistakes of several places, so that the user reads them all at once.
 class Mistakes {
@@ -31,4 +31,4 @@ private:
 /// Reads every plant of the scene, in order. Plants with the same model, defines and view share one CompiledModel.
 std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

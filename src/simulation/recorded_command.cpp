@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <set>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -152,4 +152,4 @@ std::vector<std::string> timeline_differences(const fs::path& before, const fs::
     return differences;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// What a frame holds is set aside until the frame lets go of it; the memory is then used again.
 template <class T>
@@ -39,4 +39,4 @@ private:
     std::vector<std::shared_ptr<T>> held_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::simulation

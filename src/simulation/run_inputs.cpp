@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -71,4 +71,4 @@ ReadLog::File input_of(const Json& json) {
     return file;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// Text as it is, other bytes in hexadecimal digits; of files too large to keep only path, size and digest.
 /// Files below `output` are left out: the run wrote them itself.
@@ -17,4 +17,4 @@ nlohmann::ordered_json inputs_json(const ReadLog* inputs, const std::filesystem:
 /// The bytes of one of them. Throws nlohmann::json::exception for what is no input.
 ReadLog::File input_of(const nlohmann::ordered_json& json);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <ctime>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -132,4 +132,4 @@ void RunRecord::write(const Timeline& timeline, const std::string& exit, double 
     timeline.write_run(json(exit, seconds));
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-namespace espalier {
+namespace espalier::simulation {
 
 class RunRecord {
 public:
@@ -46,4 +46,4 @@ private:
     int steps_ = 0;  ///< recorded so far
 };
 
-}  // namespace espalier
+}  // namespace espalier::simulation

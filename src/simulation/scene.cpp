@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 constexpr double most_steps = 1e9;
@@ -230,4 +230,4 @@ const char* scene_help() {
 )";
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

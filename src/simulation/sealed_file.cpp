@@ -7,7 +7,7 @@
 #include <fstream>
 #include <optional>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 // Of the first `bytes` bytes, in pieces: the file may be larger than the memory.
@@ -46,4 +46,4 @@ bool is_sealed(const std::filesystem::path& path) {
     return sum && get<std::uint64_t>(in) == *sum;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// Appends the digest; false if the file cannot be read or written.
 bool seal(const std::filesystem::path& path);
 /// False for a file that was never sealed, or is another since.
 bool is_sealed(const std::filesystem::path& path);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

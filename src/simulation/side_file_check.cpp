@@ -12,7 +12,7 @@
 
 #include <map>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ void review_view(const View& view, Findings& findings) {
                                          parts.empty() ? "" : ", ", fmt::join(parts, ", ")));
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ std::shared_ptr<const Palette> SideFiles::palette(const Settings& table) {
     return palette;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 
-namespace espalier {
+namespace espalier::simulation {
 
 class SideFiles {
 public:
@@ -27,4 +27,4 @@ private:
     std::map<std::pair<Sets, Sets>, std::shared_ptr<const Palette>> palettes_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::simulation

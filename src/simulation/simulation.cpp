@@ -17,7 +17,7 @@
 #include <optional>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 constexpr std::uint64_t signature = 0x32'6e75'52'7370'61;  // "apsRun2"
@@ -181,4 +181,4 @@ RunResult run(const Scene& scene, const RunOptions& options) {
     return Run(scene, resolved).walk();
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -10,7 +10,7 @@
 #include <cctype>
 #include <set>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 // `rmode: word`, `refresh mode: word`, `refreshMode: word` and the like.
@@ -84,4 +84,4 @@ Specifications read_specifications(const std::filesystem::path& path) {
     return result;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct MenuCommand {
     std::vector<std::string> words;  ///< as a shell would split them
@@ -24,4 +24,4 @@ struct Specifications {
 /// Throws UserError if the file cannot be read or has no menu.
 Specifications read_specifications(const std::filesystem::path& path);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 template <class T>
@@ -63,4 +63,4 @@ void restore_string(ModuleString& string, std::size_t memory, std::istream& in) 
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

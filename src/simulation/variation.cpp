@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 constexpr double most = 1e6;
@@ -144,4 +144,4 @@ std::vector<Variant> combine(const std::vector<Variation>& variations) {
     return variants;
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -18,7 +18,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 namespace {
 
 constexpr std::uint64_t checkpoint_signature = 0x33'646c'726f'57;  // "World3"
@@ -328,4 +328,4 @@ std::size_t World::size() const {
     return state_->plants.size();
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

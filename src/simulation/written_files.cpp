@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace espalier {
+namespace espalier::simulation {
 
 namespace fs = std::filesystem;
 
@@ -53,4 +53,4 @@ void remove_written_files(const fs::path& output, const std::set<fs::path>& kept
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::simulation

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace espalier {
+namespace espalier::simulation {
 
 std::filesystem::path files_folder_of(const std::filesystem::path& output);
 
@@ -19,4 +19,4 @@ std::optional<std::set<std::filesystem::path>> files_before_run(const std::files
 /// Removes what models wrote: a run that replaces another must not read it. Throws RunError.
 void remove_written_files(const std::filesystem::path& output, const std::set<std::filesystem::path>& kept);
 
-}  // namespace espalier
+}  // namespace espalier::simulation

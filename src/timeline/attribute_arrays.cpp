@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 /// By several threads, if there are many: `visit` gets the run's number and its owner.
@@ -153,4 +153,4 @@ void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) 
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Arrays with a value for each run of owners, written anew for every frame over those of the frame before.
 class OwnerArrays {
@@ -91,4 +91,4 @@ private:
     std::span<const ChosenParameter> chosen_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

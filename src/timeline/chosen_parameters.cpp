@@ -11,7 +11,7 @@
 #include <set>
 #include <string_view>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 constexpr std::array own_names{"identity", "parent", "plant", "symbol", "birth",
@@ -129,4 +129,4 @@ int ParameterSlots::find(const ModuleString& string, std::size_t module) const {
     return std::equal(preceding_.begin(), preceding_.end(), before) ? slot_ : -1;
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// One array: the `number`-th parameter of every module of `symbol` that has as many.
 struct ChosenParameter {
@@ -41,4 +41,4 @@ private:
     std::vector<LetterId> preceding_;  ///< the symbol's modules before the one that carries
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 constexpr std::uint64_t most_index_bytes = std::uint64_t{1} << 32;
@@ -86,4 +86,4 @@ CollectionFile::~CollectionFile() {
     close();
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

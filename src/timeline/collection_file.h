@@ -6,7 +6,7 @@
 #include <iosfwd>
 #include <string>
 
-namespace espalier {
+namespace espalier::timeline {
 
 class CollectionFile {
 public:
@@ -35,4 +35,4 @@ private:
     int descriptor_ = -1;      ///< of the file as it was last written anew
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 int sum(int frame, int step) {
@@ -40,4 +40,4 @@ int FrameSelection::after(int frame) const {
     return beginning < never ? beginning : ordinary;
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-namespace espalier {
+namespace espalier::timeline {
 
 FrameWriter::~FrameWriter() {
     {
@@ -91,4 +91,4 @@ std::exception_ptr FrameWriter::attempt(const Job& job) const {
     return nullptr;
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 class FrameWriter {
 public:
@@ -68,4 +68,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

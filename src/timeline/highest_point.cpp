@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
@@ -98,4 +98,4 @@ std::optional<double> highest_point(const PlantGeometry& geometry) {
     return top.value();
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -5,10 +5,10 @@
 
 #include <optional>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// The y of the highest point drawn: of internodes the rims of their ends, of patches the control points. Nothing where
 /// nothing is drawn.
 std::optional<double> highest_point(const PlantGeometry& geometry);
 
-}  // namespace espalier
+}  // namespace espalier::timeline

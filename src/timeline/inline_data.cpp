@@ -6,7 +6,7 @@
 #include <lz4.h>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 /// Blocks stay in the cache.
@@ -138,4 +138,4 @@ void encode(const DataArray& array, Column<char>& text) {
     write_base64_end(words + whole, header_bytes - whole, write_base64(words, whole, text.data() + header_at));
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

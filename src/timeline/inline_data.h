@@ -9,7 +9,7 @@
 #include <string>
 #include <type_traits>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// An array of a file, over memory that the caller keeps until the file is written.
 struct DataArray {
@@ -47,4 +47,4 @@ DataArray data_array(std::string name, std::span<const T> values, int components
 /// Writes the array's data as VTK's readers expect them: the blocks' sizes, then the blocks.
 void encode(const DataArray& array, Column<char>& text);
 
-}  // namespace espalier
+}  // namespace espalier::timeline

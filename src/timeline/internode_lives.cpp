@@ -12,7 +12,7 @@
 #include <bit>
 #include <functional>
 
-namespace espalier {
+namespace espalier::timeline {
 
 namespace {
 
@@ -136,4 +136,4 @@ void InternodeLives::restore(std::istream& in) {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

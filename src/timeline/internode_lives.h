@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// An Internode lasts a step and refers to a module of its string; this lasts for the run and holds what it needs
 /// itself.
@@ -54,4 +54,4 @@ private:
     std::vector<std::uint32_t> next_living_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

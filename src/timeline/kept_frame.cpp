@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 template <class Values>
@@ -53,4 +53,4 @@ std::size_t KeptFrame::bytes(const Frame& frame) {
     return bytes;
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

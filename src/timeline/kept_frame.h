@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Nothing large is copied: strings, interpretations, models, palettes and grids are shared, and the world does not
 /// write into what a frame holds.
@@ -30,4 +30,4 @@ private:
     Fields fields_;  // instead of the world's, which change with its next step
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

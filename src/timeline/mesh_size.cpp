@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 MeshSize size_of(const OrganMesh& mesh) {
@@ -115,4 +115,4 @@ MeshSize mesh_size(const Interpretation& interpretation, bool with_queries, Surf
     return size;
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -8,7 +8,7 @@
 #include <memory>
 #include <mutex>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Of a PlantMesh or a part of it, or a little more than that: polygons count as if all were cut into triangles.
 struct MeshSize {
@@ -34,4 +34,4 @@ private:
 /// Queries show only if they are asked for.
 MeshSize mesh_size(const Interpretation& interpretation, bool with_queries, SurfaceSizes& surfaces);
 
-}  // namespace espalier
+}  // namespace espalier::timeline

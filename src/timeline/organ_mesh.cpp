@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 constexpr std::uint32_t sides_of_discs = 16;
@@ -220,4 +220,4 @@ SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ) {
     return {pose.position + in_world(vertex.position * s), length > 0 ? normal / length : pose.up, vertex.uv};
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Runs of indices into vertices: the faces of a mesh, or its outlines.
 struct IndexRuns {
@@ -76,4 +76,4 @@ std::array<glm::dvec3, 4> rhombus_of(const Organ& organ);
 /// A vertex of a surface where the organ stands, stretched as the organ is.
 SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ);
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 // The internodes' numbers, axis after axis, in the turtle's order within each.
@@ -269,4 +269,4 @@ void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
     add_answers_before(std::numeric_limits<std::size_t>::max());
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

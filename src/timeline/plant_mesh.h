@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
 struct Owner {
@@ -149,4 +149,4 @@ void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
 void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
                  const std::function<bool(std::uint32_t module)>& wanted, std::uint32_t plant);
 
-}  // namespace espalier
+}  // namespace espalier::timeline

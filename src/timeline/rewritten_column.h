@@ -10,7 +10,7 @@
 #include <span>
 #include <type_traits>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// True also of the same numbers that are none.
 template <class T>
@@ -74,4 +74,4 @@ private:
     bool changed_ = false;
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

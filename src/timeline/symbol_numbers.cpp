@@ -1,6 +1,6 @@
 #include "timeline/symbol_numbers.h"
 
-namespace espalier {
+namespace espalier::timeline {
 
 const std::vector<std::uint16_t>& SymbolNumbers::of(const Model& model) {
     const auto known = numbers_.find(&model);
@@ -15,4 +15,4 @@ const std::vector<std::uint16_t>& SymbolNumbers::of(const Model& model) {
     return numbers;
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Numbers for the symbols of all models, the same from frame to frame, and their names for the files.
 class SymbolNumbers {
@@ -23,4 +23,4 @@ private:
     std::vector<std::string> names_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

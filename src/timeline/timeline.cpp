@@ -14,7 +14,7 @@
 #include <exception>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ void Timeline::write_run(const std::string& json) const {
     write_text(folder_ / "run.json", json);
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 openvdb::CoordBBox box_of(const FieldGrid& field) {
@@ -100,4 +100,4 @@ void write_vti(const std::filesystem::path& path, const Field& field, double tim
     file.write(path);
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

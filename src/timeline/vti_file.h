@@ -5,10 +5,10 @@
 
 #include <filesystem>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// The field over its box, with a value at every voxel's centre. The file appears complete or not at all. Throws
 /// RunError if the box has more than `most_dense_voxels`.
 void write_vti(const std::filesystem::path& path, const Field& field, double time, int step);
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -10,7 +10,7 @@
 
 #include <bit>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 /// Less than this is encoded in some milliseconds; the run, which goes on beside, needs its threads itself.
@@ -129,4 +129,4 @@ std::uint64_t VtkFile::digest() {
     return espalier::digest(markup_, sum);
 }
 
-}  // namespace espalier
+}  // namespace espalier::timeline

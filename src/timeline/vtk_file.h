@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// A file in the making: elements are opened and closed around arrays. It keeps its memory from file to file.
 /// VTK's own writers compress in small blocks and put the result into a stream three bytes at a time, which takes ten
@@ -62,4 +62,4 @@ private:
     bool after_ = false;  ///< the arrays of the file before can be compared with
 };
 
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -23,6 +23,7 @@
 namespace {
 
 using namespace espalier;
+using namespace espalier::simulation;
 
 constexpr std::size_t longest = 1 << 14;
 

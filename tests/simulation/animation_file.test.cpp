@@ -3,6 +3,7 @@
 #include "catch.h"
 
 using namespace espalier;
+using namespace espalier::simulation;
 using Catch::Matchers::Contains;
 using Frames = std::vector<int>;
 

@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 
 using namespace espalier;
+using namespace espalier::simulation;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -12,6 +12,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::simulation;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -13,6 +13,7 @@
 #include <utility>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

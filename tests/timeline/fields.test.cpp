@@ -17,6 +17,7 @@
 #include <random>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 using namespace espalier;
+using namespace espalier::timeline;
 using Frames = std::vector<int>;
 
 namespace {

@@ -13,6 +13,7 @@
 #include <thread>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

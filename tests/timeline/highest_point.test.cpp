@@ -6,6 +6,7 @@
 #include <utility>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 TEST_CASE("a plant is as high as its highest point: an upright axis as its tip, a level one as its side",
           "[timeline]") {

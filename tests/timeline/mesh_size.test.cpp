@@ -11,6 +11,7 @@
 #include <memory>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

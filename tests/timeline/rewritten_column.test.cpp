@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 TEST_CASE("a column written anew knows whether it holds what it held before", "[timeline]") {
     std::mt19937 random(3);

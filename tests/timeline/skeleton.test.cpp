@@ -15,6 +15,7 @@
 #include <random>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

@@ -15,6 +15,7 @@
 #include <memory>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

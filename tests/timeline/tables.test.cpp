@@ -10,6 +10,7 @@
 #include <vtkPointData.h>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

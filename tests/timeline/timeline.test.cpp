@@ -15,6 +15,7 @@
 #include <thread>
 
 using namespace espalier;
+using namespace espalier::timeline;
 namespace fs = std::filesystem;
 
 namespace {

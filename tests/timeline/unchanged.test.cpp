@@ -9,6 +9,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::timeline;
 namespace fs = std::filesystem;
 
 namespace {

@@ -24,6 +24,7 @@
 #include <random>
 
 using namespace espalier;
+using namespace espalier::timeline;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// One model and its side files; all but the model may be missing. Paths can be opened from the current directory.
 struct ObjectFiles {
@@ -34,5 +34,14 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options = {
 
 /// Which of the listed files no file of the object names.
 std::vector<std::string> unused_files(const ObjectFiles& object);
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::ObjectFiles;
+using simulation::read_object_folder;
+using simulation::scene_of_object;
+using simulation::unused_files;
 
 }  // namespace espalier

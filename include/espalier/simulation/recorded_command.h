@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct RecordedCommand {
     std::string version, exit;
@@ -35,5 +35,16 @@ std::vector<std::string> arguments_below(const RecordedCommand& command, const s
 /// Files of two timelines that are not the same bytes: "plants/0003.vtp differs from byte 117 on", "... is missing".
 /// run.json and timings.csv describe the run, not the growth, and are ignored.
 std::vector<std::string> timeline_differences(const std::filesystem::path& before, const std::filesystem::path& after);
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::arguments_below;
+using simulation::is_unchanged;
+using simulation::lay_out_inputs;
+using simulation::read_command;
+using simulation::RecordedCommand;
+using simulation::timeline_differences;
 
 }  // namespace espalier

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// One plant of a scene: a model growing at a place with a seed. The world makes a GrowingPlant of it.
 struct Plant {
@@ -90,5 +90,21 @@ Scene scene_of_model(const std::filesystem::path& model, const SceneOptions& opt
 
 /// The documentation of scene files, for `espalier list scene`.
 const char* scene_help();
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::Plant;
+using simulation::plant_of_file;
+using simulation::plant_of_text;
+using simulation::read_scene;
+using simulation::read_scene_text;
+using simulation::Scene;
+using simulation::scene_help;
+using simulation::scene_of_model;
+using simulation::SceneEnvironment;
+using simulation::SceneNotes;
+using simulation::SceneOptions;
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct Findings {
     std::vector<Diagnostic> diagnostics;
@@ -22,5 +22,14 @@ void check_side_file(const std::filesystem::path& path, Findings& findings);
 
 /// What a view file gives the turtle.
 void review_view(const View& view, Findings& findings);
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::check_side_file;
+using simulation::Findings;
+using simulation::is_side_file;
+using simulation::review_view;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct Progress {
     int step = 0, steps = 0;
@@ -56,5 +56,17 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& output);
 /// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
 /// run.json saying how it ended. Throws UserError, RunError.
 RunResult run(const Scene& scene, const RunOptions& options = {});
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::checkpoint_of;
+using simulation::default_memory;
+using simulation::peak_memory;
+using simulation::Progress;
+using simulation::run;
+using simulation::RunOptions;
+using simulation::RunResult;
 
 }  // namespace espalier

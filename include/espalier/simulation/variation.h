@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 struct Variation {
     std::string key;
@@ -26,5 +26,14 @@ struct Variant {
 /// Every combination, the last key varying fastest. Names are like "transmittance=0.1,seed=3": the last part of each
 /// key, or all of it where two keys end alike. Throws UserError for a key given twice and beyond a million runs.
 std::vector<Variant> combine(const std::vector<Variation>& variations);
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::combine;
+using simulation::parse_variation;
+using simulation::Variant;
+using simulation::Variation;
 
 }  // namespace espalier

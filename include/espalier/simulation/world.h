@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier {
+namespace espalier::simulation {
 
 /// The folder of the model's file, where it reads files of its own.
 std::filesystem::path folder_with(const Model& model);
@@ -80,5 +80,13 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+}  // namespace espalier::simulation
+
+namespace espalier {
+
+using simulation::folder_with;
+using simulation::StageTimes;
+using simulation::World;
 
 }  // namespace espalier

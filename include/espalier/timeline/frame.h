@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// One plant of a frame. It shares the values of its step, so that a recorder may keep them while the world goes on;
 /// a process sees the same plant as a PlantView, which only borrows them for the exchange.
@@ -32,5 +32,12 @@ struct Frame {
     const Fields* fields = nullptr;  ///< as they are until the next step
     bool is_last = false;            ///< no step follows in this run
 };
+
+}  // namespace espalier::timeline
+
+namespace espalier {
+
+using timeline::Frame;
+using timeline::PlantFrame;
 
 }  // namespace espalier

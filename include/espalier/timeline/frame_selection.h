@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 /// Frame `first`, and from each frame the next one some steps later; within an interval, by the interval's own step.
 /// From outside the intervals the next one's beginning follows; after the last of them, the ordinary step counts again.
@@ -25,5 +25,11 @@ struct FrameSelection {
     /// The first frame of a later step than `frame`, which is one itself or -1.
     int after(int frame) const;
 };
+
+}  // namespace espalier::timeline
+
+namespace espalier {
+
+using timeline::FrameSelection;
 
 }  // namespace espalier

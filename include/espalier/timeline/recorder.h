@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 struct RecorderContext {
     std::filesystem::path folder;  ///< where the timeline goes; exists
@@ -67,5 +67,14 @@ struct RecorderType {
     /// Null if the scene does not want it.
     std::function<std::unique_ptr<Recorder>(Settings&, const RecorderContext&)> make;
 };
+
+}  // namespace espalier::timeline
+
+namespace espalier {
+
+using timeline::RecordedMemory;
+using timeline::Recorder;
+using timeline::RecorderContext;
+using timeline::RecorderType;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::timeline {
 
 class FrameWriter;
 
@@ -67,5 +67,11 @@ private:
     bool sees_every_step_ = false;  // one of them
     std::unique_ptr<FrameWriter> writer_;
 };
+
+}  // namespace espalier::timeline
+
+namespace espalier {
+
+using timeline::Timeline;
 
 }  // namespace espalier

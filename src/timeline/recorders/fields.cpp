@@ -16,7 +16,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 class FieldRecorder final : public Recorder {
@@ -141,4 +141,4 @@ const Registered<RecorderType> entry{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -18,7 +18,7 @@
 #include <map>
 #include <type_traits>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 class Lifespans final : public Recorder {
@@ -157,4 +157,4 @@ const Registered<RecorderType> entry{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::timeline

@@ -24,7 +24,7 @@
 #include <optional>
 #include <utility>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 /// All that a file of plants holds but its time, written anew for every frame.
@@ -261,4 +261,4 @@ const Registered<RecorderType> entry{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::timeline

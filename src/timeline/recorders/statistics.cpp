@@ -17,7 +17,7 @@
 #include <map>
 #include <optional>
 
-namespace espalier {
+namespace espalier::timeline {
 namespace {
 
 std::vector<std::string> quantity_names(const PlantFrame& plant) {
@@ -128,4 +128,4 @@ const Registered<RecorderType> entry{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::timeline
