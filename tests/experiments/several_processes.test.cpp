@@ -46,7 +46,8 @@ double statistic(const World& world, const std::string& name, std::uint32_t plan
 }
 
 std::shared_ptr<const Shape> shape_of(const std::string& file, const std::string& process) {
-    for (const auto& [name, table] : read_scene(source_path(file)).processes) {
+    const Scene scene = read_scene(source_path(file));
+    for (const auto& [name, table] : scene.environment.processes) {
         if (name != process) continue;
         Settings settings = table;
         return read_shape(settings);
