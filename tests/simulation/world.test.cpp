@@ -211,7 +211,7 @@ TEST_CASE_METHOD(Worlds, "plants that pass on memory while they grow large and s
 TEST_CASE_METHOD(Worlds,
                  "a herd whose strings explode in one step is told of by its largest plant, whatever the threads",
                  "[simulation]") {
-    const std::string many(4000, 'A');
+    const std::string many(12000, 'A');
     const std::string model =
         "#define SIZE 1\nlsystem: 1\nderivation length: 9\naxiom: B(SIZE)\nB(n) : n > 0 --> B(n - 1)CCC\n"
         "B(n) --> A\nA --> " +
