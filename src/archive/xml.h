@@ -1,6 +1,6 @@
 // The part of XML that the timeline writes: elements, attributes and text; no entities but the five, no CDATA.
-// A library such as pugixml accepts text behind the last element. This reader refuses it, because that is how a .pvd looks
-// while a run is writing its new end over the old one.
+// A library such as pugixml accepts text behind the last element. This reader refuses it, because that is how a .pvd
+// looks while a run is writing its new end over the old one.
 #pragma once
 
 #include <map>

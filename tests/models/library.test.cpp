@@ -58,7 +58,8 @@ TEST_CASE("Every model of the library reads without a mistake or a warning", "[l
         INFO(path << ": " << outcome.out << outcome.err);
         CHECK(outcome.code == 0);
         // Alone, a model that asks its surroundings gets no answer; check says so.
-        const std::string warning = std::regex_replace(outcome.out + outcome.err, std::regex(".*no process answers.*"), "");
+        const std::string warning =
+            std::regex_replace(outcome.out + outcome.err, std::regex(".*no process answers.*"), "");
         CHECK(warning.find("warning") == std::string::npos);
     }
 }

@@ -63,10 +63,10 @@ struct CameraPlace {
 namespace espalier {
 
 using picture::CameraPlace;
+using picture::dark_background;
 using picture::FieldLook;
 using picture::light_background;
 using picture::PictureBackground;
 using picture::PictureStyle;
-using picture::dark_background;
 
 }  // namespace espalier
