@@ -37,6 +37,7 @@ model = "model.l"
 [timeline]
 statistics = false
 skeleton = false
+lifespans = false
 )";
 
 /// Runs the program without its output; returns the most memory that it held, in MB.
