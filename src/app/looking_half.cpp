@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "program_data.h"
+
 #include <fmt/format.h>
 
 #include <dlfcn.h>
@@ -15,7 +17,7 @@ namespace fs = std::filesystem;
 /// Beside the program in a build folder, in the folder of libraries once installed; empty if it is in neither.
 fs::path module_file() {
     std::error_code ignored;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    const fs::path folder = program_folder();
     for (const fs::path& place : {folder, folder / ESPALIER_MODULES}) {
         const fs::path file = place / "libespalier_look_commands.so";
         if (fs::exists(file, ignored)) return file;

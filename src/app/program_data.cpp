@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-namespace espalier {
+namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -13,9 +13,13 @@ bool is_data(const fs::path& folder) {
 
 }  // namespace
 
-fs::path program_data() {
+fs::path program_folder() {
     std::error_code ignored;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+fs::path program_data() {
+    const fs::path folder = program_folder();
     const fs::path installed = folder / ESPALIER_DATA;  // as seen from where programs are installed
     if (is_data(installed)) return installed.lexically_normal();
     for (fs::path here = folder; here.has_relative_path(); here = here.parent_path()) {
@@ -30,4 +34,4 @@ fs::path here_or_with_program(const fs::path& file) {
     return !data.empty() && fs::exists(data / file) ? data / file : file;
 }
 
-}  // namespace espalier
+}  // namespace espalier::app
