@@ -29,10 +29,10 @@ constexpr int edge = 256;
 
 /// Questions all over a box of this many voxels.
 std::vector<Asked> crown(int count, double strength) {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 place(draws.uniform(), draws.uniform(), draws.uniform());
+        const glm::dvec3 place(samples.uniform(), samples.uniform(), samples.uniform());
         questions.push_back({place * double(edge - 1), {strength}});
     }
     return questions;

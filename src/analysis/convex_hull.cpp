@@ -6,7 +6,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -61,10 +61,17 @@ double hull_volume(std::span<const Point> points) {
     if (points.size() <= dimension || std::all_of(points.begin(), points.end(), same)) return 0;
     std::vector<double> coordinates;
     coordinates.reserve(points.size() * dimension);
+    Point extent(0);
     for (const Point& point : points) {
         // Far from the origin a small plant would lose digits.
         const Point from_first = point - points.front();
+        extent = glm::max(extent, glm::abs(from_first));
         for (int axis = 0; axis < dimension; ++axis) coordinates.push_back(from_first[axis]);
+    }
+    // What is flat but for errors of rounding is flat: an upright axis, or its shadow.
+    constexpr double nothing = 1e-12;  // m
+    for (int axis = 0; axis < dimension; ++axis) {
+        if (extent[axis] < nothing) return 0;
     }
     return Hull(std::move(coordinates), dimension).volume();
 }

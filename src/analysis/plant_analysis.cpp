@@ -28,7 +28,8 @@ PlantAnalysis analyse(std::uint32_t plant, const BranchTree& tree, const Leaves&
     result.leaves = leaves.leaves.size();
     result.leaf_area = total_area(leaves);
     result.crown = measure_crown(tree, leaves, options.voxel);
-    result.layers = layers(tree, leaves, options.layer);
+    result.shadow = shadow_of(tree);
+    result.layers = layers(tree, leaves, options.layer > 0 ? options.layer : part_of_thickness(tree, leaves));
     result.lengths = length_distribution(tree);
     result.height = std::max(result.crown.top, 0.0);
     result.depth_in_ground = std::max(-result.crown.base, 0.0);

@@ -30,6 +30,7 @@ struct PlantAnalysis {
     std::size_t leaves = 0;
     double leaf_area = 0;
     Crown crown;
+    double shadow = 0;  ///< from straight above, m2
     std::vector<Layer> layers;
     LengthDistribution lengths;
 

@@ -28,23 +28,16 @@ Range range_of(const BranchTree& tree, const Leaves& leaves, double foot) {
     return range;
 }
 
-double convenient_thickness(double extent) {
-    if (!(extent > 0)) return 1;
-    const double power = std::pow(10.0, std::floor(std::log10(extent / 20)));
-    // The lowest and the highest layer may be filled in part only, so that 19 whole ones lie between them.
-    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
-        if (factor * power * 19 >= extent) return factor * power;
-    }
-    return 20 * power;
+double power_of_ten_below(double extent) {
+    return std::pow(10.0, std::floor(std::log10(extent / 20)));
 }
 
-double shadow_of(const BranchTree& tree) {
-    std::vector<glm::dvec2> points;
-    for (std::size_t i = 0; i < tree.size(); ++i) {
-        points.emplace_back(tree.bases[i].x, tree.bases[i].z);
-        points.emplace_back(tree.tips[i].x, tree.tips[i].z);
-    }
-    return convex_hull_area(points);
+double foot_of(const BranchTree& tree, const Leaves& leaves) {
+    return tree.size() > 0 ? tree.bases[0].y : leaves.leaves.empty() ? 0 : leaves.leaves[0].position.y;
+}
+
+double density_of(double length, double thickness, double area) {
+    return area > 0 ? length / (thickness * area) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Shares an internode among the layers it passes, by length.
@@ -67,8 +60,56 @@ void share(const BranchTree& tree, std::size_t internode, double foot, double th
 
 }  // namespace
 
+double convenient_thickness(double extent) {
+    if (!(extent > 0)) return 1;
+    const double power = power_of_ten_below(extent);
+    // The lowest and the highest layer may be filled in part only, so that 19 whole ones lie between them.
+    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+        if (factor * power * 19 >= extent) return factor * power;
+    }
+    return 20 * power;
+}
+
+double part_of_thickness(const BranchTree& tree, const Leaves& leaves) {
+    const Range range = range_of(tree, leaves, foot_of(tree, leaves));
+    constexpr double least = 1e-6;
+    return range.low < range.high ? std::max(power_of_ten_below(range.high - range.low), least) : least;
+}
+
+double shadow_of(const BranchTree& tree) {
+    std::vector<glm::dvec2> points;
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+        points.emplace_back(tree.bases[i].x, tree.bases[i].z);
+        points.emplace_back(tree.tips[i].x, tree.tips[i].z);
+    }
+    return convex_hull_area(points);
+}
+
+std::vector<Layer> merged_layers(const std::vector<Layer>& parts, double thickness, double low, double high,
+                                 double shadow, double ground) {
+    const double first = std::floor(low / thickness + 1e-9);
+    const double count = std::max(std::ceil(high / thickness - 1e-9) - first, 1.0);
+    std::vector<Layer> result(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i].from = (first + static_cast<double>(i)) * thickness;
+        result[i].to = (first + static_cast<double>(i + 1)) * thickness;
+    }
+    for (const Layer& part : parts) {
+        const double at = std::floor((part.from + part.to) / 2 / thickness) - first;
+        Layer& whole = result[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))];
+        whole.length += part.length;
+        whole.surface += part.surface;
+        whole.leaf_area += part.leaf_area;
+    }
+    for (Layer& layer : result) {
+        layer.density = density_of(layer.length, thickness, shadow);
+        layer.ground_density = density_of(layer.length, thickness, ground);
+    }
+    return result;
+}
+
 std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double thickness) {
-    const double foot = tree.size() > 0 ? tree.bases[0].y : leaves.leaves.empty() ? 0 : leaves.leaves[0].position.y;
+    const double foot = foot_of(tree, leaves);
     const Range range = range_of(tree, leaves, foot);
     if (!(range.low <= range.high)) return {};
     if (!(thickness > 0)) thickness = convenient_thickness(range.high - range.low);
@@ -89,9 +130,7 @@ std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double t
         result[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))].leaf_area += leaf.area;
     }
     const double shadow = shadow_of(tree);
-    for (Layer& layer : result) {
-        layer.density = shadow > 0 ? layer.length / (thickness * shadow) : std::numeric_limits<double>::quiet_NaN();
-    }
+    for (Layer& layer : result) layer.density = density_of(layer.length, thickness, shadow);
     return result;
 }
 

@@ -1,11 +1,11 @@
 #include "espalier/analysis/run_analysis.h"
 
-#include "espalier/base/csv_file.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
 #include "analysis/plant_analysis.h"
+#include "base/csv_file.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +18,7 @@ namespace espalier::analysis {
 
 struct RunAnalysis::Frame {
     int step = 0;
+    double time = 0;
     std::vector<PlantAnalysis> plants;
     std::vector<std::string> symbols;  ///< that the frame knows
 };
@@ -35,14 +36,18 @@ RunAnalysis::~RunAnalysis() = default;
 
 RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* const> frames,
                          std::span<const std::uint32_t> plants, const AnalysisOptions& options)
-    : scene_(run.scene()), frames_(frames.size()) {
+    : scene_(run.scene()),
+      ground_(options.ground > 0 ? options.ground : run.ground_area().value_or(0)),
+      frames_(frames.size()) {
     for (const RecordedPlant& plant : run.plants()) {
         if (std::find(plants.begin(), plants.end(), plant.number) != plants.end()) plants_.push_back(plant);
     }
     tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
         RecordedGeometry geometry = run.geometry(*frames[i]);
-        frames_[i] = {frames[i]->step, analyse(geometry, plants, options), std::move(geometry.symbol_names)};
+        frames_[i] = {frames[i]->step, frames[i]->time, analyse(geometry, plants, options),
+                      std::move(geometry.symbol_names)};
     });
+    align_layers(options);
     std::vector<std::string> known;
     for (const Frame& frame : frames_) known.insert(known.end(), frame.symbols.begin(), frame.symbols.end());
     for (const std::string& symbol : options.leaf_symbols) {
@@ -53,13 +58,36 @@ RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* 
     }
 }
 
+// The same layers for all, also where a plant has nothing: who takes means over plants, steps and runs needs the zeros.
+void RunAnalysis::align_layers(const AnalysisOptions& options) {
+    double low = options.low, high = options.high;
+    for (const Frame& frame : frames_) {
+        for (const PlantAnalysis& plant : frame.plants) {
+            if (plant.layers.empty()) continue;
+            low = std::min(low, plant.layers.front().from);
+            high = std::max(high, plant.layers.back().to);
+        }
+    }
+    if (!(low < high)) return;
+    const double thickness = options.layer > 0 ? options.layer : convenient_thickness(high - low);
+    for (Frame& frame : frames_) {
+        for (PlantAnalysis& plant : frame.plants) {
+            plant.layers = merged_layers(plant.layers, thickness, low, high, plant.shadow, ground_);
+        }
+    }
+}
+
+const std::string& RunAnalysis::name_of(std::uint32_t plant) const {
+    return std::find_if(plants_.begin(), plants_.end(), [&](const auto& known) { return known.number == plant; })->name;
+}
+
 RecordedTable RunAnalysis::table() const {
-    RecordedTable table{{"step", "plant"}, {}};
+    RecordedTable table{{"step", "time", "plant"}, {}};
     for (const Measure& measure : measures()) table.columns.push_back(measure.description.name);
     for (const Frame& frame : frames_) {
         for (const PlantAnalysis& plant : frame.plants) {
             std::vector<double>& row = table.rows.emplace_back();
-            row = {static_cast<double>(frame.step), static_cast<double>(plant.plant)};
+            row = {static_cast<double>(frame.step), frame.time, static_cast<double>(plant.plant)};
             for (const Measure& measure : measures()) row.push_back(measure.value(plant));
         }
     }
@@ -67,13 +95,13 @@ RecordedTable RunAnalysis::table() const {
 }
 
 RecordedTable RunAnalysis::last_layers() const {
-    RecordedTable table{{"step", "plant", "height", "length", "surface", "leaf_area", "density"}, {}};
+    RecordedTable table{{"step", "plant", "height", "length", "surface", "leaf_area", "density", "ground_density"}, {}};
     if (frames_.empty()) return table;
     for (const PlantAnalysis& plant : frames_.back().plants) {
         for (const Layer& layer : plant.layers) {
             table.rows.push_back({static_cast<double>(frames_.back().step), static_cast<double>(plant.plant),
                                   (layer.from + layer.to) / 2, layer.length, layer.surface, layer.leaf_area,
-                                  layer.density});
+                                  layer.density, layer.ground_density});
         }
     }
     return table;
@@ -81,17 +109,19 @@ RecordedTable RunAnalysis::last_layers() const {
 
 namespace {
 
-/// Lines of comma-separated values; NaN is an empty cell.
+/// Lines of comma-separated values behind what tells the plant; NaN is an empty cell.
 class CsvText {
 public:
-    explicit CsvText(std::string header) : text_(std::move(header) + "\n") {}
+    explicit CsvText(const std::string& header) : text_("step,time,plant,name," + header + "\n") {}
 
     template <class... Values>
-    void add(Values... values) {
-        std::string line;
-        ((line += csv_number(static_cast<double>(values)) + ","), ...);
-        line.back() = '\n';
-        text_ += line;
+    void add(const std::string& plant, Values... values) {
+        add_all(plant, {static_cast<double>(values)...});
+    }
+    void add_all(const std::string& plant, const std::vector<double>& values) {
+        text_ += plant;
+        for (const double value : values) text_.append(",").append(csv_number(value));
+        text_ += "\n";
     }
     const std::string& text() const { return text_; }
 
@@ -137,7 +167,8 @@ Json layers_json(const PlantAnalysis& plant) {
                           {"length", number(layer.length)},
                           {"surface", number(layer.surface)},
                           {"leaf_area", number(layer.leaf_area)},
-                          {"density", number(layer.density)}});
+                          {"density", number(layer.density)},
+                          {"ground_density", number(layer.ground_density)}});
     }
     return layers;
 }
@@ -153,41 +184,39 @@ Json lengths_json(const PlantAnalysis& plant) {
 }  // namespace
 
 void RunAnalysis::write_csv(const std::filesystem::path& folder) const {
-    const RecordedTable measured = table();
-    std::string text;
-    for (const std::string& column : measured.columns) text.append(csv_text(column)).append(",");
-    text.back() = '\n';
-    for (const std::vector<double>& row : measured.rows) {
-        for (const double value : row) text.append(csv_number(value)).append(",");
-        text.back() = '\n';
-    }
-    CsvText orders("step,plant,order,streams,internodes,mean_length,mean_diameter");
-    CsvText ramification("step,plant,order,forks,column,part");
-    CsvText layers("step,plant,from,to,length,surface,leaf_area,density");
-    CsvText internodes("step,plant,from,to,internodes");
+    std::string names;
+    for (const Measure& measure : measures()) names += (names.empty() ? "" : ",") + measure.description.name;
+    CsvText measured(names);
+    CsvText orders("order,streams,internodes,mean_length,mean_diameter");
+    CsvText ramification("order,forks,column,part");
+    CsvText layers("from,to,length,surface,leaf_area,density,ground_density");
+    CsvText internodes("from,to,internodes");
     for (const Frame& frame : frames_) {
         for (const PlantAnalysis& of : frame.plants) {
+            const std::string plant =
+                fmt::format("{},{},{},{}", frame.step, csv_number(frame.time), of.plant, csv_text(name_of(of.plant)));
+            std::vector<double> values;
+            for (const Measure& measure : measures()) values.push_back(measure.value(of));
+            measured.add_all(plant, values);
             for (std::size_t i = 0; i < of.streams.size(); ++i) {
                 const StreamOrder& order = of.streams[i];
-                orders.add(frame.step, of.plant, i + 1, order.streams, order.internodes, order.mean_length,
-                           order.mean_diameter);
+                orders.add(plant, i + 1, order.streams, order.internodes, order.mean_length, order.mean_diameter);
             }
             for (std::size_t i = 0; i < of.ramification.rows.size(); ++i) {
                 for (std::size_t j = 0; j < of.ramification.rows[i].size(); ++j) {
-                    ramification.add(frame.step, of.plant, i + 2, of.ramification.forks[i], j + 1,
-                                     of.ramification.rows[i][j]);
+                    ramification.add(plant, i + 2, of.ramification.forks[i], j + 1, of.ramification.rows[i][j]);
                 }
             }
             for (const Layer& layer : of.layers) {
-                layers.add(frame.step, of.plant, layer.from, layer.to, layer.length, layer.surface, layer.leaf_area,
-                           layer.density);
+                layers.add(plant, layer.from, layer.to, layer.length, layer.surface, layer.leaf_area, layer.density,
+                           layer.ground_density);
             }
             for (const LengthBin& bin : of.lengths.bins) {
-                internodes.add(frame.step, of.plant, bin.from, bin.to, bin.internodes);
+                internodes.add(plant, bin.from, bin.to, bin.internodes);
             }
         }
     }
-    write_text(folder / "analysis.csv", text);
+    write_text(folder / "analysis.csv", measured.text());
     write_text(folder / "orders.csv", orders.text());
     write_text(folder / "ramification.csv", ramification.text());
     write_text(folder / "layers.csv", layers.text());
@@ -210,7 +239,7 @@ void RunAnalysis::write_json(const std::filesystem::path& folder) const {
             of["internode_lengths"] = lengths_json(plant);
             measured.push_back(std::move(of));
         }
-        frames.push_back({{"step", frame.step}, {"plants", std::move(measured)}});
+        frames.push_back({{"step", frame.step}, {"time", number(frame.time)}, {"plants", std::move(measured)}});
     }
     const Json json = {{"scene", scene_}, {"plants", std::move(plants)}, {"frames", std::move(frames)}};
     write_text(folder / "analysis.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

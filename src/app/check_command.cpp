@@ -1,10 +1,11 @@
-#include "espalier/simulation/side_file_check.h"
 #include "espalier/simulation/world.h"
 #include "espalier/timeline/timeline.h"
 #include "espalier/turtle/symbol.h"
 
 #include "command.h"
+#include "model_library.h"
 #include "options.h"
+#include "simulation/side_file_check.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>
@@ -37,12 +38,13 @@ void review_model(const std::shared_ptr<const CompiledModel>& compiled, Findings
     for (Diagnostic& warning : review(model, turtle_symbols())) findings.diagnostics.push_back(std::move(warning));
     const LSystem& system = model.main();
     findings.facts.push_back(fmt::format(
-        "{}: {} production{}, {} of decomposition, {} of homomorphism; derivation length {}; {}{}", model.path.string(),
-        system.productions.size(), system.productions.size() == 1 ? "" : "s", system.decomposition.productions.size(),
-        system.homomorphism.productions.size(), Derivation(compiled).length(),
+        "{}: {} production{}, {} of decomposition, {} of homomorphism; derivation length {}; {}{}{}",
+        model.path.string(), system.productions.size(), system.productions.size() == 1 ? "" : "s",
+        system.decomposition.productions.size(), system.homomorphism.productions.size(), Derivation(compiled).length(),
         has_order(*compiled) ? "derived by one thread, because its productions assign variables, print or read files"
                              : "derived in parallel",
-        draws_random_numbers(*compiled) ? "; uses random numbers" : ""));
+        uses_random_numbers(*compiled) ? "; uses random numbers" : "",
+        model.arithmetic == Arithmetic::cpfg ? "; computes with the arithmetic of cpfg" : ""));
 }
 
 void review_notes(const SceneNotes& notes, Findings& findings) {
@@ -107,8 +109,68 @@ void remove_repeated(Findings& findings) {
     std::erase_if(findings.facts, [&](const auto& fact) { return !said.insert(fact).second; });
 }
 
+// True for a folder that is no object: it holds several models, or scenes, or folders with models.
+bool is_collection(const fs::path& folder) {
+    if (!fs::is_directory(folder) || fs::exists(folder / "specifications")) return false;
+    std::size_t models = 0, others = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        models += entry.path().extension() == ".l";
+        others += entry.is_directory() || is_scene(entry.path());
+    }
+    return models > 1 || (models == 0 && others > 0);
+}
+
+/// The models, scenes and objects of a collection, sorted.
+std::vector<fs::path> members_of(const fs::path& folder) {
+    std::vector<fs::path> members;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const fs::path& path = entry.path();
+        const bool is_hidden = path.filename().string().starts_with('.');
+        if (entry.is_directory() && !is_hidden) {
+            if (is_collection(path)) {
+                for (const fs::path& member : members_of(path)) members.push_back(member);
+            } else if (fs::exists(path / "specifications") || !models_of(path).empty()) {
+                members.push_back(path);
+            }
+        } else if (!is_hidden && (path.extension() == ".l" || describes_scene(path))) {
+            members.push_back(path);
+        }
+    }
+    std::sort(members.begin(), members.end());
+    return members;
+}
+
+Findings findings_of(const CheckArguments& arguments);
+
+// A model is read with the view file beside it. What is wrong with one file does not keep the others from being read.
+void review_collection(const CheckArguments& arguments, Findings& findings) {
+    const std::vector<fs::path> members = members_of(arguments.model.file);
+    for (const fs::path& member : members) {
+        CheckArguments one = arguments;
+        one.model.file = member;
+        const fs::path view = fs::path(member).replace_extension(".v");
+        if (member.extension() == ".l" && fs::is_regular_file(view)) one.model.view = view;
+        try {
+            Findings of_one = findings_of(one);
+            findings.diagnostics.insert(findings.diagnostics.end(), of_one.diagnostics.begin(),
+                                        of_one.diagnostics.end());
+            findings.facts.insert(findings.facts.end(), of_one.facts.begin(), of_one.facts.end());
+        } catch (const UserError& error) {
+            findings.diagnostics.insert(findings.diagnostics.end(), error.diagnostics().begin(),
+                                        error.diagnostics().end());
+        }
+    }
+    findings.facts.push_back(
+        fmt::format("{}: {} models, scenes and objects", arguments.model.file.string(), members.size()));
+}
+
 Findings findings_of(const CheckArguments& arguments) {
     Findings findings;
+    if (is_collection(arguments.model.file)) {
+        review_collection(arguments, findings);
+        remove_repeated(findings);
+        return findings;
+    }
     if (is_scene(arguments.model.file)) {
         reject_side_files(arguments.model);
         review_scene(read_scene(arguments.model.file, {arguments.overrides, {}, {}}), findings);
@@ -149,9 +211,10 @@ class Check final : public Command {
 public:
     explicit Check(CLI::App& program)
         : Command(program, "check", "find mistakes in a model, a scene or a side file"),
-          model_(app(), "what",
-                 "a scene (.toml), a model (.l), the folder of an object, or a side file (.v, .a, .e, ...)",
-                 ModelOptions::Files::reading_and_drawing),
+          model_(
+              app(), "what",
+              "a scene (.toml), a model (.l), the folder of an object or of models, or a side file (.v, .a, .e, ...)",
+              ModelOptions::Files::reading_and_drawing),
           sets_(app()) {
         add_json_flag("print the findings as JSON");
         app().footer(R"(Mistakes are errors, and the exit code is 1. Warnings report what is legal but looks wrong.
@@ -159,6 +222,7 @@ Examples:
   espalier check models/course/02-branching.l
   espalier check models/organs/shoot.l --view models/organs/shoot.v
   espalier check models/organs/shoot.v
+  espalier check models/trees              every model of the folder
   espalier check models/language/shoot     every file of the object, and the files that nothing uses)");
     }
 
@@ -169,7 +233,7 @@ private:
     SetOptions sets_;
 };
 
-const RegisteredCommand<Check> entry{20};
+const RegisteredCommand<Check> check_entry{20};
 
 }  // namespace
 }  // namespace espalier::app

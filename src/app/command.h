@@ -41,7 +41,7 @@ private:
 using CommandMakers = std::multimap<int, std::unique_ptr<Command> (*)(CLI::App& program)>;
 CommandMakers& command_makers();
 
-/// Defining one registers a command:  const RegisteredCommand<Info> entry{40};
+/// Defining one registers a command:  const RegisteredCommand<Info> info_entry{40};
 template <class Derived>
 struct RegisteredCommand {
     explicit RegisteredCommand(int place) {

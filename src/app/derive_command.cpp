@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "options.h"
+#include "simulation/insertion.h"
 #include "turtle/asking.h"
 
 #include <fmt/format.h>
@@ -41,6 +42,8 @@ public:
         if (!asks_) return;
         interpret(model_, *symbols_, string, turtle_, &derivation, {}, interpretation_);
         write_turtle_answers(interpretation_, string);
+        if (model_.arithmetic == Arithmetic::double_precision) return;
+        for (double& value : string.parameters) value = stored(value, model_.arithmetic);
     }
 
 private:
@@ -79,11 +82,16 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
 
     TurtleAnswers answers(plant);
     ModuleString string, next;
+    const simulation::Insertions insertions(plant);
     grow({[&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); },
-          [&] { derivation.start(string); },
+          [&] {
+              derivation.start(string);
+              insertions.apply(0, string);
+          },
           [&] {
               derivation.step(string, next);
               std::swap(string, next);
+              insertions.apply(derivation.steps_done(), string);
           },
           [&] { answers.exchange(string, derivation); }},
          before_exchange);
@@ -194,7 +202,7 @@ private:
     std::filesystem::path files_;
 };
 
-const RegisteredCommand<Derive> entry{30};
+const RegisteredCommand<Derive> derive_entry{30};
 
 }  // namespace
 }  // namespace espalier::app

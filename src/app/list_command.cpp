@@ -1,10 +1,10 @@
-#include "espalier/base/text.h"
 #include "espalier/environment/shape.h"
 #include "espalier/formats/exporter.h"
 #include "espalier/simulation/scene.h"
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
 
+#include "base/text.h"
 #include "command.h"
 #include "looking_half.h"
 #include "model_library.h"
@@ -46,7 +46,7 @@ Parts scene_parts() {
     std::vector<fs::path> files;
     if (fs::is_directory("environments")) {
         for (const auto& entry : fs::recursive_directory_iterator("environments")) {
-            if (entry.path().extension() == ".toml") files.push_back(entry.path());
+            if (describes_scene(entry.path())) files.push_back(entry.path());
         }
     }
     std::sort(files.begin(), files.end());
@@ -106,6 +106,17 @@ Parts only(const Parts& parts, const std::string& name, const std::string& kind)
     throw UserError(fmt::format("there is no '{}' among the {}{}", name, kind, did_you_mean(name, names)));
 }
 
+// Those of the folders of that name, if there are any.
+Parts of_folder(const Parts& models, const std::string& name) {
+    const fs::path folder = (fs::path(name) / "").parent_path();
+    Parts found;
+    for (const PartDescription& model : models) {
+        const fs::path path = fs::path(model.name).parent_path();
+        if (path == folder || std::find(path.begin(), path.end(), folder) != path.end()) found.push_back(model);
+    }
+    return found;
+}
+
 // The library as a newcomer browses it: a heading for each folder, and what its models are about.
 void print_folders(const Parts& models) {
     std::size_t width = 0;
@@ -123,11 +134,12 @@ void print_folders(const Parts& models) {
 }
 
 int list_models(const ListArguments& arguments) {
-    Parts models = models_of(model_library(arguments.models));
-    if (!arguments.name.empty()) models = only(models, arguments.name, arguments.kind);
+    const Parts all = models_of(model_library(arguments.models));
+    const Parts folder = arguments.name.empty() ? all : of_folder(all, arguments.name);
+    const Parts models = folder.empty() ? only(all, arguments.name, arguments.kind) : folder;
     if (arguments.json) {
         print_json(models);
-    } else if (arguments.name.empty()) {
+    } else if (!folder.empty()) {
         print_folders(models);
     } else {
         for (const PartDescription& model : models) print_part(model);
@@ -176,7 +188,7 @@ public:
         add_json_flag("print as JSON");
         app().footer(
             "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene\n"
-            "  espalier list models\n  espalier list models koch");
+            "  espalier list models\n  espalier list models trees\n  espalier list models koch");
     }
 
     int run() override { return list({kind_, name_, models_, wants_json()}); }
@@ -186,7 +198,7 @@ private:
     std::filesystem::path models_;
 };
 
-const RegisteredCommand<List> entry{50};
+const RegisteredCommand<List> list_entry{50};
 
 }  // namespace
 }  // namespace espalier::app

@@ -1,7 +1,7 @@
 // The command line, and the one place that catches.
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
 
+#include "base/text.h"
 #include "command.h"
 #include "looking_half.h"
 
@@ -24,12 +24,40 @@
 namespace espalier::app {
 namespace {
 
+const char* const not_here =
+    "Commands that read runs, such as render and export, are not here: `./dev build` builds them.";
+
 // What CLI11 could make nothing of, options first; "" if it made something of everything.
 std::string unexpected(const CLI::App& program) {
     const std::vector<std::string> rest = program.remaining(true);
     const auto option = std::find_if(rest.begin(), rest.end(), [](const auto& word) { return word.starts_with('-'); });
     if (option != rest.end()) return *option;
     return rest.empty() ? "" : rest.front();
+}
+
+// The first line of the examples of a command's help.
+std::string first_example(const CLI::App& command) {
+    const std::string footer = command.get_footer();
+    const std::size_t examples = footer.find("Examples:");
+    if (examples == std::string::npos) return "";
+    const std::size_t begin = footer.find("espalier", examples);
+    const std::string line = footer.substr(begin, footer.find('\n', begin) - begin);
+    return line.substr(0, line.find("   "));  // without what it is about
+}
+
+// "espalier run needs `what`: a scene ...; for example: ..."
+std::string missing_argument(const CLI::App& command, const std::string& name) {
+    for (const CLI::Option* option : command.get_options()) {
+        if (!option->get_required() || !option->get_positional() || option->count() > 0) continue;
+        std::string message = fmt::format("{} needs `{}`: {}", name, option->get_name(), option->get_description());
+        if (const std::string example = first_example(command); !example.empty()) {
+            message += fmt::format("; for example\n  {}", example);
+        }
+        if (option->get_name() == "what")
+            message += "\n`espalier list models` and `espalier list scenes` show what there is";
+        return message;
+    }
+    return "";
 }
 
 // CLI11 says that something is wrong; what it is is named, and the nearest name offered as everywhere.
@@ -48,8 +76,11 @@ std::string explain(const CLI::App& program, const CLI::ParseError& error) {
     } else if (!word.empty() && command == &program) {
         message = fmt::format("there is no command '{}'; the commands are {}{}", word, fmt::join(commands, ", "),
                               did_you_mean(word, commands));
+        if (!open_looking_half()) message += fmt::format(". {}", not_here);
     } else if (!word.empty()) {
         message = fmt::format("{} does not accept '{}'", name, word);
+    } else if (const std::string missing = missing_argument(*command, name); !missing.empty()) {
+        message = missing;
     }
     return fmt::format("{}\n`{} --help` explains the options", message, name);
 }
@@ -105,7 +136,7 @@ std::unique_ptr<CommandLine> command_line(int argc, char** argv) {
     auto line = std::make_unique<CommandLine>();
     if (argc > 1 && grows(*line, argv[1])) return line;
     if (open_looking_half()) return std::make_unique<CommandLine>();
-    line->program.footer("Commands that read runs, such as render and export, are not installed.");
+    line->program.footer(not_here);
     return line;
 }
 

@@ -26,6 +26,26 @@ void add_sets(const std::vector<std::string>& files, const char* option, std::ma
     }
 }
 
+// Objects are more than their models: plant.v beside plant.l is meant for it, but a model alone has its own meaning.
+void warn_of_files_beside(const ModelArguments& arguments, ObjectFiles& object) {
+    struct SideFile {
+        const char *extension, *option;
+        bool is_given;
+    };
+    for (const SideFile& file :
+         {SideFile{".v", "--view", !arguments.view.empty()}, SideFile{".a", "--animate", !arguments.animation.empty()},
+          SideFile{".e", "--environment", !arguments.environment.empty() || arguments.without_environment}}) {
+        const fs::path beside = fs::path(arguments.file).replace_extension(file.extension);
+        if (file.is_given || !fs::is_regular_file(beside)) continue;
+        Diagnostic warning;
+        warning.severity = Diagnostic::Severity::warning;
+        warning.place.file = beside.string();
+        warning.message = fmt::format("this file lies beside the model but is not read: {} {} reads it", file.option,
+                                      beside.string());
+        object.diagnostics.push_back(warning);
+    }
+}
+
 }  // namespace
 
 bool is_scene(const fs::path& path) {
@@ -38,6 +58,7 @@ ObjectFiles object_of(const ModelArguments& arguments) {
         object = read_object_folder(arguments.file);
     } else {
         object.model = arguments.file;
+        warn_of_files_beside(arguments, object);
     }
     if (!arguments.view.empty()) object.view = arguments.view;
     if (!arguments.animation.empty()) object.animation = arguments.animation;
@@ -50,8 +71,12 @@ ObjectFiles object_of(const ModelArguments& arguments) {
     add_sets(arguments.materials, "--materials", object.materials);
     if (arguments.without_environment) object.environment.clear();
     object.warns_of_unanswered = !arguments.without_environment;
+    object.insertions = arguments.insertions;
     object.defines = Defines(arguments.defines.begin(), arguments.defines.end());
-    object.quirks = arguments.quirks;
+    const bool has_side_files =
+        !arguments.view.empty() || !arguments.animation.empty() || !arguments.environment.empty();
+    if (has_side_files) object.arithmetic = Arithmetic::cpfg;
+    object.arithmetic = arguments.arithmetic.value_or(object.arithmetic);
     return object;
 }
 
@@ -63,7 +88,8 @@ void reject_side_files(const ModelArguments& arguments) {
                                                           {!arguments.materials.empty(), "--materials"},
                                                           {arguments.without_environment, "--without-environment"},
                                                           {!arguments.defines.empty(), "--define"},
-                                                          {arguments.quirks, "--cpfg-quirks"}};
+                                                          {!arguments.insertions.empty(), "--insert"},
+                                                          {arguments.arithmetic.has_value(), "--arithmetic"}};
     for (const auto& [is_given, option] : given) {
         if (is_given) {
             throw UserError(fmt::format(

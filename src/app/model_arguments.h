@@ -4,6 +4,7 @@
 #include "espalier/simulation/object.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,8 @@ struct ModelArguments {
     std::vector<std::string> colour_maps, materials;  ///< FILE, or N=FILE for set N
     bool without_environment = false;
     KeyValues defines;
-    bool quirks = false;
+    std::vector<std::string> insertions;
+    std::optional<Arithmetic> arithmetic;  ///< none: cpfg's for folders and models with side files
 };
 
 /// True for a scene file (.toml); anything else is a model or the folder of an object.

@@ -75,6 +75,10 @@ PartDescription describe_file(const fs::path& file) {
     return part;
 }
 
+bool describes_scene(const fs::path& file) {
+    return file.extension() == ".toml" && read_text(file).find("[[plant]]") != std::string::npos;
+}
+
 std::vector<PartDescription> models_of(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {

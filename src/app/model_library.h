@@ -20,6 +20,9 @@ std::filesystem::path model_library(const std::filesystem::path& given);
 /// of that comment. Sorted folder by folder.
 std::vector<PartDescription> models_of(const std::filesystem::path& folder);
 
+/// True for a file that describes a scene, false for one that describes a mesh or anything else.
+bool describes_scene(const std::filesystem::path& file);
+
 /// The same of one file, whatever its kind.
 PartDescription describe_file(const std::filesystem::path& file);
 

@@ -13,23 +13,13 @@
 namespace espalier::app {
 namespace {
 
-// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024.
-std::size_t memory_size(const std::string& text) {
-    std::size_t used = 0;
-    double number = 0;
-    try {
-        number = std::stod(text, &used);
-    } catch (const std::exception&) {
-    }
-    const std::string unit = text.substr(used);
-    const std::size_t power = unit.empty() || unit == "B" ? 0 : std::string("KMGT").find(unit[0]) + 1;
-    const std::string rest = power == 0 ? "" : unit.substr(1);
-    const bool known = power <= 4 && (rest.empty() || rest == "B" || rest == "iB");
-    const double bytes = number * std::pow(1024.0, static_cast<double>(known ? power : 0));
-    if (!known || used == 0 || !(bytes >= 1) || bytes > 1e18) {
-        throw UserError(fmt::format("--memory {}: expected a size such as 512M or 4G", text));
-    }
-    return static_cast<std::size_t>(bytes);
+// "", "B", "M", "MB" and "MiB" are units; nothing else is.
+std::optional<double> bytes_of_unit(const std::string& unit) {
+    if (unit.empty() || unit == "B") return 1;
+    const std::size_t power = std::string("KMGT").find(unit[0]);
+    const std::string rest = unit.substr(1);
+    if (power == std::string::npos || (!rest.empty() && rest != "B" && rest != "iB")) return std::nullopt;
+    return std::pow(1024.0, static_cast<double>(power + 1));
 }
 
 KeyValues split(const std::vector<std::string>& texts, const std::string& option) {
@@ -39,6 +29,20 @@ KeyValues split(const std::vector<std::string>& texts, const std::string& option
 }
 
 }  // namespace
+
+std::size_t size_in_bytes(const std::string& text, const std::string& option) {
+    std::size_t used = 0;
+    double number = 0;
+    try {
+        number = std::stod(text, &used);
+    } catch (const std::exception&) {
+    }
+    const double bytes = number * bytes_of_unit(text.substr(used)).value_or(0);
+    if (used == 0 || !(bytes >= 1) || bytes > 1e18) {
+        throw UserError(fmt::format("{} {}: expected a size such as 512M or 4G", option, text));
+    }
+    return static_cast<std::size_t>(bytes);
+}
 
 std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option) {
     const std::size_t equals = text.find('=');
@@ -66,8 +70,20 @@ ModelOptions::ModelOptions(CLI::App& command, const std::string& name, const std
                      "do not answer queries; they keep their parameters");
     command.add_option("--define", defines_, "NAME=VALUE replaces a #define of the model; may be repeated")
         ->allow_extra_args(false);
-    command.add_flag("--cpfg-quirks", model_.quirks,
-                     "compute like cpfg: trunc rounds, x/0 = x, subscripts are clamped");
+    command
+        .add_option("--insert", model_.insertions,
+                    "MODULES@STEP or MODULES@STEP:SYMBOL.NUMBER puts modules into the string of a step, at its "
+                    "beginning or before a module, as a mouse did in cpfg's window; may be repeated")
+        ->allow_extra_args(false);
+    command
+        .add_option_function<std::string>(
+            "--arithmetic", [this](const std::string& text) { model_.arithmetic = arithmetic_called(text); },
+            "double, or cpfg: compute like cpfg, with 32-bit parameters and its quirks; default: cpfg for the folder "
+            "of "
+            "an object and for a model with --view, --animate or --environment, else double")
+        ->check(CLI::IsMember({"double", "cpfg"}));
+    command.add_flag_callback(
+        "--cpfg-quirks", [this] { model_.arithmetic = Arithmetic::cpfg; }, "another name for --arithmetic cpfg");
     if (files == Files::reading) return;
     command.add_option("--animate", model_.animation, "animation file (.a): the steps that become frames");
     command.add_option("--colour-map", model_.colour_maps, "colour map (.map), or N=FILE for set N; may be repeated")
@@ -101,7 +117,15 @@ GrowthOptions::GrowthOptions(CLI::App& command) {
 }
 
 std::size_t GrowthOptions::memory() const {
-    return memory_.empty() ? 0 : memory_size(memory_);
+    return memory_.empty() ? 0 : size_in_bytes(memory_, "--memory");
+}
+
+DiskOption::DiskOption(CLI::App& command) {
+    command.add_option("--disk", disk_, "how much the run may write, such as 100G; default: 20G");
+}
+
+std::size_t DiskOption::bytes() const {
+    return disk_.empty() ? 0 : size_in_bytes(disk_, "--disk");
 }
 
 }  // namespace espalier::app

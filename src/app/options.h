@@ -15,6 +15,9 @@ namespace espalier::app {
 /// `--option KEY=VALUE`; throws UserError if there is no '='.
 std::pair<std::string, std::string> key_and_value(const std::string& text, const std::string& option);
 
+/// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024. Throws UserError naming the option.
+std::size_t size_in_bytes(const std::string& text, const std::string& option);
+
 /// Accepts finite numbers above 0. CLI11's own tells of all of the range of a double.
 CLI::Validator above_zero();
 
@@ -59,6 +62,17 @@ private:
     int steps_ = -1;
     std::int64_t seed_ = -1;
     std::string memory_;
+};
+
+/// --disk.
+class DiskOption {
+public:
+    explicit DiskOption(CLI::App& command);
+
+    std::size_t bytes() const;  ///< 0: nobody says
+
+private:
+    std::string disk_;
 };
 
 }  // namespace espalier::app

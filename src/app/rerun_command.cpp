@@ -1,12 +1,13 @@
 // rerun: does a recorded run again from its run.json alone, and says which bytes differ.
 #include "espalier/base/error.h"
-#include "espalier/simulation/recorded_command.h"
 
 #include "child.h"
 #include "command.h"
+#include "simulation/recorded_command.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -92,6 +93,9 @@ private:
         }
         if (differences.size() > most_listed) fmt::print("... and {} more\n", differences.size() - most_listed);
         if (differences.empty() && !quiet_) fmt::print("all files have the same bytes\n");
+        const std::vector<std::string> others = beside_timeline(run_);
+        if (!others.empty() && !quiet_)
+            fmt::print("not compared, because no run writes it: {}\n", fmt::join(others, ", "));
         return differences.empty() ? exit_code::done : exit_code::run_failed;
     }
 
@@ -100,7 +104,7 @@ private:
     bool quiet_ = false;
 };
 
-const RegisteredCommand<Rerun> entry{14};
+const RegisteredCommand<Rerun> rerun_entry{14};
 
 }  // namespace
 }  // namespace espalier::app

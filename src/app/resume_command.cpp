@@ -1,9 +1,10 @@
 // resume: goes on with a run that was interrupted, killed, or stopped by a full disk.
 #include "espalier/base/error.h"
-#include "espalier/simulation/recorded_command.h"
 #include "espalier/simulation/simulation.h"
 
 #include "command.h"
+#include "options.h"
+#include "simulation/recorded_command.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 class Resume final : public Command {
 public:
     explicit Resume(CLI::App& program)
-        : Command(program, "resume", "continue an interrupted run from its last checkpoint") {
+        : Command(program, "resume", "continue an interrupted run from its last checkpoint"), disk_(app()) {
         app().add_option("folder", run_, "the folder of the run")->required();
         app()
             .add_option("--checkpoint-every", checkpoint_every_,
@@ -33,7 +34,7 @@ public:
         add_json_flag("print the result as JSON");
         app().footer(
             R"(The result is the same, byte for byte, as without the interruption. Ctrl-C leaves a checkpoint. So does
-`espalier run --checkpoint-every N`, also for runs that are killed or fail. The files that the run read must be unchanged.
+a run that has written as much as --disk allows, and `espalier run --checkpoint-every N`, also for runs that are killed or fail. The files that the run read must be unchanged.
 Examples:
   espalier run environments/two-trees.toml --checkpoint-every 20 --output output/trees
   espalier resume output/trees)");
@@ -67,6 +68,7 @@ private:
         const int every = checkpoint_every_ > 0 ? checkpoint_every_ : command.checkpoint_every;
         if (every > 0) words.insert(words.end(), {"--checkpoint-every", std::to_string(every)});
         if (threads_ > 0) words.insert(words.end(), {"--threads", std::to_string(threads_)});
+        if (disk_.bytes() > 0) words.insert(words.end(), {"--disk", std::to_string(disk_.bytes())});
         if (quiet_) words.emplace_back("--quiet");
         if (wants_json()) words.emplace_back("--json");
         std::vector<char*> arguments;
@@ -77,12 +79,13 @@ private:
         throw RunError("cannot start the run: " + std::generic_category().message(errno));
     }
 
+    DiskOption disk_;
     fs::path run_;
     int checkpoint_every_ = 0, threads_ = 0;
     bool quiet_ = false;
 };
 
-const RegisteredCommand<Resume> entry{12};
+const RegisteredCommand<Resume> resume_entry{12};
 
 }  // namespace
 }  // namespace espalier::app

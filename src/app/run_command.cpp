@@ -71,6 +71,17 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
     fmt::print("{}\n", (output / "").string());
 }
 
+// Where neither the animation nor the derivation length ends soon, the user does.
+void require_end(const Scene& scene) {
+    if (scene.steps || scene.last_frame.value_or(0) <= Scene::most_frames_unasked) return;
+    throw UserError(
+        fmt::format("{}: the animation ends at frame {}, and the derivation length is no smaller; say with --steps N "
+                    "how far it is to grow",
+                    scene.name, *scene.last_frame));
+}
+
+}  // namespace
+
 Scene scene_of(const RunArguments& arguments) {
     const SceneOptions options{arguments.overrides, arguments.steps, arguments.seed};
     if (is_scene(arguments.model.file)) {
@@ -83,14 +94,22 @@ Scene scene_of(const RunArguments& arguments) {
     return scene_of_object(object, options);
 }
 
-}  // namespace
-
-fs::path default_output(const std::string& scene) {
+// To make a folder is the only way to know that no other run has it.
+DefaultOutput::DefaultOutput(const std::string& scene) {
     const fs::path base =
         fs::path("output") / fmt::format("{}-{:%Y%m%d-%H%M%S}", scene, fmt::localtime(std::time(nullptr)));
-    fs::path output = base;
-    for (int number = 2; fs::exists(output); ++number) output = fmt::format("{}-{}", base.string(), number);
-    return output;
+    std::error_code error;
+    fs::create_directories(base.parent_path(), error);
+    path_ = base;
+    for (int number = 2; !error && !fs::create_directory(path_, error); ++number) {
+        path_ = fmt::format("{}-{}", base.string(), number);
+    }
+    if (error) throw RunError(fmt::format("cannot make the folder {}: {}", path_.string(), error.message()));
+}
+
+DefaultOutput::~DefaultOutput() {
+    std::error_code holds_something;
+    fs::remove(path_, holds_something);
 }
 
 std::vector<std::string> words_of(const RunArguments& arguments) {
@@ -108,8 +127,9 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
     for (const std::string& file : model.colour_maps) add("--colour-map", file);
     for (const std::string& file : model.materials) add("--materials", file);
     if (model.without_environment) words.emplace_back("--without-environment");
-    if (model.quirks) words.emplace_back("--cpfg-quirks");
+    if (model.arithmetic) add("--arithmetic", name_of(*model.arithmetic));
     add_pairs("--define", model.defines);
+    for (const std::string& insertion : model.insertions) add("--insert", insertion);
     add_pairs("--set", arguments.overrides);
     if (arguments.steps) add("--steps", std::to_string(*arguments.steps));
     if (arguments.seed) add("--seed", std::to_string(*arguments.seed));
@@ -130,13 +150,17 @@ int run_command(const RunArguments& arguments) {
     const ReadLog inputs;
     const Scene scene = scene_of(arguments);
     if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
+    require_end(scene);
 
     RunOptions options;
-    options.output = arguments.output.empty() ? default_output(scene.name) : arguments.output;
+    std::optional<DefaultOutput> unnamed;
+    if (arguments.output.empty()) unnamed.emplace(scene.name);
+    options.output = unnamed ? unnamed->path() : arguments.output;
     options.overwrite = arguments.overwrite;
     options.checkpoint_every = arguments.checkpoint_every;
     options.resume = arguments.resume;
     options.memory = arguments.memory;
+    options.disk = arguments.disk;
     options.arguments = words_of(arguments);
     options.inputs = &inputs;
     options.interrupt = &interrupt;
@@ -160,7 +184,8 @@ public:
           model_(app(), "what", "a scene (.toml), a model (.l), or the folder of an object",
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
-          growth_(app()) {
+          growth_(app()),
+          disk_(app()) {
         app()
             .add_option("--threads", arguments_.threads,
                         "number of threads; default: all cores. The result does not depend on it")
@@ -194,6 +219,7 @@ Ctrl-C ends the run after the current step and keeps all recorded frames. A seco
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
+        arguments_.disk = disk_.bytes();
         arguments_.json = wants_json();
         if (is_child_) end_with_parent();
         return run_command(arguments_);
@@ -203,12 +229,13 @@ private:
     ModelOptions model_;
     SetOptions sets_;
     GrowthOptions growth_;
+    DiskOption disk_;
     RunArguments arguments_;
     int every_ = 0;
     bool is_child_ = false;
 };
 
-const RegisteredCommand<RunCommand> entry{10};
+const RegisteredCommand<RunCommand> run_entry{10};
 
 }  // namespace
 }  // namespace espalier::app

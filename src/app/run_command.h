@@ -22,14 +22,30 @@ struct RunArguments {
     int checkpoint_every = 0;
     bool resume = false;  ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;
+    std::size_t disk = 0;  ///< bytes; 0: the default
     bool quiet = false;
     bool json = false;
 };
 /// The command line without what does not change the timeline: what starts the same run again.
 std::vector<std::string> words_of(const RunArguments& arguments);
 
-/// output/<scene>-<time>, numbered if two runs of a scene begin in the same second.
-std::filesystem::path default_output(const std::string& scene);
+/// The folder of a run for which nobody named one: output/<scene>-<time>, numbered if two runs of a scene begin in the
+/// same second. It is made at once, and removed in the end if nothing was written there.
+class DefaultOutput {
+public:
+    explicit DefaultOutput(const std::string& scene);
+    ~DefaultOutput();
+    DefaultOutput(const DefaultOutput&) = delete;
+    DefaultOutput& operator=(const DefaultOutput&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// The scene that the arguments name. Throws UserError.
+Scene scene_of(const RunArguments& arguments);
 
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);

@@ -10,8 +10,8 @@
 namespace espalier::archive {
 namespace {
 
-constexpr std::string_view known_arrays[] = {"radius", "Normals", "TCoords", "identity", "parent", "plant",
-                                             "symbol", "birth",   "order",   "colour",   "kind",   "rgb"};
+constexpr std::string_view known_arrays[] = {"radius", "pixels", "Normals", "TCoords", "identity", "parent", "plant",
+                                             "symbol", "birth",  "order",   "colour",  "kind",     "rgb"};
 
 template <class Vector>
 Column<Vector> vectors(const VtkXmlFile& file, const XmlElement& element, std::size_t count) {
@@ -130,6 +130,7 @@ RecordedGeometry read_geometry(const std::filesystem::path& path) {
     geometry.normals = vectors<glm::vec3>(file, of_points, "Normals", points);
     geometry.uvs = vectors<glm::vec2>(file, of_points, "TCoords", points);
     geometry.radii = file.values<float>(of_points, "radius", points);
+    if (VtkXmlFile::find(of_points, "pixels")) geometry.pixels = file.values<float>(of_points, "pixels", points);
     geometry.vertices = read_cells(file, "Verts", vertices, points);
     geometry.lines = read_cells(file, "Lines", lines, points);
     geometry.polygons = read_cells(file, "Polys", polygons, points);
@@ -144,6 +145,24 @@ RecordedGeometry read_geometry(const std::filesystem::path& path) {
     const auto named = [&](std::uint16_t texture) { return texture == 0 || texture < geometry.texture_files.size(); };
     if (!std::all_of(geometry.textures.begin(), geometry.textures.end(), named)) file.fail("a texture has no file");
     return geometry;
+}
+
+RecordedBackground read_background(const std::filesystem::path& path) {
+    const VtkXmlFile file(path, "PolyData");
+    const XmlElement& piece = file.piece();
+    const std::size_t points = file.count(piece, "NumberOfPoints"), cells = file.count(piece, "NumberOfPolys");
+    const XmlElement& of_cells = file.child(piece, "CellData");
+    RecordedBackground background;
+    background.points = read_points(file, points);
+    background.normals = vectors<glm::vec3>(file, file.child(piece, "PointData"), "Normals", points);
+    background.triangles = read_cells(file, "Polys", cells, points);
+    for (std::size_t i = 0; i < cells; ++i) {
+        if (background.triangles[i].size() != 3) file.fail("a triangle has not three corners");
+    }
+    background.rgb = read_rgb(file, of_cells, cells);
+    background.opacities = file.values<float>(of_cells, "opacity", cells);
+    if (background.rgb.size() != cells) file.fail("it has no colours");
+    return background;
 }
 
 RecordedLives read_lives(const std::filesystem::path& path) {

@@ -1,4 +1,4 @@
-// plants/NNNN.vtp and lifespans.vtp, read back.
+// plants/NNNN.vtp, lifespans.vtp and background.vtp, read back.
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
@@ -8,5 +8,6 @@ namespace espalier::archive {
 /// Throw UserError naming the file.
 RecordedGeometry read_geometry(const std::filesystem::path& path);
 RecordedLives read_lives(const std::filesystem::path& path);
+RecordedBackground read_background(const std::filesystem::path& path);
 
 }  // namespace espalier::archive

@@ -1,8 +1,7 @@
 #include "espalier/archive/organ_history.h"
 
-#include "espalier/base/text.h"
-
 #include "archive/organ_table.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -2,14 +2,15 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
 #include "archive/field_reader.h"
 #include "archive/geometry_file.h"
 #include "archive/xml.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -127,6 +128,34 @@ std::string written_exit(const fs::path& folder) {
     return run["exit"].get<std::string>();
 }
 
+glm::dvec3 vector_of(const fs::path& file, const Json& json) {
+    const auto numbers = json.get<std::array<double, 3>>();
+    const glm::dvec3 vector(numbers[0], numbers[1], numbers[2]);
+    if (!std::isfinite(vector.x + vector.y + vector.z)) fail(file, "a direction is not finite");
+    return vector;
+}
+
+RecordedView view_of(const fs::path& file, const Json& json) {
+    constexpr double most = 255;
+    const glm::dvec3 none(0);
+    RecordedView view;
+    if (const glm::dvec3 eye = vector_of(file, json.at("towards_eye")); eye != none) view.towards_eye = eye;
+    view.twist = json.at("twist").get<double>();
+    view.perspective = json.at("perspective").get<bool>();
+    view.angle = json.at("angle").get<double>();
+    if (json.contains("towards_light")) {
+        if (const glm::dvec3 light = vector_of(file, json["towards_light"]); light != none) view.towards_light = light;
+    }
+    if (json.contains("background")) {
+        const glm::dvec3 colour = glm::clamp(vector_of(file, json["background"]), 0.0, 1.0) * most;
+        view.background.emplace();
+        for (int k = 0; k < 3; ++k) {
+            (*view.background)[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(colour[k]));
+        }
+    }
+    return view;
+}
+
 // Cells between commas; in quotes commas are text.
 std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> cells(1);
@@ -149,9 +178,38 @@ double cell_value(const fs::path& file, const std::string& text) {
     return number(file, text);
 }
 
+/// Of the scene's domain, or of the first process that has one.
+std::optional<double> ground_area_of(const Json& run) {
+    std::vector<Json> tables;
+    if (run.contains("parameters")) tables.push_back(run["parameters"].value("simulation", Json::object()));
+    if (run.contains("processes")) tables.insert(tables.end(), run["processes"].begin(), run["processes"].end());
+    for (const Json& table : tables) {
+        if (!table.contains("domain")) continue;
+        const Json &lower = table["domain"].at("lower"), &upper = table["domain"].at("upper");
+        const double area = (upper.at(0).get<double>() - lower.at(0).get<double>()) *
+                            (upper.at(2).get<double>() - lower.at(2).get<double>());
+        if (area > 0) return area;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
-RecordedRun::RecordedRun(fs::path folder) : folder_(std::move(folder)) {
+fs::path folder_of_run(const fs::path& path) {
+    constexpr std::array extensions{".json", ".pvd", ".vtp", ".vti", ".vdb", ".csv"};
+    std::error_code error;
+    const bool may_be_of_run = fs::is_regular_file(path, error) &&
+                               std::find(extensions.begin(), extensions.end(), path.extension()) != extensions.end();
+    if (!may_be_of_run) return path;
+    constexpr int deepest = 3;  // RUN/fields/light/0012.vti
+    fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    for (int depth = 0; depth < deepest; ++depth, folder = folder / "..") {
+        if (fs::exists(folder / "run.json", error)) return folder.lexically_normal();
+    }
+    return path;
+}
+
+RecordedRun::RecordedRun(const fs::path& path) : folder_(folder_of_run(path)) {
     const Json run = read_run_json(folder_);
     try {
         scene_ = run.at("scene").at("name").get<std::string>();
@@ -161,6 +219,9 @@ RecordedRun::RecordedRun(fs::path folder) : folder_(std::move(folder)) {
             plants_.push_back({static_cast<std::uint32_t>(plants_.size()), plant.at("name").get<std::string>(),
                                plant.at("model").get<std::string>()});
         }
+        if (run.contains("units")) units_ = run["units"].get<std::map<std::string, std::string>>();
+        ground_area_ = ground_area_of(run);
+        if (run.contains("view")) view_ = view_of(folder_ / "run.json", run["view"]);
     } catch (const Json::exception& error) {
         throw UserError(fmt::format("{} is not what a run writes: {}", (folder_ / "run.json").string(), error.what()));
     }
@@ -231,6 +292,13 @@ RecordedField RecordedRun::field(const RecordedFrame& frame, const std::string& 
                                 names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
+std::optional<RecordedBackground> RecordedRun::background() const {
+    const fs::path file = folder_ / "background.vtp";
+    std::error_code error;
+    if (!fs::exists(file, error)) return std::nullopt;
+    return read_background(file);
+}
+
 RecordedTable RecordedRun::statistics() const {
     return read_table(folder_ / "statistics.csv");
 }
@@ -238,15 +306,20 @@ RecordedTable RecordedRun::statistics() const {
 RecordedTable read_table(const fs::path& file) {
     const std::string text = read_text(file);
     RecordedTable table;
+    std::size_t columns = 0, names = 0;
     for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
-        const std::vector<std::string> cells = cells_of(std::string_view(text).substr(at, end - at));
+        std::vector<std::string> cells = cells_of(std::string_view(text).substr(at, end - at));
+        if (at == 0) {
+            columns = cells.size();
+            names = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), "name") - cells.begin());
+        }
+        if (cells.size() != columns) {
+            fail(file, fmt::format("row {} has {} cells, not {}", table.rows.size() + 1, cells.size(), columns));
+        }
+        if (names < columns) cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(names));
         if (at == 0) {
             table.columns = cells;
             continue;
-        }
-        if (cells.size() != table.columns.size()) {
-            fail(file,
-                 fmt::format("row {} has {} cells, not {}", table.rows.size() + 1, cells.size(), table.columns.size()));
         }
         std::vector<double>& row = table.rows.emplace_back();
         for (const std::string& cell : cells) row.push_back(cell_value(file, cell));

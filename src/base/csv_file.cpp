@@ -1,8 +1,9 @@
-#include "espalier/base/csv_file.h"
+#include "base/csv_file.h"
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
+
+#include "base/text.h"
 
 #include <fmt/format.h>
 

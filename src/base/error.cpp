@@ -29,7 +29,7 @@ std::string to_string(const Diagnostic& diagnostic) {
     std::string text;
     if (diagnostic.place.known()) text += to_string(diagnostic.place) + ": ";
     if (diagnostic.severity == Diagnostic::Severity::warning) text += "warning: ";
-    text += diagnostic.message;
+    text += printable(diagnostic.message);
     if (!diagnostic.source.empty()) text += excerpt(diagnostic.source, diagnostic.place.column);
     return text;
 }

@@ -6,35 +6,35 @@
 #include <numbers>
 
 #if defined(__x86_64__) && defined(__GNUC__)
-#define ESPALIER_WIDE_DRAWS
+#define ESPALIER_WIDE_SAMPLES
 #include <immintrin.h>
 #endif
 
 namespace espalier {
 namespace {
 
-constexpr int resolution = 53;  // bits of a draw, as many as a double holds
+constexpr int resolution = 53;  // bits of a sample, as many as a double holds
 
-std::uint64_t draw_bits(std::uint64_t key, std::uint64_t drawer, std::uint32_t step, std::uint32_t draw) {
+std::uint64_t sample_bits(std::uint64_t key, std::uint64_t owner, std::uint32_t step, std::uint32_t sample) {
     const r123::Philox4x32::ctr_type counter = {
-        {static_cast<std::uint32_t>(drawer), static_cast<std::uint32_t>(drawer >> 32), step, draw}};
+        {static_cast<std::uint32_t>(owner), static_cast<std::uint32_t>(owner >> 32), step, sample}};
     const r123::Philox4x32::key_type words = {{static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}};
     const auto bits = r123::Philox4x32()(counter, words);
     return ((static_cast<std::uint64_t>(bits[1]) << 32) | bits[0]) >> (64 - resolution);
 }
 
-#ifdef ESPALIER_WIDE_DRAWS
-constexpr std::size_t drawn_at_once = 8;
+#ifdef ESPALIER_WIDE_SAMPLES
+constexpr std::size_t samples_at_once = 8;
 
-/// Philox 4x32-10 (Salmon et al. 2011, section 3.3) of eight drawers: counter words in the lower halves of 64-bit
+/// Philox 4x32-10 (Salmon et al. 2011, section 3.3) of eight owners: counter words in the lower halves of 64-bit
 /// lanes, whose upper halves the multiplication does not see.
-__attribute__((target("avx2"))) void draw_eight(std::uint64_t key, std::uint32_t step, const std::uint64_t* drawers,
-                                                std::uint64_t* draws) {
+__attribute__((target("avx2"))) void sample_eight(std::uint64_t key, std::uint32_t step, const std::uint64_t* owners,
+                                                  std::uint64_t* samples) {
     constexpr int vectors = 2, lanes = 4, rounds = 10;
     const __m256i multiplier0 = _mm256_set1_epi64x(PHILOX_M4x32_0), multiplier1 = _mm256_set1_epi64x(PHILOX_M4x32_1);
     __m256i counter[4][vectors];
     for (int v = 0; v < vectors; ++v) {
-        counter[0][v] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(drawers + lanes * v));
+        counter[0][v] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(owners + lanes * v));
         counter[1][v] = _mm256_srli_epi64(counter[0][v], 32);
         counter[2][v] = _mm256_set1_epi64x(step);
         counter[3][v] = _mm256_setzero_si256();
@@ -56,7 +56,7 @@ __attribute__((target("avx2"))) void draw_eight(std::uint64_t key, std::uint32_t
     for (int v = 0; v < vectors; ++v) {
         const __m256i word =
             _mm256_or_si256(_mm256_slli_epi64(counter[1][v], 32), _mm256_and_si256(counter[0][v], low));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(draws + lanes * v), _mm256_srli_epi64(word, 64 - resolution));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(samples + lanes * v), _mm256_srli_epi64(word, 64 - resolution));
     }
 }
 #endif
@@ -66,31 +66,31 @@ __attribute__((target("avx2"))) void draw_eight(std::uint64_t key, std::uint32_t
 RandomKey::RandomKey(std::uint64_t seed, std::uint32_t plant, Stream stream, std::uint64_t salt)
     : value_(mix(mix(mix(seed, plant), static_cast<std::uint64_t>(stream)), salt)) {}
 
-double RandomDraws::uniform() {
-    return static_cast<double>(draw_bits(key_.value(), drawer_, step_, draw_++)) * 0x1p-53;
+double RandomSamples::uniform() {
+    return static_cast<double>(sample_bits(key_.value(), owner_, step_, next_++)) * 0x1p-53;
 }
 
-void first_draws(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> drawers, std::uint64_t* draws) {
+void first_samples(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> owners, std::uint64_t* samples) {
     std::size_t k = 0;
-#ifdef ESPALIER_WIDE_DRAWS
+#ifdef ESPALIER_WIDE_SAMPLES
     static const bool wide = __builtin_cpu_supports("avx2");
     if (wide) {
-        for (; k + drawn_at_once <= drawers.size(); k += drawn_at_once) {
-            draw_eight(key.value(), step, drawers.data() + k, draws + k);
+        for (; k + samples_at_once <= owners.size(); k += samples_at_once) {
+            sample_eight(key.value(), step, owners.data() + k, samples + k);
         }
     }
 #endif
-    for (; k < drawers.size(); ++k) draws[k] = draw_bits(key.value(), drawers[k], step, 0);
+    for (; k < owners.size(); ++k) samples[k] = sample_bits(key.value(), owners[k], step, 0);
 }
 
-double RandomDraws::normal() {
+double RandomSamples::normal() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
 }
 
 // Marsaglia & Tsang (2000), "A simple method for generating gamma variables". Small shapes give numbers that only
 // their logarithms can hold.
-double RandomDraws::log_gamma(double shape) {
+double RandomSamples::log_gamma(double shape) {
     if (shape < 1) {
         const double boost = std::log(1 - uniform()) / shape;
         return log_gamma(shape + 1) + boost;
@@ -105,13 +105,13 @@ double RandomDraws::log_gamma(double shape) {
     }
 }
 
-double RandomDraws::beta(double a, double b) {
+double RandomSamples::beta(double a, double b) {
     const double x = log_gamma(a);
     const double y = log_gamma(b);
     return 1 / (1 + std::exp(y - x));
 }
 
-double RandomDraws::binomial(double n, double p) {
+double RandomSamples::binomial(double n, double p) {
     double successes = 0;
     for (double toss = 0; toss < n; ++toss) successes += uniform() < p ? 1 : 0;
     return successes;

@@ -1,7 +1,6 @@
 #include "espalier/base/settings.h"
 
-#include "espalier/base/text.h"
-
+#include "base/text.h"
 #include "settings_node.h"
 
 #include <fmt/format.h>
@@ -106,8 +105,11 @@ std::shared_ptr<Node> array_of(std::span<const double> values) {
 
 Settings::Settings() : node_(std::make_shared<Node>(Node::Type::table)) {}
 
+// Who asks for a key would read it: it is offered where its name is misspelt.
 bool Settings::has(std::string_view key) const {
-    return node_->find(key) != nullptr;
+    if (node_->find(key)) return true;
+    node_->remember_default(key, nullptr);
+    return false;
 }
 
 Place Settings::place(std::string_view key) const {
@@ -232,7 +234,10 @@ Settings Settings::table(std::string_view key) const {
 
 std::vector<Settings> Settings::tables(std::string_view key) const {
     const Node* node = node_->read(key);
-    if (!node) return {};
+    if (!node) {
+        node_->remember_default(key, nullptr);
+        return {};
+    }
     if (node->type != Type::array) wrong_type(*node, key, "an array of tables");
     std::vector<Settings> tables;
     for (const auto& item : node->items) {

@@ -1,6 +1,6 @@
 #include "settings_node.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -134,7 +134,11 @@ void Node::remember_default(std::string_view key, std::shared_ptr<Node> value) {
     const auto known = [&](const auto& entry) { return entry.first == key; };
     const std::lock_guard lock(marks());
     const auto at = std::find_if(defaults.begin(), defaults.end(), known);
-    if (at == defaults.end()) defaults.emplace_back(std::string(key), std::move(value));
+    if (at == defaults.end()) {
+        defaults.emplace_back(std::string(key), std::move(value));
+    } else if (!at->second) {
+        at->second = std::move(value);
+    }
 }
 
 void Node::put(const std::string& key, std::shared_ptr<Node> value) {

@@ -1,7 +1,7 @@
 // TOML into Settings: the only place that knows toml++.
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
+#include "base/text.h"
 #include "settings_node.h"
 
 #include <fmt/format.h>

@@ -1,14 +1,14 @@
 #include "espalier/environment/environment.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
 
+#include "base/text.h"
 #include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 const ProcessType& process_type(const Settings& settings) {
@@ -128,10 +128,10 @@ std::vector<Quantity> Environment::statistics(std::uint32_t plant) const {
     std::vector<Quantity> all;
     for (std::size_t process = 0; process < processes_.size(); ++process) {
         for (Quantity& quantity : processes_[process]->statistics(plant)) {
-            all.push_back({names_[process] + "." + quantity.name, quantity.value});
+            all.push_back({names_[process] + "." + quantity.name, quantity.value, std::move(quantity.unit)});
         }
     }
     return all;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

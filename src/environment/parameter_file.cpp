@@ -1,7 +1,8 @@
 #include "parameter_file.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
+
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr std::size_t most_lines = 100000;
@@ -142,6 +143,10 @@ bool ParameterFile::flag(const std::string& key, bool fallback, std::initializer
     return table_.flag_or(scene_key(key), fallback);
 }
 
+bool ParameterFile::has_numbers_of_cpfg() const {
+    return table_.choice_or("numbers", has_file() ? "cpfg" : "exact", {"exact", "cpfg"}) == "cpfg";
+}
+
 std::optional<std::filesystem::path> ParameterFile::file(const std::string& key) {
     const Line* line = last(key);
     const std::vector<std::string> words = line ? values_of(line->value, false) : std::vector<std::string>();
@@ -182,4 +187,4 @@ void ParameterFile::warn(const Line& line, const std::string& message) {
     warnings_->push_back({Diagnostic::Severity::warning, line.place, message, line.key + ":" + line.value});
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// A line is `key: values`; the key ends at the first tab or colon and is taken letter by letter. Lines that are not
 /// understood are ignored with a warning. Where file and scene give the same key, the scene wins.
@@ -37,6 +37,8 @@ public:
     std::vector<std::vector<double>> repeated(const std::string& key, std::size_t fewest, std::size_t most);
 
     bool has_file() const { return !path_.empty(); }
+    /// Whether to answer what cpfg's program answers: the key `numbers`, "cpfg" or "exact". With a file it is "cpfg".
+    bool has_numbers_of_cpfg() const;
     Place place(const std::string& key) const;
 
 private:
@@ -61,4 +63,4 @@ private:
 /// The key as scenes write it: "use CIE formula" is use_cie_formula.
 std::string scene_key(const std::string& key);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -1,8 +1,8 @@
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
 #include "espalier/formats/exporter.h"
 
 #include "base/folder.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +31,7 @@ std::filesystem::path ExportJob::path(const RecordedFrame& frame, const std::str
 
 std::string format_of_extension(const std::string& extension) {
     for (const auto& [name, type] : registered<ExporterType>()) {
-        if (extension == "." + type->make()->extension()) return name;
+        if (extension == fmt::format(".{}", type->make()->extension())) return name;
     }
     return "";
 }

@@ -16,6 +16,7 @@ namespace espalier::formats {
 namespace {
 
 // Of the standard: component types and what a buffer view is for.
+constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 constexpr int unsigned_int = 5125, float_number = 5126, vertex_buffer = 34962, index_buffer = 34963;
 
 Glb::Json json_of(const glm::vec3& v) {
@@ -78,7 +79,7 @@ std::size_t Glb::material(const MeshMaterial& look) {
     const glm::vec3 colour = linear_light(look.rgb);
     Json surface = {
         {"baseColorFactor", {colour.x, colour.y, colour.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}};
-    Json material = {{"doubleSided", true}};
+    Json material = {{"name", material_name(look)}, {"doubleSided", true}};
     if (const auto number = texture(look.texture)) {
         surface["baseColorTexture"] = {{"index", *number}};
         if (cut_out_.contains(*number)) material["alphaMode"] = "MASK";
@@ -120,6 +121,20 @@ std::size_t Glb::add_node(Json node) {
     return nodes_.size() - 1;
 }
 
+std::size_t Glb::add_instances(Json node, const std::vector<glm::vec3>& translations,
+                               const std::vector<glm::vec4>& rotations, const std::vector<glm::vec3>& scales) {
+    const Json none = Json::object();
+    const auto add = [&](const auto& values, const char* type) {
+        return add_accessor(values.data(), values.size(), float_number, type, 0, none);
+    };
+    const Json attributes = {{"TRANSLATION", add(translations, "VEC3")},
+                             {"ROTATION", add(rotations, "VEC4")},
+                             {"SCALE", add(scales, "VEC3")}};
+    node["extensions"] = {{instancing, {{"attributes", attributes}}}};
+    has_instances_ = true;
+    return add_node(std::move(node));
+}
+
 std::size_t Glb::times_accessor(const std::vector<float>& times) {
     const auto known = times_.find(times);
     if (known != times_.end()) return known->second;
@@ -128,7 +143,7 @@ std::size_t Glb::times_accessor(const std::vector<float>& times) {
 }
 
 void Glb::animate(std::size_t node, const char* path, const std::vector<float>& times,
-                  const std::vector<glm::vec4>& values) {
+                  const std::vector<glm::vec4>& values, const char* interpolation) {
     const std::size_t input = times_accessor(times);
     std::size_t output = 0;
     if (std::string_view(path) == "rotation") {
@@ -137,7 +152,7 @@ void Glb::animate(std::size_t node, const char* path, const std::vector<float>& 
         const std::vector<glm::vec3> vectors(values.begin(), values.end());
         output = add_accessor(vectors.data(), vectors.size(), float_number, "VEC3", 0, Json::object());
     }
-    samplers_.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+    samplers_.push_back({{"input", input}, {"interpolation", interpolation}, {"output", output}});
     channels_.push_back({{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
 }
 
@@ -149,6 +164,7 @@ std::string Glb::bytes(const std::vector<std::size_t>& roots) const {
     const auto add_unless_empty = [&](const char* key, const Json& list) {
         if (!list.empty()) json[key] = list;
     };
+    if (has_instances_) json["extensionsUsed"] = json["extensionsRequired"] = Json::array({instancing});
     add_unless_empty("nodes", nodes_);
     add_unless_empty("meshes", meshes_);
     add_unless_empty("materials", materials_);

@@ -28,9 +28,13 @@ public:
                          const std::vector<std::uint32_t>& material_of, const std::vector<MeshMaterial>& materials);
     /// Returns the node's number.
     std::size_t add_node(Json node);
-    /// Samples of `path` ("translation", "rotation", "scale") of a node, linear between `times` in seconds.
+    /// A mesh in many places, one node (EXT_mesh_gpu_instancing); returns its number.
+    std::size_t add_instances(Json node, const std::vector<glm::vec3>& translations,
+                              const std::vector<glm::vec4>& rotations, const std::vector<glm::vec3>& scales);
+    /// Samples of `path` ("translation", "rotation", "scale") of a node, linear between `times` in seconds, or held
+    /// from each to the next.
     void animate(std::size_t node, const char* path, const std::vector<float>& times,
-                 const std::vector<glm::vec4>& values);
+                 const std::vector<glm::vec4>& values, const char* interpolation = "LINEAR");
 
     Json& nodes() { return nodes_; }
     /// The whole file; `roots` are the nodes of the scene. Throws RunError beyond 4 GiB.
@@ -55,6 +59,7 @@ private:
     std::set<std::size_t> cut_out_;  ///< textures whose pictures are partly transparent
     std::map<std::vector<float>, std::size_t> times_;
     std::string binary_;
+    bool has_instances_ = false;
 };
 
 }  // namespace espalier::formats

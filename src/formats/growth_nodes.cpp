@@ -107,6 +107,8 @@ GrowthNode& GrowthNodes::node(std::uint32_t plant, Kind kind, std::uint64_t iden
 }
 
 void GrowthNodes::add_internode(const RecordedGeometry& geometry, const RecordedInternode& internode, float thinnest) {
+    if (!geometry.pixels.empty())
+        thinnest *= std::max(1.0f, geometry.pixels[static_cast<std::size_t>(internode.tip_point)]);
     const float length = glm::distance(internode.base, internode.tip);
     if (length == 0) return;
     GrowthNode& here = node(internode.plant, Kind::axis, internode.identity);
@@ -154,9 +156,19 @@ void GrowthNodes::add(const RecordedGeometry& geometry) {
     for (const RecordedInternode& internode : internodes_of(geometry)) {
         if (!options_.plant || internode.plant == *options_.plant) add_internode(geometry, internode, thinnest);
     }
+    add_surfaces(geometry);
+    ++frame_;
+}
+
+void GrowthNodes::add_organs(const RecordedGeometry& geometry) {
+    seen_.clear();
+    add_surfaces(geometry);
+    ++frame_;
+}
+
+void GrowthNodes::add_surfaces(const RecordedGeometry& geometry) {
     const FrameMesh surfaces = surfaces_of(geometry, options_);
     for (const MeshPart& part : surfaces.parts) add_organ(surfaces, part);
-    ++frame_;
 }
 
 }  // namespace espalier::formats

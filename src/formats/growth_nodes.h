@@ -54,6 +54,8 @@ public:
     explicit GrowthNodes(const MeshOptions& options) : options_(options) {}
 
     void add(const RecordedGeometry& geometry);
+    /// A frame's organs alone.
+    void add_organs(const RecordedGeometry& geometry);
     /// In the order in which they appeared.
     const std::vector<GrowthNode>& all() const { return nodes_; }
 
@@ -63,6 +65,7 @@ private:
 
     GrowthNode& node(std::uint32_t plant, Kind kind, std::uint64_t identity);
     void add_internode(const RecordedGeometry& geometry, const RecordedInternode& internode, float thinnest);
+    void add_surfaces(const RecordedGeometry& geometry);
     void add_organ(const FrameMesh& mesh, const MeshPart& part);
 
     MeshOptions options_;

@@ -39,6 +39,13 @@ std::string png_of(const std::filesystem::path& run, const std::string& file) {
     return {reinterpret_cast<const char*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
 
+std::string material_name(const MeshMaterial& material) {
+    const auto [red, green, blue] = material.rgb;
+    const std::string colour = fmt::format("rgb_{:02x}{:02x}{:02x}", red, green, blue);
+    if (material.texture.empty()) return colour;
+    return fmt::format("{}_{}", colour, plain(std::filesystem::path(material.texture).stem().string()));
+}
+
 const std::string& TextureCopies::name(const std::string& file) {
     const auto [at, is_new] = names_.emplace(file, "");
     if (!is_new || file.empty()) return at->second;

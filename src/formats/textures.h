@@ -3,6 +3,8 @@
 
 #include "espalier/formats/exporter.h"
 
+#include "archive/meshes/surface_mesh.h"
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,6 +13,9 @@ namespace espalier::formats {
 
 /// The file's picture as the bytes of a .png; "" if it is gone or no picture: what wears it then has its own colour.
 std::string png_of(const std::filesystem::path& run, const std::string& file);
+
+/// What a material looks like, as a name: "rgb_7a5c3e", with the name of its texture's file behind it.
+std::string material_name(const MeshMaterial& material);
 
 /// Copies textures beside what a job writes, each once.
 class TextureCopies {

@@ -19,8 +19,27 @@ const std::string& UsdMaterials::name(const MeshMaterial& look) {
 }
 
 void UsdMaterials::append_to(std::string& text) const {
-    if (looks_.empty()) return;
-    text += "    def Scope \"materials\"\n    {\n";
+    fmt::format_to(std::back_inserter(text), R"(    def Scope "materials"
+    {{
+        def Material "{0}"
+        {{
+            token outputs:surface.connect = </world/materials/{0}/surface.outputs:surface>
+            def Shader "surface"
+            {{
+                uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor.connect = </world/materials/{0}/colour.outputs:result>
+                float inputs:roughness = 0.9
+                token outputs:surface
+            }}
+            def Shader "colour"
+            {{
+                uniform token info:id = "UsdPrimvarReader_float3"
+                string inputs:varname = "displayColor"
+                float3 outputs:result
+            }}
+        }}
+)",
+                   of_colours);
     for (const auto& [look, copy] : looks_) {
         const glm::vec3 colour = linear_light(look->rgb);
         fmt::format_to(std::back_inserter(text),

@@ -1,4 +1,4 @@
-// Materials of a USD file for what wears a texture; all else has its displayColor.
+// Materials of a USD file: one for each texture and colour that goes with it, and one for all else.
 #pragma once
 
 #include "espalier/formats/exporter.h"
@@ -15,6 +15,9 @@ namespace espalier::formats {
 
 class UsdMaterials {
 public:
+    /// The material of what wears no texture: it has its displayColor.
+    static constexpr const char* of_colours = "colours";
+
     explicit UsdMaterials(const ExportJob& job) : copies_(job) {}
 
     /// The name of its prim below /world/materials; "" for what has no texture, or one that is no picture.

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr int chords_per_segment = 10;  // as cpfg measures the length of a contour
@@ -141,4 +141,4 @@ std::vector<Contour::Vertex> Contour::sample(int sides) const {
     return vertices;
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

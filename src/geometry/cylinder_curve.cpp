@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 using Weights = double[4];
@@ -107,4 +107,4 @@ CylinderCurve::Place CylinderCurve::at(std::size_t i, double u) const {
     return place;
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -3,7 +3,7 @@
 
 #include "espalier/geometry/generalized_cylinder.h"
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// Stretch i leads from control point i to the next.
 class CylinderCurve {
@@ -36,4 +36,4 @@ private:
     std::vector<Stretch> stretches_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::geometry

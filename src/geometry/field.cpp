@@ -1,12 +1,13 @@
 #include "espalier/geometry/field.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
+
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 void bring_up_to_date(Field& field) {
@@ -41,4 +42,4 @@ const std::map<std::string, Field>& Fields::all() const {
     return fields_;
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -12,7 +12,7 @@
 #include <map>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 /// The part of `vector` across `tangent`, of unit length; any such vector if there is no such part.
@@ -259,4 +259,4 @@ std::vector<CylinderRing> rings_of(const GeneralizedCylinder& cylinder) {
 void draw(const GeneralizedCylinder& cylinder, PlantGeometry& geometry) {
     if (cylinder.points.size() >= 2) Tube(cylinder, geometry).draw();
 }
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 // OpenVDB gives every file a new random UUID; this one replaces it, so that equal fields give equal bytes.
@@ -101,4 +101,4 @@ void write_vdb(const std::filesystem::path& path, const Field& field) {
     write_text(path, bytes);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// An array over a field's box has at most this many voxels.
 inline constexpr std::uint64_t most_dense_voxels = std::uint64_t{1} << 28;
@@ -22,5 +22,15 @@ std::uint64_t digest_of(const FieldGrid& grid);
 
 /// Active values only, compressed by Blosc if there are many. The file appears complete or not at all. Throws RunError.
 void write_vdb(const std::filesystem::path& path, const Field& field);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::digest_of;
+using geometry::grid_of;
+using geometry::most_dense_voxels;
+using geometry::same_field;
+using geometry::write_vdb;
 
 }  // namespace espalier

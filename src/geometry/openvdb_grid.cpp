@@ -1,6 +1,6 @@
 #include "espalier/geometry/openvdb_grid.h"
 
-namespace espalier {
+namespace espalier::geometry {
 
 void initialize_openvdb() {
     static const bool once = [] {
@@ -17,4 +17,4 @@ openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dv
     return transform;
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr int set_size = 256;
@@ -40,6 +40,7 @@ Material Palette::material(int colour) const {
 
 void read_colour_map(const std::filesystem::path& path, int set, Palette& palette) {
     const std::string bytes = read_bytes(path, bytes_of_colour, "colour map");
+    palette.of_materials = false;
     const int count = int(std::min(std::size_t(set_size), bytes.size() / bytes_of_colour));
     for (int i = 0; i < count; ++i) {
         Material material;
@@ -50,6 +51,7 @@ void read_colour_map(const std::filesystem::path& path, int set, Palette& palett
 
 void read_materials(const std::filesystem::path& path, int set, Palette& palette) {
     const std::string bytes = read_bytes(path, bytes_of_material, "material file");
+    palette.of_materials = true;
     for (std::size_t at = 0; at + bytes_of_material <= bytes.size(); at += bytes_of_material) {
         const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[at + i]); };
         const double opacity = 1 - byte(1) / 255.0;
@@ -63,4 +65,4 @@ void read_materials(const std::filesystem::path& path, int set, Palette& palette
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace espalier {
+namespace espalier::geometry {
 
 void Box::add(const glm::dvec3& point) {
     lower = glm::min(lower, point);
@@ -28,6 +28,7 @@ void PlantGeometry::clear() {
     labels.clear();
     textures.clear();
     shapes.reset();
+    in_pixels = false;
     axes = 0;
     bounds = Box{};
 }
@@ -47,4 +48,4 @@ double total_volume(const PlantGeometry& geometry) {
     return sum;
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 /// Cutting takes the square of the corners.
@@ -275,4 +275,4 @@ std::vector<std::uint32_t> triangles_of(std::span<const glm::dvec3> corners, con
     return ears.complete ? std::move(ears.triangles) : std::vector<std::uint32_t>{};
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

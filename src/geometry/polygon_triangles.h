@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 struct EarCut {
     std::vector<std::uint32_t> triangles;  ///< indices of corners, three a triangle
@@ -21,5 +21,12 @@ EarCut cut_ears(std::span<const glm::dvec3> corners);
 /// Indices of corners, three a triangle. Empty for a polygon that may stay one cell: convex, or so crossed with itself
 /// or so large that it cannot be cut. `normal` is the polygon's.
 std::vector<std::uint32_t> triangles_of(std::span<const glm::dvec3> corners, const glm::dvec3& normal);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::cut_ears;
+using geometry::triangles_of;
 
 }  // namespace espalier

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 using Weights = std::array<double, 4>;
@@ -164,4 +164,4 @@ SurfaceMesh mesh_of(const Surface& surface) {
     return mesh;
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 template <class T>
@@ -84,4 +84,4 @@ openvdb::GridBase::ConstPtr written_grid(const FieldGrid& field, const openvdb::
     return std::make_shared<LeavesOnly>(*field.grid, metadata, compression);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

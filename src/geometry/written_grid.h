@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// The field's grid with this metadata, for an archive that writes active values only, by Blosc or as they are, as
 /// `compression` says. OpenVDB copies and sorts out all 32,768
@@ -14,4 +14,4 @@ namespace espalier {
 openvdb::GridBase::ConstPtr written_grid(const FieldGrid& field, const openvdb::MetaMap& metadata,
                                          std::uint32_t compression);
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -2,21 +2,40 @@
 
 #include "espalier/base/file.h"
 
+#include "base/characters.h"
+#include "language/other_language.h"
 #include "language/parser/model.h"
 #include "language/preprocessor/preprocessor.h"
 #include "language/source.h"
 
-namespace espalier {
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace espalier::language {
 namespace {
+
+/// Throws UserError if a text is none, so that its bytes are not reported one by one.
+void require_text(const std::string& text, const std::string& name) {
+    constexpr int most_control_characters = 8;
+    int found = 0;
+    for (const char c : text) {
+        const bool control = static_cast<unsigned char>(c) < 0x20 && !is_blank(c) && c != '\n';
+        if (c != '\0' && (!control || ++found <= most_control_characters)) continue;
+        throw UserError(fmt::format("{} is a binary file, not the text of a model", name));
+    }
+}
 
 std::shared_ptr<const Model> read(std::string text, const std::string& name, const std::filesystem::path& path,
                                   const std::filesystem::path& folder, const ReadOptions& options) {
+    require_text(text, name);
+    const std::optional<std::string> other = language::other_language(text, path);
     language::Sources sources;
     language::Mistakes mistakes(sources);
     const auto model = std::make_shared<Model>();
     model->name = path.empty() ? name : path.filename().string();
     model->path = path;
-    model->quirks = options.quirks;
+    model->arithmetic = options.arithmetic;
     model->resources = options.resources;
     try {
         const std::uint32_t file = sources.add(name, std::move(text));
@@ -29,7 +48,9 @@ std::shared_ptr<const Model> read(std::string text, const std::string& name, con
         const std::vector<Diagnostic> found = mistakes.warnings();
         options.warnings->insert(options.warnings->end(), found.begin(), found.end());
     }
-    if (std::vector<Diagnostic> errors = mistakes.errors(); !errors.empty()) throw UserError(std::move(errors));
+    std::vector<Diagnostic> errors = mistakes.errors();
+    if (!errors.empty() && other) throw UserError(fmt::format("{}: {}", name, *other));
+    if (!errors.empty()) throw UserError(std::move(errors));
     return model;
 }
 
@@ -44,4 +65,4 @@ std::shared_ptr<const Model> read_model_text(std::string_view text, const std::s
     return read(std::string(text), name, {}, folder, options);
 }
 
-}  // namespace espalier
+}  // namespace espalier::language

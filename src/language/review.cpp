@@ -1,18 +1,19 @@
 // What is legal in a model and yet probably not meant.
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/language/reader.h"
 
+#include "base/text.h"
 #include "language/parser/constant.h"
 #include "language/parser/visit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-namespace espalier {
+namespace espalier::language {
 namespace {
 
 using language::constant_value;
@@ -24,6 +25,8 @@ public:
 
     std::vector<Diagnostic> run() {
         for (const LSystem& system : model_.systems) collect(system);
+        for (const LSystem& system : model_.systems)
+            for_each_production(system, [&](const Production& production) { review_word(production); });
         for (const LSystem& system : model_.systems) {
             for (const RuleSet* rules : {&system.decomposition, &system.homomorphism})
                 review(rules->productions, false);
@@ -123,18 +126,66 @@ private:
         if (stochastic) review_weights(productions);
     }
 
+    // --- words that are not declared ------------------------------------------------------------------------------
+
+    /// How many modules from `i` on spell a word such as Apex, of which only the last has parameters; 0: no word.
+    template <class Modules>
+    std::size_t word_length(const Modules& modules, std::size_t i) const {
+        std::size_t length = 0;
+        while (i + length < modules.size()) {
+            const LetterId letter = modules[i + length].letter;
+            const std::string& name = model_.alphabet.name(letter);
+            const char first = length == 0 ? 'A' : 'a';
+            if (name.size() != 1 || name[0] < first || name[0] > first + 25) break;
+            ++length;
+            if (model_.alphabet.arity(letter) > 0) break;
+        }
+        return length >= shortest_word ? length : 0;
+    }
+
+    /// Modules are single letters: a word needs a declaration.
+    void review_word(const Production& production) {
+        const std::size_t length = word_length(production.strict, 0);
+        if (length == 0 || length != production.strict.size()) return;
+        std::string name;
+        for (const ModulePattern& pattern : production.strict) name += model_.alphabet.name(pattern.letter);
+        const ModulePattern& last = production.strict.back();
+        const auto first = production.formals.begin() + last.first_formal;
+        const std::vector<std::string> parameters(first, first + model_.alphabet.arity(last.letter));
+        const std::string declared =
+            parameters.empty() ? name : fmt::format("{}({})", name, fmt::join(parameters, ", "));
+        if (!words_.insert(name).second) return;
+        warn(production.place, fmt::format("'{}' is read as {} modules of one letter each: 'module {};' before "
+                                           "'lsystem:' makes it one module",
+                                           name, length, declared));
+    }
+
+    bool is_word(const Production& production) const {
+        return !words_.empty() && word_length(production.strict, 0) == production.strict.size();
+    }
+
     void review_applicability(const Production& production) {
+        if (is_word(production)) return;
         for (const auto* part : {&production.strict, &production.left, &production.right}) {
             for (const ModulePattern& pattern : *part) {
                 if (pattern.skip_branch || produced_.contains(pattern.letter)) continue;
                 warn(pattern.place, fmt::format("this production can never apply: nothing produces {}{}",
-                                                described(pattern.letter), other_arities(pattern.letter)));
+                                                described(pattern.letter), why_not(pattern.letter)));
                 return;
             }
         }
+        if (model_.arithmetic == Arithmetic::cpfg) review_left_brackets(production);
         if (!production.condition) return;
         const std::optional<double> value = constant_value(*production.condition);
         if (value == 0) warn(production.condition->place, "this production can never apply: its condition is always 0");
+    }
+
+    void review_left_brackets(const Production& production) {
+        const auto is_bracket = [](const ModulePattern& pattern) { return pattern.letter <= Alphabet::close_bracket; };
+        const auto bracket = std::find_if(production.left.begin(), production.left.end(), is_bracket);
+        if (bracket == production.left.end()) return;
+        warn(bracket->place,
+             "this production can never apply: with the arithmetic of cpfg, brackets in a left context do not match");
     }
 
     void review_shadow(const Production& late) {
@@ -212,13 +263,17 @@ private:
         for (std::size_t i = 0; i < modules.size(); ++i) {
             const LetterId letter = modules[i].letter;
             const std::string& symbol = model_.alphabet.name(letter);
-            if (symbol == "?" && model_.alphabet.arity(letter) == 0) {
+            if (const std::size_t length = words_.empty() ? 0 : word_length(modules, i); length > 0) {
+                i += length - 1;
+            } else if (symbol == "'") {
+                // The reader has said so.
+            } else if (symbol == "?" && model_.alphabet.arity(letter) == 0) {
                 review_question(modules, i);
                 ++i;  // the letter of ?E, ?P, ... belongs to it
             } else if (symbol == "~") {
                 ++i;  // the name of a surface
-            } else if (const std::size_t length = turtle_symbol_length(modules, i); length > 0) {
-                i += length - 1;
+            } else if (const std::size_t drawn = turtle_symbol_length(modules, i); drawn > 0) {
+                i += drawn - 1;
             } else if (!turtle_symbols_.empty() && !is_known(symbol) && reported_.insert(letter).second) {
                 warn(modules[i].place, fmt::format("{} has no effect: no production names it and the turtle does not "
                                                    "know it",
@@ -342,13 +397,37 @@ private:
         if (considered(Alphabet::open_bracket) && considered(Alphabet::close_bracket)) return;
         const Production* first = nullptr;
         for_each_production(system, [&](const Production& production) {
-            if (!first && !production.right.empty()) first = &production;
+            if (!first && !production.right.empty() && !is_followed(production)) first = &production;
         });
         if (first) {
             warn(first->place,
                  "'consider' does not name the brackets, so that this right context looks into branches as if "
                  "they were the axis: write 'consider: ...[]'");
         }
+    }
+
+    /// The right context stands directly behind the predecessor wherever that is written, as ?E(x) behind its apex.
+    bool is_followed(const Production& production) const {
+        const LetterId predecessor = production.strict.back().letter;
+        const auto follows = [&](const std::vector<ModuleTemplate>& modules, std::size_t i) {
+            return i + production.right.size() < modules.size() &&
+                   std::equal(production.right.begin(), production.right.end(),
+                              modules.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                              [](const ModulePattern& pattern, const ModuleTemplate& module) {
+                                  return !pattern.skip_branch && pattern.letter == module.letter;
+                              });
+        };
+        bool all = true;
+        const auto look_at = [&](const std::vector<ModuleTemplate>& modules) {
+            for (std::size_t i = 0; i < modules.size(); ++i)
+                all &= modules[i].letter != predecessor || follows(modules, i);
+        };
+        for (const LSystem& system : model_.systems) {
+            look_at(system.axiom);
+            for (const Production& each : system.productions) look_at(each.successor);
+            for (const Production& each : system.decomposition.productions) look_at(each.successor);
+        }
+        return all;
     }
 
     void review_homomorphism(const RuleSet& rules) {
@@ -427,13 +506,13 @@ private:
         return arity == 0 ? fmt::format("'{}'", name) : fmt::format("'{}' {}", name, with_parameters(arity));
     }
 
-    std::string other_arities(LetterId letter) const {
+    std::string why_not(LetterId letter) const {
         for (const LetterId other : produced_) {
             if (model_.alphabet.symbol_of(other) == model_.alphabet.symbol_of(letter)) {
                 return fmt::format(" (only {})", with_parameters(model_.alphabet.arity(other)));
             }
         }
-        return "";
+        return "; if it waits for a mouse, --insert puts modules into a string";
     }
 
     void warn(const Place& place, std::string message) {
@@ -465,6 +544,8 @@ private:
     std::set<LetterId> produced_;
     std::set<SymbolId> mentioned_;
     std::set<LetterId> reported_;
+    std::set<std::string> words_;  // that productions replace, but that nobody declares
+    static constexpr std::size_t shortest_word = 3;
     std::map<std::string, Place> called_;                               // labels, and where they are called
     bool calls_any_ = false;                                            // a label that is computed
     std::map<LetterId, std::vector<const Production*>> unconditional_;  // of the rule set at hand
@@ -478,4 +559,4 @@ std::vector<Diagnostic> review(const Model& model, const std::vector<std::string
     return Review(model, turtle_symbols).run();
 }
 
-}  // namespace espalier
+}  // namespace espalier::language

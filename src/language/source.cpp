@@ -71,6 +71,8 @@ Location MappedText::location(std::size_t offset) const {
 }
 
 void Mistakes::error(Location at, std::string message) {
+    const auto is_same = [&](const SyntaxError& other) { return other.at == at && other.message == message; };
+    if (std::any_of(errors_.begin(), errors_.end(), is_same)) return;
     errors_.push_back({at, std::move(message)});
     if (errors_.size() >= most_errors) throw TooManyMistakes{};
 }

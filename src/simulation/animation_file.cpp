@@ -1,8 +1,8 @@
 #include "animation_file.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
+#include "base/text.h"
 #include "plain_lines.h"
 
 #include <fmt/format.h>

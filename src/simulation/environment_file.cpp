@@ -1,9 +1,9 @@
 #include "environment_file.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/environment/environment_process.h"
 
+#include "base/text.h"
 #include "environment/exchange/communication.h"
 #include "named_file.h"
 #include "plain_lines.h"
@@ -138,9 +138,14 @@ std::vector<std::string> known_programs() {
     return names;
 }
 
-// What the file says beside the process: keys that every [environment.<name>] may have, and their values as TOML.
-std::vector<std::pair<std::string, std::string>> communication_of(const Lines& lines) {
+bool is_process(const std::string& program) {
+    return registered<ProcessType>().find(program) != registered<ProcessType>().end();
+}
+
+// What the file says beside the parameters: keys of [environment.<name>] and their values as TOML.
+std::vector<std::pair<std::string, std::string>> communication_of(const Lines& lines, const std::string& program) {
     std::vector<std::pair<std::string, std::string>> entries;
+    if (registered<ProcessType>().at(program)->has_numbers_of_cpfg) entries.emplace_back("numbers", toml_text("cpfg"));
     if (!lines.following_module) entries.emplace_back("following_module", "false");
     if (!lines.binary) entries.emplace_back("digits", "6");
     std::map<std::string, std::string> turtle;
@@ -154,11 +159,13 @@ std::vector<std::pair<std::string, std::string>> communication_of(const Lines& l
 // On the executable's line, so that messages about the table name that line. The parameters of Espalier's own processes
 // are a TOML file.
 Settings table_of(const Lines& lines, const Command& command, const fs::path& parameters, const fs::path& path) {
-    const auto communication = communication_of(lines);
+    const auto communication = communication_of(lines, command.program);
     if (parameters.extension() == ".toml") {
         Settings table = Settings::read_toml(parameters);
         table.set("process", toml_text(command.program));
-        for (const auto& [key, value] : communication) table.set(key, value);
+        for (const auto& [key, value] : communication) {
+            if (!table.has(key)) table.set(key, value);
+        }
         return table;
     }
     std::string entries = "process = " + toml_text(command.program);
@@ -218,14 +225,16 @@ private:
     }
 
     void add_process(const std::string& name, const Lines& lines, const Command& command, const fs::path& path) {
-        const auto& entries = registered<ProcessType>();
-        if (entries.find(command.program) == entries.end()) {
+        if (!is_process(command.program)) {
             const std::vector<std::string> known = known_programs();
-            throw UserError(lines.command_place,
-                            fmt::format("there is no environment process '{}'{}; there are: {}. With "
-                                        "--without-environment the plant grows without answers",
-                                        command.program, did_you_mean(command.program, known), fmt::join(known, ", ")),
-                            fmt::format("executable: {}", fmt::join(lines.command, " ")));
+            throw UserError(
+                lines.command_place,
+                fmt::format("there is no environment process '{}'{}, and an environment program of your own "
+                            "cannot be attached yet. These can: {}; and a process that you write in C++, as "
+                            "docs/environment-processes.md shows. With --without-environment the plant "
+                            "grows without answers",
+                            command.program, did_you_mean(command.program, known), fmt::join(known, ", ")),
+                fmt::format("executable: {}", fmt::join(lines.command, " ")));
         }
         result_.processes.emplace_back(name, table_of(lines, command, named(command, lines, path), path));
     }

@@ -23,6 +23,7 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
       description(&from),
       derivation(from.model, settings),
       model_(&source_of(*from.model)),
+      insertions_(from),
       symbols_(std::move(symbols)),
       has_pictures_(derivation.has_homomorphism()) {
     note_derived();
@@ -61,6 +62,7 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
         std::swap(string, previous_);
         keeps_previous_ = true;
     }
+    insertions_.apply(derivation.steps_done(), *string);
     note_derived();
 }
 
@@ -97,7 +99,8 @@ PlantFrame GrowingPlant::frame(std::vector<Quantity> quantities) const {
             string.share(),
             interpretation.share(),
             std::move(quantities),
-            description->palette.get()};
+            description->palette.get(),
+            description->view ? description->view->background.get() : nullptr};
 }
 
 }  // namespace espalier::simulation

@@ -7,6 +7,7 @@
 #include "espalier/timeline/frame.h"
 #include "espalier/turtle/interpretation.h"
 
+#include "insertion.h"
 #include "plant_memory.h"
 #include "reusable.h"
 
@@ -59,6 +60,7 @@ private:
     void rewrite(const Rewrite& rewrite, ModuleString* spare);
 
     const Model* model_;
+    Insertions insertions_;
     std::shared_ptr<const SymbolTable> symbols_;
     Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory
     bool keeps_previous_ = false;

@@ -216,6 +216,7 @@ ObjectFiles read_object_folder(const fs::path& folder) {
     ObjectFiles object;
     object.name = folder_name(folder);
     object.folder = folder;
+    object.arithmetic = Arithmetic::cpfg;
     if (fs::is_regular_file(folder / specifications_name)) {
         take_by_specifications(folder, object);
     } else {

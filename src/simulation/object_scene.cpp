@@ -28,11 +28,17 @@ std::string defines(const Defines& values) {
     return text.empty() ? "" : fmt::format("define = {{ {} }}\n", text);
 }
 
+std::string insertions(const std::vector<std::string>& texts) {
+    std::string list;
+    for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + toml_text(text);
+    return list.empty() ? "" : fmt::format("insert = [{}]\n", list);
+}
+
 std::string scene_text(const ObjectFiles& object) {
     std::string text = "[[plant]]\n" + entry("model", object.model) + entry("view", object.view) +
                        sets("colour_map", object.colour_maps) + sets("materials", object.materials) +
-                       entry("folder", object.folder) + defines(object.defines);
-    if (object.quirks) text += "cpfg_quirks = true\n";
+                       entry("folder", object.folder) + defines(object.defines) + insertions(object.insertions);
+    if (object.arithmetic == Arithmetic::cpfg) text += "arithmetic = \"cpfg\"\n";
     std::string environment = entry("file", object.environment);
     if (!environment.empty()) environment += entry("folder", object.folder);
     if (object.keeps_unanswered) environment += "unanswered = \"keep\"\n";

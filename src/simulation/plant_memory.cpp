@@ -10,7 +10,7 @@ void PlantMemory::set_strings(const ModuleString* before, std::size_t modules_be
                               std::size_t working) {
     const bool is_small = !before || modules_before <= most_of_small || now.size() <= most_of_small;
     const std::size_t content = now.content() + (is_small ? now.content() : before->content());
-    // New columns have an eighth more room than they need: much memory at once stays untouched, little does not.
+    // Columns have up to an eighth more room than they need: much memory at once stays untouched, little does not.
     strings = content + (is_small ? content / 8 : 0) + working;
 }
 

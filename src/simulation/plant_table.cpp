@@ -2,6 +2,7 @@
 
 #include "espalier/base/random.h"
 
+#include "insertion.h"
 #include "side_files.h"
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ TurtleSettings read_turtle(const Settings& table, TurtleSettings turtle) {
         return static_cast<int>(table.integer_or(key, fallback, Range::between(0, 65535)));
     };
     turtle.angle = glm::radians(table.number_or("angle", glm::degrees(turtle.angle)));
-    turtle.line_width = table.number_or("line_width", turtle.line_width, Range::not_negative());
+    if (table.has("line_width")) turtle.line_width = table.number("line_width", Range::not_negative());
     turtle.line_width_increment = table.number_or("line_width_increment", turtle.line_width_increment);
     turtle.colour = colour_index("colour", turtle.colour);
     turtle.colour_increment = colour_index("colour_increment", turtle.colour_increment);
@@ -62,9 +63,9 @@ std::vector<glm::dvec3> grid_offsets(const Settings& grid, std::uint64_t seed, s
     std::vector<glm::dvec3> offsets;
     for (std::int64_t row = 0; row < rows; ++row) {
         for (std::int64_t column = 0; column < columns; ++column) {
-            RandomDraws draws({seed, stream + static_cast<std::uint32_t>(offsets.size()), Stream::placement}, 0, 0);
-            const double dx = jitter * (2 * draws.uniform() - 1);
-            const double dz = jitter * (2 * draws.uniform() - 1);
+            RandomSamples samples({seed, stream + static_cast<std::uint32_t>(offsets.size()), Stream::placement}, 0, 0);
+            const double dx = jitter * (2 * samples.uniform() - 1);
+            const double dz = jitter * (2 * samples.uniform() - 1);
             offsets.push_back({(static_cast<double>(column) - 0.5 * static_cast<double>(columns - 1)) * spacing + dx, 0,
                                (static_cast<double>(row) - 0.5 * static_cast<double>(rows - 1)) * spacing + dz});
         }
@@ -96,10 +97,15 @@ Defines read_defines(const Settings& table) {
     return defines;
 }
 
+Arithmetic read_arithmetic(const Settings& table) {
+    const std::string name = table.choice_or("arithmetic", "double", {"double", "cpfg"});
+    return arithmetic_called(name).value();
+}
+
 struct ModelKey {
     std::filesystem::path path;
     Defines defines;
-    bool quirks;
+    Arithmetic arithmetic;
     const View* view;
     auto operator<=>(const ModelKey&) const = default;
 };
@@ -129,6 +135,10 @@ public:
         }
         plant.palette = side_files_.palette(table);
         plant.model = compiled_model(table, defines, plant.view.get());
+        for (const std::string& text : table.texts_or("insert", {})) {
+            plant.insertions.push_back(read_insertion(text, table.place("insert")));
+        }
+        [[maybe_unused]] const Insertions must_fit(plant);
         plant.turtle = read_turtle(table.table("turtle"), plant.view ? plant.view->turtle : TurtleSettings());
         plant.turtle.pose = read_pose(table);
         const auto stream = static_cast<std::uint32_t>(
@@ -153,12 +163,12 @@ private:
     std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, const Defines& defines,
                                                         const View* view) {
         require_file(table, "model");
-        const ModelKey key{table.path("model"), defines, table.flag_or("cpfg_quirks", false), view};
+        const ModelKey key{table.path("model"), defines, read_arithmetic(table), view};
         std::shared_ptr<const CompiledModel>& model = models_[key];
         if (model) return model;
         ReadOptions options;
         options.defines = defines;
-        options.quirks = key.quirks;
+        options.arithmetic = key.arithmetic;
         options.warnings = &notes_.diagnostics;
         if (view) {
             options.predefined = view->function_names;

@@ -1,4 +1,4 @@
-#include "espalier/simulation/recorded_command.h"
+#include "simulation/recorded_command.h"
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
@@ -55,13 +55,13 @@ void make_folder_below(const fs::path& root, const fs::path& folder) {
 }
 
 bool tells_of_the_run(const fs::path& file) {
-    return file == "run.json" || file == "timings.csv" || file == ".lock";
+    return file == "run.json" || file == "timings.csv" || file == ".lock" || file == "checkpoint";
 }
 
 // Other commands leave pictures, charts and exports in the folder of a run.
 bool is_written_by_runs(const fs::path& file) {
-    static const std::set<fs::path> names{"plants.pvd",    "plants",         "fields.pvd", "fields",
-                                          "lifespans.vtp", "statistics.csv", "files"};
+    static const std::set<fs::path> names{"plants.pvd",    "plants",         "fields.pvd",     "fields",
+                                          "lifespans.vtp", "statistics.csv", "background.vtp", "files"};
     return names.contains(*file.begin());
 }
 
@@ -150,6 +150,17 @@ std::vector<std::string> timeline_differences(const fs::path& before, const fs::
         if (!old_files.contains(file)) differences.push_back(file.string() + " is new");
     }
     return differences;
+}
+
+std::vector<std::string> beside_timeline(const fs::path& run) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(run)) {
+        const fs::path name = entry.path().filename();
+        if (is_written_by_runs(name) || tells_of_the_run(name)) continue;
+        names.push_back(name.string() + (entry.is_directory() ? "/" : ""));
+    }
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 }  // namespace espalier::simulation

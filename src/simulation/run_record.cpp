@@ -1,7 +1,6 @@
 #include "run_record.h"
 
-#include "espalier/base/bytes.h"
-
+#include "base/bytes.h"
 #include "run_inputs.h"
 
 #include <fmt/chrono.h>
@@ -23,10 +22,36 @@ Json plants_json(const World& world) {
         const Plant& plant = world.scene().plants[i];
         plants.push_back({{"name", plant.name},
                           {"model", world.model(i).path.string()},
+                          {"arithmetic", name_of(world.model(i).arithmetic)},
                           {"stream", *plant.stream},
                           {"modules", world.string(i).size()}});
     }
     return plants;
+}
+
+Json vector_json(const glm::dvec3& vector) {
+    return {vector.x, vector.y, vector.z};
+}
+
+// How the author of the first plant with a view file looked at it; null if there is none.
+Json view_json(const Scene& scene) {
+    const auto has_view = [](const Plant& plant) { return plant.view != nullptr; };
+    const auto plant = std::find_if(scene.plants.begin(), scene.plants.end(), has_view);
+    if (plant == scene.plants.end()) return nullptr;
+    const View& view = *plant->view;
+    Json json;
+    json["towards_eye"] = vector_json(view.camera.eye - view.camera.target);
+    json["twist"] = view.camera.twist;
+    json["perspective"] = view.camera.perspective;
+    json["angle"] = view.camera.angle;
+    if (!view.lights.empty()) {
+        const Light& light = view.lights.front();
+        json["towards_light"] = vector_json(light.directional ? light.vector : light.vector - view.camera.target);
+    } else if (view.light_direction) {
+        json["towards_light"] = vector_json(*view.light_direction);
+    }
+    if (view.background_colour) json["background"] = vector_json(*view.background_colour);
+    return json;
 }
 
 // With the values that were used, those of environment files among them.
@@ -34,6 +59,14 @@ Json processes_json(const Scene& scene) {
     Json processes = Json::object();
     for (const auto& [name, table] : scene.environment.processes) processes[name] = Json::parse(table.resolved_json());
     return processes;
+}
+
+Json units_json(const World& world) {
+    Json units = Json::object();
+    for (const Quantity& quantity : world.environment().statistics(0)) {
+        if (!quantity.unit.empty()) units[quantity.name] = quantity.unit;
+    }
+    return units;
 }
 
 Json overrides_json(const Scene& scene) {
@@ -117,7 +150,9 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
     json["checkpoint_every"] = checkpoint_every_;
     json["files_before"] = names_json(files_before_);
     json["plants"] = plants_json(world_);
+    if (Json view = view_json(scene); !view.is_null()) json["view"] = std::move(view);
     json["processes"] = processes_json(scene);
+    json["units"] = units_json(world_);
     json["timings"] = {{"total", seconds},
                        {"derive", total_.derive},
                        {"interpret", total_.interpret},

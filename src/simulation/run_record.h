@@ -1,9 +1,10 @@
 // What a run says of itself in run.json and timings.csv: enough to repeat it exactly, and what it cost.
 #pragma once
 
-#include "espalier/base/csv_file.h"
 #include "espalier/simulation/simulation.h"
 #include "espalier/timeline/timeline.h"
+
+#include "base/csv_file.h"
 
 #include <filesystem>
 #include <iosfwd>

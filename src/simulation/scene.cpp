@@ -1,10 +1,10 @@
 #include "espalier/simulation/scene.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/simulation/object.h"
 
 #include "animation_file.h"
+#include "base/text.h"
 #include "environment_file.h"
 #include "plant_table.h"
 
@@ -61,12 +61,25 @@ void add_environment_file(const Settings& table, Scene& scene) {
     for (auto& process : file.processes) scene.environment.processes.push_back(std::move(process));
 }
 
+// [environment.licht] with a voxel only: the name of a process is misspelt, or says what no table does.
+[[noreturn]] void reject_unnamed(const Settings& table, const std::vector<std::string>& unnamed,
+                                 const SceneEnvironment& environment) {
+    std::vector<std::string> named;
+    for (const auto& process : environment.processes) {
+        if (std::find(unnamed.begin(), unnamed.end(), process.first) == unnamed.end()) named.push_back(process.first);
+    }
+    throw UserError(table.place(unnamed.front()),
+                    fmt::format("[environment.{}] does not say which process it is: 'process' is missing{}",
+                                unnamed.front(), did_you_mean(unnamed.front(), named)));
+}
+
 // The processes read their own parameters when the world makes them.
 void read_environment(const Settings& table, Scene& scene) {
     scene.environment.default_process = table.text_or("default", "");
     scene.environment.keeps_unanswered = table.choice_or("unanswered", "error", {"error", "keep"}) == "keep";
     add_environment_file(table, scene);
     const std::vector<std::string> words{"default", "file", "folder", "unanswered"};
+    std::vector<std::string> unnamed;
     for (const std::string& name : table.keys()) {
         if (std::find(words.begin(), words.end(), name) != words.end()) continue;
         if (!table.is_table(name)) {
@@ -75,7 +88,9 @@ void read_environment(const Settings& table, Scene& scene) {
                                         did_you_mean(name, words)));
         }
         scene.environment.processes.emplace_back(name, table.table(name));
+        if (!table.table(name).has("process")) unnamed.push_back(name);
     }
+    if (!unnamed.empty()) reject_unnamed(table, unnamed, scene.environment);
     std::vector<std::string> names;
     for (const auto& process : scene.environment.processes) {
         if (std::find(names.begin(), names.end(), process.first) != names.end()) {
@@ -125,6 +140,23 @@ void reject_unknown_tables(const Settings& root) {
     if (!unknown.empty()) throw UserError(unknown);
 }
 
+// Objects made for a window say that their last frame is number 1,000,000,000: they end with their derivation length.
+void end_without_window(Scene& scene) {
+    if (scene.last_frame.value_or(0) <= Scene::most_frames_unasked) return;
+    int longest = 0;
+    for (const Plant& plant : scene.plants) longest = std::max(longest, Derivation(plant.model).length());
+    if (longest > Scene::most_frames_unasked) return;
+    Diagnostic warning;
+    warning.severity = Diagnostic::Severity::warning;
+    warning.place.file = scene.timeline.path("animation").string();
+    warning.message = fmt::format(
+        "the last frame, {}, is meant for a window that somebody closes: the run ends at the derivation length, {}; "
+        "--steps N grows further",
+        *scene.last_frame, longest);
+    scene.notes.diagnostics.push_back(warning);
+    scene.last_frame.reset();
+}
+
 Scene read(Settings root, Scene scene, const SceneOptions& options) {
     scene.overrides = options.overrides;
     if (options.steps) scene.overrides.emplace_back("simulation.steps", std::to_string(*options.steps));
@@ -139,6 +171,7 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     scene.plants = read_plants(root, scene.seed, mistakes, scene.notes);
     mistakes.throw_if_any();
     if (scene.steps) scene.last_frame.reset();
+    end_without_window(scene);
     scene.root = root;
     return scene;
 }
@@ -199,13 +232,14 @@ const char* scene_help() {
   heading      [0, 1, 0]; heading of the turtle
   roll         0 degrees about the heading
   define       { NAME = value }: replaces #define NAME of the model
-  cpfg_quirks  false; trunc rounds, x/0 = x, subscripts are clamped
+  arithmetic   "double", or "cpfg": computes as cpfg does, with 32-bit parameters
   view         view file (.v): settings of the turtle, surfaces, contours, functions, curves
   colour_map   a file (.map) for set 1, or { 1 = file, 2 = file }
   materials    the same with materials (.mat)
   folder       a second folder in which side files are looked for
   stream       the plant's number in the scene; selects the random numbers
-  turtle       overrides the view file: { angle = 45 (degrees), line_width = 1, line_width_increment = 0, colour = 128,
+  insert       ["X(1)@5", "X@9:F.3"]: modules put into the string of a step, at its beginning or before a module
+  turtle       overrides the view file: { angle = 45 (degrees), line_width (none), line_width_increment = 0, colour = 128,
                  colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
                  tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0,
                               elasticity_step = 0, torque = false }] }
@@ -226,7 +260,8 @@ const char* scene_help() {
 [timeline]     `espalier list recorders`
   first        0; the first frame
   every        1; steps between frames; the last step is always a frame
-  animation    animation file (.a) that selects the frames, instead of `first` and `every`
+  keyframes    [step, ...]: these frames; together with `first` or `every`, besides theirs
+  animation    animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
 )";
 }
 

@@ -1,7 +1,8 @@
 #include "sealed_file.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/read_log.h"
+
+#include "base/bytes.h"
 
 #include <algorithm>
 #include <fstream>

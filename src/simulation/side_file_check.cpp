@@ -1,4 +1,4 @@
-#include "espalier/simulation/side_file_check.h"
+#include "simulation/side_file_check.h"
 
 #include "espalier/base/file.h"
 #include "espalier/geometry/palette.h"

@@ -1,9 +1,10 @@
 #include "espalier/simulation/simulation.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
 #include "espalier/timeline/timeline.h"
 
+#include "base/bytes.h"
+#include "disk_budget.h"
 #include "memory_budget.h"
 #include "run_record.h"
 #include "sealed_file.h"
@@ -30,7 +31,7 @@ public:
           options_(options),
           world_(scene, options.memory, files_folder(options)),
           record_(world_, options) {
-        if (options.warn) options.warn(world_.warnings());
+        warn();
         if (!options.output.empty()) open_timeline();
         if (!timeline_ || !timeline_->records()) world_.grow_unseen();
     }
@@ -56,10 +57,20 @@ private:
         return options.output.empty() ? std::filesystem::path() : files_folder_of(options.output);
     }
 
+    // Of what is new.
+    void warn() {
+        const std::vector<Diagnostic>& all = world_.warnings();
+        if (options_.warn && all.size() > warned_) {
+            options_.warn({all.begin() + static_cast<std::ptrdiff_t>(warned_), all.end()});
+        }
+        warned_ = all.size();
+    }
+
     // A mistake in the scene's [timeline] should not leave an empty folder behind.
     void open_timeline() {
         if (options_.resume) return resume_timeline();
-        const bool existed = std::filesystem::exists(options_.output);
+        // An empty folder may have been made for this run.
+        const bool existed = std::filesystem::exists(options_.output) && !std::filesystem::is_empty(options_.output);
         const auto files_before = files_before_run(options_.output);
         try {
             timeline_.emplace(options_.output, scene_.timeline, world_.last_step(), options_.overwrite);
@@ -78,6 +89,7 @@ private:
         if (scene_.frames) timeline_->choose(*scene_.frames);
         timeline_->keep_at_most(share_memory(options_.memory, scene_.environment.processes.size()).frames);
         world_.attach(*timeline_);
+        disk_.emplace(options_.output, options_.disk, options_.resume);
         write_record("running");
     }
 
@@ -132,11 +144,23 @@ private:
             note_step();
             const bool due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
             if (timeline_ && due && !world_.at_end()) write_checkpoint();
+            if (disk_ && !world_.at_end()) check_disk();
         }
+    }
+
+    void check_disk() {
+        if (!disk_->is_spent()) return;
+        write_checkpoint();
+        throw RunError(fmt::format(
+            "step {}: the run has written {}, and --disk allows {}. All of it is whole; `espalier resume {} --disk "
+            "SIZE` "
+            "goes on",
+            world_.steps_done(), size_text(disk_->written()), size_text(options_.disk), options_.output.string()));
     }
 
     void note_step() {
         record_.add_step(world_.times());
+        warn();
         if (options_.progress)
             options_.progress({world_.steps_done(), world_.last_step(), world_.modules(), seconds()});
     }
@@ -167,6 +191,8 @@ private:
     World world_;
     RunRecord record_;
     std::optional<Timeline> timeline_;
+    std::optional<DiskBudget> disk_;
+    std::size_t warned_ = 0;  ///< of the world's warnings
 };
 
 }  // namespace
@@ -178,6 +204,7 @@ std::filesystem::path checkpoint_of(const std::filesystem::path& output) {
 RunResult run(const Scene& scene, const RunOptions& options) {
     RunOptions resolved = options;
     if (resolved.memory == 0) resolved.memory = default_memory();
+    if (resolved.disk == 0) resolved.disk = default_disk;
     return Run(scene, resolved).walk();
 }
 

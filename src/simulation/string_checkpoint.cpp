@@ -1,6 +1,6 @@
 #include "string_checkpoint.h"
 
-#include "espalier/base/bytes.h"
+#include "base/bytes.h"
 
 #include <algorithm>
 

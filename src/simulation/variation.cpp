@@ -1,4 +1,4 @@
-#include "espalier/simulation/variation.h"
+#include "simulation/variation.h"
 
 #include "espalier/base/error.h"
 
@@ -136,7 +136,7 @@ std::vector<Variant> combine(const std::vector<Variation>& variations) {
             for (const std::string& value : variations[k].values) {
                 longer.push_back(variant);
                 longer.back().values.emplace_back(variations[k].key, value);
-                longer.back().name += (k == 0 ? "" : ",") + as_name(keys[k] + "=" + value);
+                longer.back().name.append(k == 0 ? "" : ",").append(as_name(keys[k] + "=" + value));
             }
         }
         variants = std::move(longer);

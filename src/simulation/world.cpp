@@ -1,8 +1,8 @@
 #include "espalier/simulation/world.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/read_log.h"
 
+#include "base/bytes.h"
 #include "every_plant.h"
 #include "growing_plant.h"
 #include "memory_budget.h"
@@ -16,6 +16,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace espalier::simulation {
@@ -44,12 +45,18 @@ std::string folder_of(const std::string& name) {
     return folder;
 }
 
-// What a scene leaves open: plants draw by their number in the scene, and bear their model's name.
+// What a scene leaves open: plants draw by their number in the scene, and bear their model's name with a number.
 Scene decided(Scene scene) {
+    std::set<std::string> names;
+    for (const Plant& plant : scene.plants) names.insert(plant.name);
     for (std::size_t i = 0; i < scene.plants.size(); ++i) {
         Plant& plant = scene.plants[i];
         if (!plant.stream) plant.stream = static_cast<std::uint32_t>(i);
-        if (plant.name.empty()) plant.name = source_of(*plant.model).name;
+        if (!plant.name.empty()) continue;
+        const std::string stem = std::filesystem::path(source_of(*plant.model).name).stem().string();
+        plant.name = stem;
+        for (int number = 2; !names.insert(plant.name).second; ++number)
+            plant.name = fmt::format("{}-{}", stem, number);
     }
     return scene;
 }
@@ -64,7 +71,7 @@ struct World::State {
     void set_lengths();
     DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
     double time() const { return step * scene.dt; }
-    void rewrite(void (GrowingPlant::*rewrite)(ModuleString*));
+    void rewrite(void (GrowingPlant::*stage)(ModuleString*));
     void note_ends();
 
     Scene scene;
@@ -105,14 +112,14 @@ void World::derive() {
     state_->rewrite(&GrowingPlant::derive);
 }
 
-void World::State::rewrite(void (GrowingPlant::*rewrite)(ModuleString*)) {
+void World::State::rewrite(void (GrowingPlant::*stage)(ModuleString*)) {
     const Stopwatch stopwatch(times.derive);
     const bool is_plentiful = memory.is_plentiful();
     for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
                     [&](GrowingPlant& plant, ModuleString& spare) {
                         if (!memory.has_room()) return;
                         memory.limit_strings(plant);
-                        (plant.*rewrite)(is_plentiful ? &spare : nullptr);
+                        (plant.*stage)(is_plentiful ? &spare : nullptr);
                         memory.count_strings(plant);
                     });
     memory.check_strings(plants, step);
@@ -151,6 +158,12 @@ void World::exchange() {
         strings.push_back(&*plant.string);
     }
     state_->environment->exchange({state_->step, state_->time(), state_->scene.dt, views}, strings);
+    // Answers are kept as all parameters are.
+    for (const PlantView& plant : views) {
+        const Arithmetic arithmetic = plant.model->arithmetic;
+        if (!plant.asks || arithmetic == Arithmetic::double_precision) continue;
+        for (double& value : strings[plant.plant]->parameters) value = stored(value, arithmetic);
+    }
 }
 
 void World::record() {

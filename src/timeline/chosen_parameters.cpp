@@ -1,6 +1,6 @@
 #include "timeline/chosen_parameters.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 namespace espalier::timeline {
 namespace {
 
-constexpr std::array own_names{"identity", "parent", "plant", "symbol", "birth",
-                               "order",    "colour", "kind",  "radius", "symbol_names"};
+constexpr std::array own_names{"identity", "parent", "plant",  "symbol", "birth",       "order",
+                               "colour",   "kind",   "radius", "pixels", "symbol_names"};
 
 ChosenParameter read_one(const Settings& table, const std::string& name) {
     const std::string text = table.text(name);

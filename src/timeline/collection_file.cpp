@@ -1,10 +1,10 @@
 #include "timeline/collection_file.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
+#include "base/bytes.h"
+#include "base/text.h"
 #include "base/xml_text.h"
 
 #include <fmt/format.h>

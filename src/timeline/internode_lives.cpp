@@ -1,8 +1,9 @@
 #include "timeline/internode_lives.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/error.h"
 #include "espalier/base/random.h"
+
+#include "base/bytes.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

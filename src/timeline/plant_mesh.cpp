@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
 
 #include <glm/geometric.hpp>
@@ -96,8 +97,9 @@ void Cells::add(const IndexRuns& runs, std::int32_t origin, const Owner& owner) 
     owners.add(owner, runs.counts.size());
 }
 
-void PlantMesh::begin() {
-    for (RewrittenColumn<float>* column : {&points, &normals, &uvs, &radii}) column->begin();
+void PlantMesh::begin(bool with_pixels) {
+    with_pixels_ = with_pixels;
+    for (RewrittenColumn<float>* column : {&points, &normals, &uvs, &radii, &pixels}) column->begin();
     owners.begin();
     for (Cells* cells : {&vertices, &lines, &polygons}) cells->begin();
     labels_before_.swap(labels);
@@ -122,8 +124,9 @@ void PlantMesh::refuse() {
 }
 
 bool PlantMesh::changed() const {
-    return points.changed() || normals.changed() || uvs.changed() || radii.changed() || owners.ends.changed() ||
-           vertices.changed() || lines.changed() || polygons.changed() || labels != labels_before_;
+    return points.changed() || normals.changed() || uvs.changed() || radii.changed() || pixels.changed() ||
+           owners.ends.changed() || vertices.changed() || lines.changed() || polygons.changed() ||
+           labels != labels_before_;
 }
 
 SurfaceMeshes* OrganSource::surfaces(const std::shared_ptr<const Shapes>& shapes) {
@@ -146,9 +149,11 @@ void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plan
         if (begins) {
             if (last) mesh.lines.close(first);
             first = owner;
-            mesh.lines.connectivity.add(mesh.add_point({internode.base, normal, {}}, internode.base_radius, owner));
+            mesh.lines.connectivity.add(
+                mesh.add_point({internode.base, normal, {}}, internode.base_radius, owner, internode.pixels));
         }
-        mesh.lines.connectivity.add(mesh.add_point({internode.tip, normal, {}}, internode.tip_radius, owner));
+        mesh.lines.connectivity.add(
+            mesh.add_point({internode.tip, normal, {}}, internode.tip_radius, owner, internode.pixels));
         last = &internode;
     }
     if (last) mesh.lines.close(first);
@@ -159,7 +164,8 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
         const Owner owner{plant, polygon.module, polygon.order, polygon.colour, Kind::polygon, polygon.look};
         const glm::dvec3* vertices = &geometry.vertices[polygon.first];
         const glm::dvec3 normal = normal_of(vertices, polygon.count);
-        const auto vertex = [&](std::size_t i) { return SurfaceVertex{vertices[i], normal, {}}; };
+        const std::vector<glm::dvec2> uvs = texture_coordinates({vertices, polygon.count}, normal);
+        const auto vertex = [&](std::size_t i) { return SurfaceVertex{vertices[i], normal, uvs[i]}; };
         const std::int32_t origin = mesh.add_points(polygon.count, vertex, 0, owner);
         const std::vector<std::uint32_t> triangles = triangles_of({vertices, polygon.count}, normal);
         const std::size_t corners = triangles.empty() ? polygon.count : triangles.size();
@@ -180,22 +186,22 @@ void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner) {
     mesh.polygons.add(shape.faces, origin, owner);
 }
 
-/// Patches may have colours of their own, on both sides.
-Owner owner_of_patch(Owner owner, const BicubicPatch* patch) {
-    if (!patch) return owner;
+/// Patches may have colours of their own, on both sides; with materials they have none, as in cpfg.
+Owner owner_of_patch(Owner owner, const BicubicPatch* patch, const Palette* palette) {
+    if (!patch || (palette && palette->of_materials)) return owner;
     if (patch->top_colour > 0) owner.colour = static_cast<std::uint16_t>(patch->top_colour);
     if (patch->bottom_colour > 0) owner.look.back_colour = static_cast<std::uint16_t>(patch->bottom_colour);
     return owner;
 }
 
 void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ& organ, bool as_whole,
-                 const Owner& owner) {
+                 const Owner& owner, const Palette* palette) {
     const SurfaceMesh& shape = entry.mesh;
     const auto origin = static_cast<std::int32_t>(mesh.size());
     for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
         SurfaceVertex vertex = placed(shape.vertices[i], organ);
         if (as_whole) vertex.uv = entry.whole[i];
-        mesh.add_point(vertex, 0, owner_of_patch(owner, entry.patches[i]));
+        mesh.add_point(vertex, 0, owner_of_patch(owner, entry.patches[i], palette));
     }
     std::size_t at = 0;
     for (std::size_t face = 0; face < shape.faces.size(); ++face) {
@@ -204,20 +210,21 @@ void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ
         }
         const BicubicPatch* patch =
             face < shape.patches.size() ? &entry.surface->patches[shape.patches[face]] : nullptr;
-        mesh.polygons.close(owner_of_patch(owner, patch));
+        mesh.polygons.close(owner_of_patch(owner, patch, palette));
     }
 }
 
 }  // namespace
 
-void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant) {
+void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant,
+                const Palette* palette) {
     SurfaceMeshes* const surfaces = source.surfaces(geometry.shapes);
     for (const Organ& organ : geometry.organs) {
         const Owner owner{plant, organ.module, organ.order, organ.colour, Kind::organ, organ.look};
         const SurfaceMeshes::Entry* surface =
             surfaces && organ.shape == Organ::Shape::surface ? surfaces->find(organ.surface) : nullptr;
         if (surface) {
-            add_surface(mesh, *surface, organ, surfaces->textured_as_whole(organ), owner);
+            add_surface(mesh, *surface, organ, surfaces->textured_as_whole(organ), owner, palette);
         } else {
             add_organ(mesh, source.plain.of(organ), owner);
         }

@@ -82,11 +82,12 @@ public:
     RewrittenColumn<float> normals;  ///< across the axis on axes
     RewrittenColumn<float> uvs;      ///< two a point
     RewrittenColumn<float> radii;
-    Owners owners;  ///< of the points
+    RewrittenColumn<float> pixels;  ///< widths of lines, in pixels; empty where no plant has such widths
+    Owners owners;                  ///< of the points
     Cells vertices, lines, polygons;
     std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
 
-    void begin();
+    void begin(bool with_pixels = false);
     void end();
     std::size_t size() const { return radii.size(); }
     /// Makes room for so many points in all; there may be more.
@@ -94,20 +95,22 @@ public:
     /// Adds points of one owner, `vertex(i)` being the i-th, and returns the first one's number. Throws RunError beyond
     /// 2^28 points.
     template <class Vertex>
-    std::int32_t add_points(std::size_t count, const Vertex& vertex, double radius, const Owner& owner) {
+    std::int32_t add_points(std::size_t count, const Vertex& vertex, double radius, const Owner& owner,
+                            float pixel_width = 0) {
         const std::size_t first = size();
         if (count > most_points - first) refuse();
         points.add_tuples<3>(count, [&](std::size_t i, float* at) { put<3>(vertex(i).position, at); });
         normals.add_tuples<3>(count, [&](std::size_t i, float* at) { put<3>(vertex(i).normal, at); });
         uvs.add_tuples<2>(count, [&](std::size_t i, float* at) { put<2>(vertex(i).uv, at); });
         radii.add_tuples<1>(count, [&](std::size_t, float* at) { *at = static_cast<float>(radius); });
+        if (with_pixels_) pixels.add_tuples<1>(count, [&](std::size_t, float* at) { *at = pixel_width; });
         owners.add(owner, count);
         return static_cast<std::int32_t>(first);
     }
     /// Returns the point's number.
-    std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner) {
+    std::int32_t add_point(const SurfaceVertex& vertex, double radius, const Owner& owner, float pixel_width = 0) {
         return add_points(
-            1, [&](std::size_t) -> const SurfaceVertex& { return vertex; }, radius, owner);
+            1, [&](std::size_t) -> const SurfaceVertex& { return vertex; }, radius, owner, pixel_width);
     }
     /// False if it would be shown as in the frame before, but for what its owners are.
     bool changed() const;
@@ -122,6 +125,7 @@ private:
     }
     [[noreturn]] static void refuse();
 
+    bool with_pixels_ = false;
     std::vector<std::string> labels_before_;
 };
 
@@ -141,7 +145,10 @@ private:
 /// begins there.
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
-void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant);
+/// `palette`: what colour indices look like, null if unknown. Patches have colours of their own where it has no
+/// materials.
+void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant,
+                const Palette* palette = nullptr);
 /// Generalized cylinders and patches. A ring between two pieces belongs to the first.
 void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);

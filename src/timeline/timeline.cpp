@@ -1,8 +1,8 @@
 #include "espalier/timeline/timeline.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/error.h"
 
+#include "base/bytes.h"
 #include "timeline/frame_writer.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array indices{"plants.pvd", "fields.pvd", "lifespans.vtp", "statistics.csv"};
+constexpr std::array indices{"plants.pvd", "fields.pvd", "lifespans.vtp", "statistics.csv", "background.vtp"};
 constexpr std::array reports{"run.json", "timings.csv"};
 
 bool holds_timeline(const fs::path& folder) {
@@ -152,7 +152,8 @@ void Timeline::record(const Frame& frame) {
     const bool chosen = frame.step >= next_;
     if (chosen) next_ = frames_.after(frame.step);
     const bool ends = frame.is_last || (!exactly_ && frame.step == last_step_);
-    const bool due = chosen || (ends && !(exactly_ && recorded_));
+    const bool stopped = frame.is_last && frame.step < last_step_;
+    const bool due = chosen || stopped || (ends && !(exactly_ && recorded_));
     if (due || sees_every_step_) writer_->add(frame, due);
     if (due && !recorded_) writer_->wait();
     recorded_ = recorded_ || due;

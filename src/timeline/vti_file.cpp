@@ -2,9 +2,9 @@
 
 #include "espalier/base/column.h"
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/text.h"
 #include "base/xml_text.h"
 #include "geometry/grid_file.h"
 #include "timeline/vtk_file.h"

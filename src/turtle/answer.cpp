@@ -1,7 +1,7 @@
 // The turtle's own answers reach the string.
 #include "espalier/turtle/interpretation.h"
 
-namespace espalier {
+namespace espalier::turtle {
 
 void write_turtle_answers(std::span<const TurtleAnswer> answers, std::span<const TurtleDirection> directions,
                           ModuleString& string) {
@@ -22,4 +22,4 @@ void write_turtle_answers(const Interpretation& interpretation, ModuleString& st
     write_turtle_answers(interpretation.answers, interpretation.directions, string);
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

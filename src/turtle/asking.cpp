@@ -1,6 +1,6 @@
 #include "turtle/asking.h"
 
-namespace espalier {
+namespace espalier::turtle {
 
 bool has_queries(const Alphabet& alphabet) {
     for (std::size_t symbol = 0; symbol < alphabet.symbol_count(); ++symbol) {
@@ -9,4 +9,4 @@ bool has_queries(const Alphabet& alphabet) {
     return alphabet.find("s", 2) || alphabet.find("s", 3);  // the older name of ?P
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

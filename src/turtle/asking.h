@@ -3,9 +3,15 @@
 
 #include "espalier/lsystem/alphabet.h"
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// True if the alphabet has a query: a symbol that begins with `?`, or its older name s.
 bool has_queries(const Alphabet& alphabet);
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::has_queries;
 
 }  // namespace espalier

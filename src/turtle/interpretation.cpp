@@ -3,7 +3,7 @@
 
 #include "turtle/walk/parallel_walk.h"
 
-namespace espalier {
+namespace espalier::turtle {
 
 void Interpretation::clear() {
     geometry.clear();
@@ -31,4 +31,4 @@ Interpretation interpret(const Model& model, const ModuleString& string, const T
     return result;
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

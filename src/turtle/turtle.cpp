@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 /// Rodrigues' rotation formula; `axis` is a unit vector.
@@ -83,21 +83,30 @@ void head_towards(Pose& pose, const glm::dvec3& heading) {
 }
 
 void apply_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities) {
-    glm::dvec3 bend(0), twist(0);
+    bend_by_tropisms(pose, tropisms, elasticities);
+    roll_by_torques(pose, tropisms, elasticities);
+}
+
+bool bend_by_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities) {
+    glm::dvec3 bend(0);
     for (std::size_t i = 0; i < tropisms.size(); ++i) {
-        if (elasticities[i] == 0) continue;
-        if (tropisms[i].torque) {
-            twist += tropisms[i].direction * elasticities[i];
-        } else {
-            bend += pull(tropisms[i], pose.heading) * elasticities[i];
-        }
+        if (elasticities[i] == 0 || tropisms[i].torque) continue;
+        bend += pull(tropisms[i], pose.heading) * elasticities[i];
     }
     // Prusinkiewicz & Lindenmayer 1990, section 2.3: alpha = e |H x T|, about the axis H x T.
     const glm::dvec3 axis = glm::cross(pose.heading, bend);
     const double torque = glm::length(axis);
-    if (torque > 0) rotate_frame(pose, axis / torque, std::min(torque, 1.0));
+    if (torque == 0) return false;
+    rotate_frame(pose, axis / torque, std::min(torque, 1.0));
+    return true;
+}
 
-    // The same for up, about the heading: only the part of the twist across the heading counts.
+void roll_by_torques(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities) {
+    glm::dvec3 twist(0);
+    for (std::size_t i = 0; i < tropisms.size(); ++i) {
+        if (tropisms[i].torque) twist += tropisms[i].direction * elasticities[i];
+    }
+    // As for the heading, about the heading: only the part of the twist across it counts.
     const double roll = std::clamp(glm::dot(glm::cross(pose.up, twist), pose.heading), -1.0, 1.0);
     if (roll != 0) roll_left(pose, Rotation(-roll));
 }
@@ -113,4 +122,4 @@ void apply_older_tropism(Pose& pose, const glm::dvec3& direction, double elastic
     bend(pose.left);
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,8 @@
 #include "view/script.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
+
+#include "base/text.h"
 
 #include <fmt/format.h>
 

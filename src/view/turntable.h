@@ -24,7 +24,7 @@ public:
 /// that something should be.
 class Turntable final : public vtkInteractorStyle {
 public:
-    vtkTypeMacro(Turntable, vtkInteractorStyle);
+    vtkTypeMacro(Turntable, vtkInteractorStyle)
     static Turntable* New();
 
     void set_hands(WindowHands* hands) { hands_ = hands; }

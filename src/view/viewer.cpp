@@ -1,8 +1,10 @@
 #include "view/viewer.h"
 
 #include "espalier/base/error.h"
+#include "espalier/picture/author_view.h"
 
 #include "picture/files/off_screen.h"
+#include "picture/stage/stage_survey.h"
 #include "view/painter.h"
 
 #include <vtkCellPicker.h>
@@ -55,6 +57,8 @@ void merge(StageSurvey& all, const StageSurvey& one) {
     const auto widen = [](std::array<double, 2>& range, const std::array<double, 2>& by) {
         range = {std::min(range[0], by[0]), std::max(range[1], by[1])};
     };
+    all.drawn += one.drawn;
+    all.pale += one.pale;
     if (one.range) widen(all.range ? *all.range : all.range.emplace(*one.range), *one.range);
     for (const auto& [name, range] : one.field_ranges) {
         widen(all.field_ranges.try_emplace(name, range).first->second, range);
@@ -79,6 +83,9 @@ Viewer::Viewer(vtkRenderWindow& window, vtkRenderWindowInteractor& interactor, s
     interactor_.SetInteractorStyle(turntable_);
     layout_.scale = scale_of(window_);
     looks_ = looks_of(run());
+    camera_ = options_.camera.value_or(run().view() ? camera_of(*run().view()) : CameraPlace{});
+    if (!options_.camera && run().view()) light_as(*run().view(), style_);
+    background_is_chosen_ = !options_.chooses_background;
     ask_simulation();
     if (options_.step) {
         frame_ = static_cast<std::size_t>(&run().frame(*options_.step) - frames().data());
@@ -270,6 +277,16 @@ void Viewer::settle() {
         merge(survey, data ? stage_->survey(*frame, data->geometry) : stage_->survey(*frame, run().geometry(*frame)));
     }
     stage_->settle(survey);
+    choose_background(survey);
+}
+
+void Viewer::choose_background(const StageSurvey& survey) {
+    if (background_is_chosen_ || survey.box.empty()) return;
+    background_is_chosen_ = true;
+    style_.background = chosen_background(run(), survey, style_.background);
+    PictureStyle staged = stage_->style();
+    staged.background = style_.background;
+    stage_->restyle(staged);
 }
 
 void Viewer::ask_history() {
@@ -350,7 +367,7 @@ void Viewer::reset_camera() {
     dirty_ = true;
     if (!stage_) return;
     lay_out();
-    stage_->place_camera(options_.camera, !settled_);
+    stage_->place_camera(camera_, !settled_);
 }
 
 void Viewer::camera_moved() {

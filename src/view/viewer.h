@@ -91,6 +91,7 @@ private:
     void select(std::optional<OrganKey> organ);
     void select_parent();
     void reset_camera();
+    void choose_background(const StageSurvey& survey);
     void save_numbered_picture();
     void say(std::string message);
 
@@ -108,6 +109,7 @@ private:
     vtkNew<vtkRenderer> paper_;  ///< behind all else
     vtkNew<Turntable> turntable_;
     WindowLayout layout_;
+    CameraPlace camera_;
     PictureStyle style_;  ///< `shading`: what is wished; the stage has it where there is time for it
 
     std::size_t frame_ = 0;             ///< that is asked for
@@ -117,6 +119,7 @@ private:
     bool live_ = false, playing_ = false, help_ = false, sliding_ = false;
     bool settled_ = false, surveyed_ = false;  ///< the stage has the measures of the whole run; of some of it
     bool camera_is_mine_ = true;               ///< nobody moved it yet
+    bool background_is_chosen_ = false;        ///< for good
     double frames_per_second_ = 10;
     std::size_t play_from_ = 0;
     Clock::time_point play_since_, last_look_, frame_since_;

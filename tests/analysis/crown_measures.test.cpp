@@ -130,6 +130,10 @@ TEST_CASE("convex hull: an area, whatever the order of the points and however ma
     CHECK(convex_hull_area(square) == Approx(100));
     CHECK(convex_hull_area(std::vector<glm::dvec2>{{0, 0}, {1, 1}, {2, 2}}) == 0);
     CHECK(convex_hull_area(std::vector<glm::dvec2>{}) == 0);
+    // A root that grows straight down, seen from above.
+    std::vector<glm::dvec2> upright;
+    for (int i = 0; i < 10; ++i) upright.emplace_back(i * 1e-17, (i % 3) * 2e-17);
+    CHECK(convex_hull_area(upright) == Approx(0).margin(1e-30));
     CHECK(convex_hull_area(std::vector<glm::dvec2>{{0, 0}, {4, 0}, {0, 3}}) == Approx(6));
 }
 

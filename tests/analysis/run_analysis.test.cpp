@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
 
 using namespace espalier;
 using namespace espalier::analysis;
@@ -101,11 +102,11 @@ TEST_CASE("a recorded run has a row per step and plant, and its files say the sa
     const RunAnalysis analysis(run, frames_of(run), numbers_of(run));
     const RecordedTable table = analysis.table();
     REQUIRE(table.rows.size() == 4);
-    CHECK(table.columns.size() == measure_descriptions().size() + 2);
+    CHECK(table.columns.size() == measure_descriptions().size() + 3);
     const RecordedTable statistics = run.statistics();
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         for (const auto& other : statistics.rows) {
-            if (other[0] != table.rows[i][0] || other[1] != table.rows[i][1]) continue;
+            if (other[0] != table.rows[i][0] || other[2] != table.rows[i][2]) continue;
             CHECK(table.rows[i][table.column("length")] == Approx(other[statistics.column("length")]));
             CHECK(table.rows[i][table.column("internodes")] == other[statistics.column("internodes")]);
         }
@@ -121,7 +122,8 @@ TEST_CASE("a recorded run has a row per step and plant, and its files say the sa
     std::size_t lines = 0;
     while (std::getline(csv, line)) {
         ++lines;
-        CHECK(static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) == table.columns.size() - 1);
+        CHECK(static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) ==
+              table.columns.size());  // and the name
         CHECK(line.find("nan") == std::string::npos);
     }
     CHECK(lines == 5);
@@ -136,5 +138,34 @@ TEST_CASE("a recorded run has a row per step and plant, and its files say the sa
 TEST_CASE("a leaf symbol that no frame knows is named with the nearest", "[analysis]") {
     const RecordedFolder recorded;
     const RecordedRun run(recorded.folder.path);
-    CHECK_THROWS_AS(RunAnalysis(run, frames_of(run), numbers_of(run), {{"Q"}, 0, 0}), UserError);
+    CHECK_THROWS_AS(RunAnalysis(run, frames_of(run), numbers_of(run), {{"Q"}}), UserError);
+}
+
+TEST_CASE("all plants and steps have the same layers, empty ones too, so that means over them are means",
+          "[analysis]") {
+    const RecordedFolder recorded;
+    const RecordedRun run(recorded.folder.path);
+    AnalysisOptions options;
+    options.low = -2;
+    options.high = 1;
+    options.ground = 4;
+    const RunAnalysis analysis(run, frames_of(run), numbers_of(run), options);
+    const RecordedTable layers = analysis.last_layers();
+    const std::size_t plant = layers.column("plant"), height = layers.column("height"),
+                      length = layers.column("length"), density = layers.column("ground_density");
+    std::map<double, std::vector<double>> heights;
+    std::map<double, double> lengths;
+    const double thickness = layers.rows[1][height] - layers.rows[0][height];
+    for (const std::vector<double>& row : layers.rows) {
+        heights[row[plant]].push_back(row[height]);
+        lengths[row[plant]] += row[length];
+        CHECK(row[density] == Approx(row[length] / (4 * thickness)));
+    }
+    REQUIRE(heights.size() == 2);
+    CHECK(heights[0] == heights[1]);
+    CHECK(heights[0].front() < -2 + thickness);
+    const RecordedTable table = analysis.table();
+    for (const auto& row : table.rows) {
+        if (row[0] == table.rows.back()[0]) CHECK(lengths[row[2]] == Approx(row[table.column("length")]));
+    }
 }

@@ -4,7 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -49,6 +52,27 @@ TEST_CASE_METHOD(Workplace, "analyse measures what a model grew, as tables and a
     CHECK(plant["leaf_area_index"].is_null());
     CHECK(plant["ramification"].size() == 5);
     for (const json& row : plant["ramification"]) CHECK(row["parts"].back() == 1);
+}
+
+TEST_CASE_METHOD(Workplace, "analyse gives a field's profile over depth as a table and a chart", "[app]") {
+    write("root.l", "environment water;\nlsystem: 1\nderivation length: 2\naxiom: ?water(0.1)\nendlsystem\n");
+    write("soil.toml",
+          "[[plant]]\nmodel = \"root.l\"\nposition = [0.05, -0.05, 0]\n[environment.water]\n"
+          "process = \"soil-water\"\nvoxel = 0.1\ninitial = 0.25\n"
+          "domain = { lower = [0, -0.3, 0], upper = [0.2, 0, 0] }\n[timeline]\nfields = [\"water\"]\n");
+    REQUIRE(run("run soil.toml --output run --quiet").code == 0);
+    const Outcome outcome = run("analyse run --field water --step last --output tables --no-picture");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("water-y.csv"));
+    const std::string table = text_of(path() / "tables/water-y.csv");
+    CHECK_THAT(table, Contains("step,y,mean,deviation,minimum,maximum\n2,-0.25,0.25,0,0.25,0.25\n2,-0.15,0.25,0,0.25,0.25\n"));
+    CHECK(std::count(table.begin(), table.end(), '\n') == 4);
+    CHECK_THAT(run("analyse run --field watr").err, Contains("did you mean 'water'"));
+    CHECK(run("analyse run --field water --leaf L").code != 0);
+    const Outcome drawn = run("analyse run --field water --profile x");
+    CHECK(drawn.code == 0);
+    if (drew(drawn)) CHECK(fs::file_size(path() / "run/analysis/water-x.png") > 1000);
 }
 
 TEST_CASE_METHOD(Workplace, "analyse and plot draw their charts", "[app]") {
@@ -110,4 +134,47 @@ TEST_CASE_METHOD(Workplace, "mistakes of analyse and plot are named, with what w
     says("analyse run --leaf Q", "no symbol 'Q'");
     says("analyse run --layer 1e-9 --no-picture", "100,000 layers");
     says("analyse run --voxel -1", "--voxel");
+}
+
+TEST_CASE_METHOD(Workplace, "tables and charts tell time, units and names", "[app]") {
+    write("root.l",
+          "environment water;\nlsystem: 1\nderivation length: 4\naxiom: ?water(0.001)A\n"
+          "?water(w) < A --> f(0.01)F(0.1)?water(0.001)A\n?water(w) --> *\nendlsystem\n");
+    write("soil.toml",
+          "[simulation]\ndt = 0.5\ntime_unit = 'day'\n"
+          "[[plant]]\nmodel = 'root.l'\nname = 'left, main'\nheading = [0, -1, 0]\n"
+          "[environment.water]\nprocess = 'soil-water'\nvoxel = 0.1\namount = 'volume'\ninitial = 0.3\n"
+          "domain = { lower = [-0.5, -1, -0.5], upper = [0.5, 0, 0.5] }\n"
+          "[timeline]\nparameters = { obtained = '?water.1' }\n");
+    const Outcome grown = run("run soil.toml --output run --quiet");
+    INFO(grown.err);
+    REQUIRE(grown.code == 0);
+    const std::string statistics = text_of(path() / "run/statistics.csv");
+    CHECK_THAT(statistics, StartsWith("step,time,plant,name,modules,") && Contains("\n3,1.5,0,\"left, main\","));
+    const json record = json::parse(text_of(path() / "run/run.json"));
+    CHECK(record["units"]["water.uptake"] == "m3");
+    CHECK(record["units"]["water.minimum"] == "m3/m3");
+
+    REQUIRE(run("export run --format csv --output table.csv").code == 0);
+    const std::string table = text_of(path() / "table.csv");
+    CHECK_THAT(table, StartsWith("step,time,plant,name,kind,") && Contains(",query,"));
+    const std::size_t query = table.find(",query,");
+    const std::string row = table.substr(query, table.find('\n', query) - query);
+    CHECK(std::stod(row.substr(row.rfind(',') + 1)) > 0);
+
+    REQUIRE(run("analyse run --no-picture --range -1:0").code == 0);
+    CHECK_THAT(text_of(path() / "run/analysis/layers.csv"),
+               StartsWith("step,time,plant,name,from,to,length,surface,leaf_area,density,ground_density\n") &&
+                   Contains("\n4,2,0,\"left, main\",-1,"));
+    CHECK(run("analyse run --no-picture --range 0:-1").code == 1);
+    const Outcome plotted = run("plot run --quantity water.uptake --output uptake.svg");
+    if (!drew(plotted)) return;
+    CHECK(drew(run("analyse run --range -1:0")));
+}
+
+TEST_CASE_METHOD(Workplace, "a process whose name is misspelt on the command line is found", "[app]") {
+    write("bush.l", models::bush);
+    write("scene.toml", "[[plant]]\nmodel = 'bush.l'\n[environment.light]\nprocess = 'voxel-shade'\n");
+    CHECK_THAT(run("check scene.toml --set environment.licht.voxel=1").err,
+               Contains("[environment.licht] does not say which process it is") && Contains("did you mean 'light'?"));
 }

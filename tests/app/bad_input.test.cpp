@@ -94,7 +94,7 @@ TEST_CASE_METHOD(BadInput, "mistakes in a scene exit with 1 and leave no output 
     fails_with(plant + "[simulation]\nstpes = 3\n",
                "scene.toml:4:1: 'stpes' means nothing here (did you mean 'steps'?)");
     fails_with(plant + "[simulation]\nvigour = 3\n",
-               "'vigour' means nothing here; what can stand here: dt, seed, steps, time_unit");
+               "'vigour' means nothing here; what can stand here: domain, dt, seed, steps, time_unit");
     fails_with(plant + "[simulation\n", "scene.toml:3:");
     fails_with(plant + "[environment.light]\nprocess = 'voxle-shade'\n", "did you mean 'voxel-shade'?");
     fails_with(plant + light + "voxel = -0.25\n", "scene.toml:5:1: 'voxel' must be greater than 0");
@@ -153,6 +153,34 @@ TEST_CASE_METHOD(BadInput, "growth without end stops within its memory and keeps
     CHECK(frames_in("out") == record["steps_done"].get<std::size_t>() + 1);
     CHECK(record["steps_done"] > 10);
     CHECK(run("derive doubling.l --memory 64M").code == 2);
+}
+
+TEST_CASE_METHOD(BadInput, "a run that has written as much as it may stops whole, and goes on where it may write more",
+                 "[app]") {
+    write("patient.l", models::patient);
+    const Outcome outcome = run("run patient.l --steps 2000 --quiet --disk 1M --output out");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("--disk allows 1 MiB") && Contains("`espalier resume out --disk SIZE` goes on"));
+    const json record = json::parse(text_of(path() / "out" / "run.json"));
+    CHECK(record["steps_done"] < 2000);
+    CHECK(frames_in("out") == record["steps_done"].get<std::size_t>() + 1);
+    CHECK(run("resume out --disk 1G --quiet").code == 0);
+    CHECK(frames_in("out") == 2001);
+}
+
+TEST_CASE_METHOD(BadInput, "sizes have units, or are refused", "[app]") {
+    write("bush.l", models::bush);
+    for (const char* good :
+         {"--memory 500M", "--memory 1.5GiB", "--disk 100000000", "--disk 2TB", "--memory 64000KB"}) {
+        INFO(good);
+        CHECK(run(std::string("run bush.l --quiet --overwrite --output out ") + good).code == 0);
+    }
+    for (const char* bad : {"--memory 4XB", "--memory XB", "--memory 4 --disk 4Q", "--disk -4G", "--memory 4MM"}) {
+        INFO(bad);
+        const Outcome outcome = run(std::string("run bush.l --quiet --output bad ") + bad);
+        CHECK(outcome.code == 1);
+        CHECK_THAT(outcome.err, Contains("expected a size such as 512M or 4G"));
+    }
 }
 
 TEST_CASE_METHOD(BadInput, "a plant rich in organs stays within its memory to the last frame", "[app]") {

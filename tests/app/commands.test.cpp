@@ -89,6 +89,37 @@ TEST_CASE_METHOD(Workplace, "without --output the folder is named after scene an
     CHECK(std::filesystem::exists(path() / first["output"].get<std::string>() / "run.json"));
 }
 
+TEST_CASE_METHOD(Workplace, "runs that begin at the same time have folders of their own", "[app]") {
+    write("bush.l", models::bush);
+    const std::string twelve = "for i in 1 2 3 4 5 6 7 8 9 10 11 12; do '" + std::string(ESPALIER_PROGRAM) +
+                               "' run bush.l --quiet || echo failed >> failures & done; wait;";
+    run("list", twelve);
+    CHECK_FALSE(std::filesystem::exists(path() / "failures"));
+    std::size_t runs = 0;
+    for (const auto& folder : std::filesystem::directory_iterator(path() / "output")) {
+        runs += std::filesystem::exists(folder.path() / "run.json");
+    }
+    CHECK(runs == 12);
+}
+
+TEST_CASE_METHOD(Workplace, "a command without what it needs says what to try", "[app]") {
+    const Outcome run_alone = run("run");
+    CHECK(run_alone.code == 1);
+    CHECK_THAT(run_alone.err, StartsWith("espalier run needs `what`: a scene (.toml), a model (.l)") &&
+                                  Contains("\n  espalier run environments/two-trees.toml\n") &&
+                                  Contains("`espalier list models`"));
+    CHECK_THAT(run("rerun").err, Contains("needs `folder`: the folder of a complete run"));
+}
+
+TEST_CASE_METHOD(Workplace, "list knows scenes from descriptions of meshes, and the keyframes of a scene", "[app]") {
+    std::filesystem::create_directories(path() / "environments/meshes");
+    write("environments/light.toml", "# A light.\n[[plant]]\nmodel = 'a.l'\n");
+    write("environments/meshes/ball.toml", "# A ball.\nmesh = 'ball.ply'\n");
+    const std::string scenes = run("list scenes").out;
+    CHECK_THAT(scenes, Contains("light.toml") && !Contains("ball.toml"));
+    CHECK_THAT(run("list scene").out, Contains("keyframes"));
+}
+
 TEST_CASE_METHOD(Workplace, "quiet is quiet, json is json, and a pipe gets about ten lines", "[app]") {
     write("bush.l", models::bush);
     write("patient.l", models::patient);

@@ -222,3 +222,40 @@ TEST_CASE("render: what a scene will not hold is told before it is grown", "[ren
     fails("--sheet 200x200", "10,000");
     fails("--output x.mp4", "apt-get install ffmpeg", 2, "PATH=/nowhere");
 }
+
+TEST_CASE("render: any file of a run stands for the run", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    for (const char* file : {"run/run.json", "run/plants.pvd", "run/plants/0004.vtp"}) {
+        const Outcome outcome = place.run(std::string("render ") + file + " --size 16x16");
+        INFO(file << outcome.err);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out == "run/render.png\n");
+    }
+}
+
+TEST_CASE("render: a model that draws nothing is told, exit code 1", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    place.write("empty.l", "lsystem: 1\nderivation length: 1\naxiom: A\nA --> B\nendlsystem\n");
+    const Outcome outcome = place.run("render empty.l --run-output empty --output empty.png --quiet");
+    CHECK(outcome.code == 1);
+    CHECK_THAT(outcome.err, Contains("nothing to draw"));
+    CHECK_FALSE(std::filesystem::exists(place.path() / "empty.png"));
+}
+
+TEST_CASE("render: a view file says from where, unless the camera is ours", "[render]") {
+    const RenderPlace place;
+    if (!place.grow()) return;
+    place.write("bush.v", "viewpoint: 0,5,1\nbackground color: 0,0,1\nline style: cylinder\n");
+    REQUIRE(place.run("run bush.l --view bush.v --output seen --quiet").code == 0);
+    const auto drawn = [&](const std::string& options) {
+        REQUIRE(place.run("render seen --size 32x32 --output seen.png " + options).code == 0);
+        return place.bytes("seen.png");
+    };
+    const std::string as_author = drawn("");
+    CHECK(as_author == drawn("--camera author"));
+    CHECK(as_author != drawn("--camera auto"));
+    CHECK(as_author != drawn("--elevation 0"));
+    CHECK(as_author != drawn("--background light"));
+}

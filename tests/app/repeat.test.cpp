@@ -60,6 +60,9 @@ TEST_CASE_METHOD(Workplace, "rerun ignores what other commands left in the folde
     fs::create_directory(path() / "first" / "analysis");
     for (const char* name : {"first/render.png", "first/plot.svg", "first/analysis/orders.csv"}) write(name, "x");
     CHECK(run("rerun first --quiet").code == 0);
+    CHECK_THAT(run("rerun first").out, Contains("all files have the same bytes") &&
+                                           Contains("not compared, because no run writes it: analysis/, plot.svg, "
+                                                    "render.png\n"));
     write("first/plants/9999.vtp", "x");
     const Outcome again = run("rerun first --quiet");
     CHECK(again.code == 2);
@@ -144,8 +147,8 @@ TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one 
     CHECK(first.code == 0);
     CHECK(lines_in(first.err) == 6);
     const std::string table = text_of(path() / "s" / "sweep.csv");
-    CHECK_THAT(table, Contains("run,environment.light.voxel,simulation.steps,step,plant,modules"));
-    CHECK_THAT(table, Contains("\"voxel=0.5,steps=2\",0.5,2,2,0,"));
+    CHECK_THAT(table, Contains("run,environment.light.voxel,simulation.steps,name,step,time,plant,modules"));
+    CHECK_THAT(table, Contains("\"voxel=0.5,steps=2\",0.5,2,shrub,2,2,0,"));
     CHECK(lines_in(table) == 7);
 
     // What is done stays; what has changed is done again.
@@ -159,10 +162,10 @@ TEST_CASE_METHOD(Workplace, "a sweep runs every combination once, and makes one 
 TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, also afterwards", "[app]") {
     write("shrub.l", shrub);
     const std::string sweep = "sweep shrub.l --vary D=1.1,1.2 --vary simulation.seed=1..2 --output s ";
+    REQUIRE(run(sweep + "--quiet").code == 0);
     const Outcome mistaken = run(sweep + "--statistic heigt");
     CHECK(mistaken.code == 1);
     CHECK_THAT(mistaken.err, Contains("there is no quantity 'heigt' (did you mean 'height'?)"));
-    CHECK(fs::exists(path() / "s" / "sweep.csv"));
     const Outcome drawn = run(sweep + "--statistic height,organs");
     CHECK_THAT(drawn.err, Contains("4 of 4 runs are already complete"));
     if (drawn.code == 2) return;  // nothing can draw here
@@ -171,6 +174,15 @@ TEST_CASE_METHOD(Workplace, "a sweep draws any statistic over what was varied, a
     CHECK(run(sweep + "--quiet --plot all.svg --dark --size 500x300").code == 0);
     CHECK_THAT(text_of(path() / "all.svg"), Contains("width=\"500\" height=\"300\""));
     CHECK(run(sweep + "--plot all.jpg").code == 1);
+}
+
+TEST_CASE_METHOD(Workplace, "a sweep knows its statistics before it runs", "[app]") {
+    write("shrub.l", shrub);
+    write("scene.toml", scene);
+    const Outcome outcome = run("sweep scene.toml --vary simulation.seed=1..3 --statistic light.meen --output s");
+    CHECK(outcome.code == 1);
+    CHECK_THAT(outcome.err, Contains("there is no quantity 'light.meen' (did you mean 'light.mean'?)"));
+    CHECK_FALSE(fs::exists(path() / "s"));
 }
 
 TEST_CASE_METHOD(Workplace, "the commands a sweep lists are those it would run", "[app]") {

@@ -2,6 +2,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "archive/meshes/tubes.h"
 #include "archive/recorded_folder.h"
 #include "catch.h"
 
@@ -193,4 +194,74 @@ TEST_CASE("files damaged anywhere are refused by name or read as something sound
         std::ofstream(folder / name, std::ios::binary) << whole;
     }
     CHECK(refused > 500);
+}
+
+TEST_CASE("a file of a run stands for the run", "[reading]") {
+    const RecordedFolder recorded;
+    const std::filesystem::path run = recorded.folder.path;
+    for (const char* file : {"run.json", "plants.pvd", "plants/0004.vtp", "statistics.csv", "fields/light/0000.vti"}) {
+        INFO(file);
+        CHECK(std::filesystem::equivalent(folder_of_run(run / file), run));
+        CHECK(RecordedRun(run / file).frames().size() == 2);
+    }
+    CHECK(folder_of_run(run) == run);
+    CHECK(folder_of_run("models/course/01-curve.l") == "models/course/01-curve.l");
+    CHECK(folder_of_run("no/such/plants.pvd") == "no/such/plants.pvd");
+}
+
+TEST_CASE("how an author looked at a plant is read back", "[reading]") {
+    const GoingRun going;
+    CHECK_FALSE(RecordedRun(going.folder.path).view());
+    std::string json = run_json;
+    json.insert(1, R"("view": {"towards_eye": [1, 0, 0], "twist": 90.0, "perspective": true, "angle": 30.0,
+                               "towards_light": [0, 2, 0], "background": [0, 0.2, 1]}, )");
+    write_text(going.folder.path / "run.json", json);
+    const auto view = RecordedRun(going.folder.path).view();
+    REQUIRE(view);
+    CHECK(view->towards_eye == glm::dvec3(1, 0, 0));
+    CHECK(view->twist == 90);
+    CHECK(view->perspective);
+    CHECK(view->towards_light == glm::dvec3(0, 2, 0));
+    CHECK(view->background == std::array<std::uint8_t, 3>{0, 51, 255});
+}
+
+TEST_CASE("lines in pixels are as thick as the picture says", "[reading]") {
+    RecordedGeometry geometry;
+    geometry.points = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
+    geometry.radii = {0, 0, 0.5f};
+    geometry.pixels = {3, 3, 0};
+    const std::vector<std::int32_t> points{0, 1, 2};
+    const TubeLine line = tube_line(geometry, points, 0, 0.01f);
+    REQUIRE(line.nodes.size() == 3);
+    CHECK(line.nodes[0].radius == Approx(0.03f));
+    CHECK(line.nodes[2].radius == 0.5f);
+    geometry.pixels.clear();
+    geometry.radii = {0, 0, 0};
+    CHECK(tube_line(geometry, points, 0, 0.01f).nodes[0].radius == 0.01f);
+}
+
+TEST_CASE("what stands around the plants reads back", "[reading]") {
+    const GoingRun going;
+    CHECK_FALSE(RecordedRun(going.folder.path).background());
+    Background background;
+    background.vertices = {{{0, 0, 0}, {0, 0, 1}, {}}, {{1, 0, 0}, {0, 0, 1}, {}}, {{0, 1, 0}, {0, 0, 1}, {}}};
+    background.triangles = {0, 1, 2};
+    Material red;
+    red.diffuse = {1, 0, 0, 0.5};
+    background.pieces = {{red, 0, 3}};
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table(), 0);
+    const HandmadePlant plant = seedling();
+    PlantFrame frame = plant.frame();
+    frame.background = &background;
+    const Fields fields;
+    timeline.record({0, 0, {frame}, &fields});
+    timeline.finish();
+    timeline.write_run(run_json);
+    const auto recorded = RecordedRun(folder.path).background();
+    REQUIRE(recorded);
+    CHECK(recorded->triangles.size() == 1);
+    CHECK(recorded->points[1] == glm::vec3(1, 0, 0));
+    CHECK(recorded->rgb[0] == std::array<std::uint8_t, 3>{255, 0, 0});
+    CHECK(recorded->opacities[0] == 0.5f);
 }

@@ -16,24 +16,24 @@ TEST_CASE("the generator is Philox 4x32-10, by its published known answers", "[b
     CHECK(zero[3] == 0x9b00dbd8u);
 }
 
-TEST_CASE("a draw depends on seed, plant, stream, drawer, step and number, and on nothing else", "[base]") {
+TEST_CASE("a sample depends on seed, plant, stream, owner, step and number, and on nothing else", "[base]") {
     const RandomKey key(7, 0, Stream::derivation);
-    const double value = RandomDraws(key, 11, 3).uniform();
-    CHECK(RandomDraws(RandomKey(7, 0, Stream::derivation), 11, 3).uniform() == value);
+    const double value = RandomSamples(key, 11, 3).uniform();
+    CHECK(RandomSamples(RandomKey(7, 0, Stream::derivation), 11, 3).uniform() == value);
     std::set<double> others = {value,
-                               RandomDraws(RandomKey(8, 0, Stream::derivation), 11, 3).uniform(),
-                               RandomDraws(RandomKey(7, 1, Stream::derivation), 11, 3).uniform(),
-                               RandomDraws(RandomKey(7, 0, Stream::homomorphism), 11, 3).uniform(),
-                               RandomDraws(key, 12, 3).uniform(),
-                               RandomDraws(key, 11, 4).uniform(),
-                               RandomDraws(key, 11, 3, 1).uniform()};
+                               RandomSamples(RandomKey(8, 0, Stream::derivation), 11, 3).uniform(),
+                               RandomSamples(RandomKey(7, 1, Stream::derivation), 11, 3).uniform(),
+                               RandomSamples(RandomKey(7, 0, Stream::homomorphism), 11, 3).uniform(),
+                               RandomSamples(key, 12, 3).uniform(),
+                               RandomSamples(key, 11, 4).uniform(),
+                               RandomSamples(key, 11, 3, 1).uniform()};
     CHECK(others.size() == 7);
 }
 
-TEST_CASE("uniform draws fill [0,1) evenly: chi-square over 100 bins", "[base]") {
+TEST_CASE("uniform samples fill [0,1) evenly: chi-square over 100 bins", "[base]") {
     std::vector<int> bins(100);
-    for (std::uint64_t drawer = 0; drawer < 100000; ++drawer) {
-        const double u = RandomDraws(RandomKey(1, 2, Stream::derivation), drawer, 0).uniform();
+    for (std::uint64_t owner = 0; owner < 100000; ++owner) {
+        const double u = RandomSamples(RandomKey(1, 2, Stream::derivation), owner, 0).uniform();
         REQUIRE(u >= 0);
         REQUIRE(u < 1);
         ++bins[static_cast<std::size_t>(u * 100)];
@@ -45,15 +45,15 @@ TEST_CASE("uniform draws fill [0,1) evenly: chi-square over 100 bins", "[base]")
 }
 
 TEST_CASE("normal, beta and binomial deviates have the moments of their distributions", "[base]") {
-    RandomDraws draws(RandomKey(5, 0, Stream::derivation), 1, 0);
+    RandomSamples samples(RandomKey(5, 0, Stream::derivation), 1, 0);
     double sum = 0, squares = 0, beta = 0, tosses = 0;
     const int n = 100000;
     for (int i = 0; i < n; ++i) {
-        const double x = draws.normal();
+        const double x = samples.normal();
         sum += x;
         squares += x * x;
-        beta += draws.beta(2, 3);
-        tosses += draws.binomial(10, 0.3);
+        beta += samples.beta(2, 3);
+        tosses += samples.binomial(10, 0.3);
     }
     CHECK(std::abs(sum / n) < 0.012);
     CHECK(std::abs(squares / n - 1) < 0.02);
@@ -64,22 +64,22 @@ TEST_CASE("normal, beta and binomial deviates have the moments of their distribu
 TEST_CASE("beta deviates of tiny shapes lie at both ends, never beside them", "[base]") {
     // For shapes a = b -> 0 the distribution becomes two points of probability 1/2.
     int high = 0;
-    for (std::uint64_t drawer = 0; drawer < 10'000; ++drawer) {
-        const double value = RandomDraws(RandomKey(1, 0, Stream::derivation), drawer, 0).beta(1e-4, 1e-4);
+    for (std::uint64_t owner = 0; owner < 10'000; ++owner) {
+        const double value = RandomSamples(RandomKey(1, 0, Stream::derivation), owner, 0).beta(1e-4, 1e-4);
         REQUIRE((value >= 0 && value <= 1));
         high += value > 0.5;
     }
     CHECK(std::abs(high - 5000) < 200);  // 4 standard deviations
 }
 
-TEST_CASE("draws of many drawers at once are those of each alone", "[base]") {
+TEST_CASE("samples of many owners at once are those of each alone", "[base]") {
     const RandomKey key(3, 4, Stream::derivation, 5);
     for (const std::size_t count : {0, 1, 7, 8, 9, 100}) {
-        std::vector<std::uint64_t> drawers, draws(count);
-        for (std::size_t k = 0; k < count; ++k) drawers.push_back(mix(k, count));
-        first_draws(key, 0xFFFFFFFE, drawers, draws.data());
+        std::vector<std::uint64_t> owners, samples(count);
+        for (std::size_t k = 0; k < count; ++k) owners.push_back(mix(k, count));
+        first_samples(key, 0xFFFFFFFE, owners, samples.data());
         for (std::size_t k = 0; k < count; ++k) {
-            REQUIRE(static_cast<double>(draws[k]) == 0x1p53 * RandomDraws(key, drawers[k], 0xFFFFFFFE).uniform());
+            REQUIRE(static_cast<double>(samples[k]) == 0x1p53 * RandomSamples(key, owners[k], 0xFFFFFFFE).uniform());
         }
     }
 }

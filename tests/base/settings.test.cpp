@@ -116,3 +116,16 @@ TEST_CASE("paths are relative to the file that says them", "[base]") {
     const Settings root = Settings::parse_toml("model = '../m/a.l'", "s.toml", "/scenes");
     CHECK(root.path("model") == "/m/a.l");
 }
+
+TEST_CASE("lists of tables and keys that a reader only looks for are offered where a name is misspelt", "[settings]") {
+    const Settings settings = Settings::parse_toml("layres = 1\n", "soil.toml");
+    CHECK(settings.tables("layers").empty());
+    CHECK_THROWS_WITH(settings.reject_unread(), Catch::Contains("did you mean 'layers'?"));
+    const Settings scene = Settings::parse_toml("anumation = 'a.a'\n", "scene.toml");
+    CHECK_FALSE(scene.path_if_any("animation"));
+    CHECK_THROWS_WITH(scene.reject_unread(), Catch::Contains("did you mean 'animation'?"));
+    CHECK(scene.number_or("dt", 2) == 2);
+    CHECK_FALSE(scene.has("every"));
+    CHECK(scene.integer_or("every", 1) == 1);
+    CHECK_THAT(scene.resolved_json(), Catch::Contains("\"every\": 1") || Catch::Contains("\"every\":1"));
+}

@@ -37,6 +37,8 @@ inline const std::vector<NotRun>& not_run() {
          "ctest runs these tests", ""},
         {"docs/experiments/topiary.md", "build/release/tests/test_experiments \"[topiary]\" -s",
          "ctest runs these tests", ""},
+        {"docs/timeline.md", "pvpython docs/paraview/espalier.py output/two-trees trees.png birth",
+         "ParaView's Python is not installed beside VTK's", "pvpython"},
         {"docs/library.md", "cmake -S . -B build && cmake --build build && build/grow",
          "tests/library builds and runs the examples of this page", ""},
         {"docs/library.md", "espalier run models/course/02-branching.l --steps 3 --output run && build/read run",

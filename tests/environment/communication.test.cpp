@@ -7,6 +7,7 @@
 #include "exchange_plants.h"
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 

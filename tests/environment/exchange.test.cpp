@@ -10,6 +10,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 

@@ -13,6 +13,8 @@
 
 namespace espalier {
 
+using namespace espalier::environment;
+
 /// One question to come: where it is asked, of which process ("" for ?E) and with what.
 struct Asked {
     glm::dvec3 position;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 

@@ -30,8 +30,9 @@ struct LonePlant {
 
     /// With the functions, curves and turtle of a view.
     LonePlant(const View& view, const std::string& file, Defines defines = {}, std::uint64_t seed = 0)
-        : model(
-              read_model(source_path(file), {std::move(defines), false, view.function_names, view.resources, nullptr})),
+        : model(read_model(
+              source_path(file),
+              {.defines = std::move(defines), .predefined = view.function_names, .resources = view.resources})),
           derivation(compile(model), settings_of(source_path(file), seed)),
           turtle(view.turtle) {
         derivation.start(string);

@@ -5,6 +5,7 @@
 
 #include "archive/recorded_folder.h"
 
+#include <functional>
 #include <map>
 #include <numbers>
 #include <string>
@@ -22,13 +23,14 @@ struct Exported {
 
     /// `steps` of {0, 4}; the last by default.
     explicit Exported(const std::string& format, MeshOptions options = {}, const std::vector<int>& steps = {4},
-                      const std::string& settings = "")
+                      const std::string& settings = "", const std::function<void(ExportJob&)>& change = {})
         : recorded(settings) {
         std::vector<const RecordedFrame*> frames;
         for (const int step : steps) frames.push_back(&run.frame(step));
-        export_run({run, frames, options, recorded.folder.path / "export",
-                    [this](const ExportedFile& file) { files.push_back(file); }},
-                   std::vector{format});
+        ExportJob job{run, frames, options, recorded.folder.path / "export",
+                      [this](const ExportedFile& file) { files.push_back(file); }};
+        if (change) change(job);
+        export_run(job, std::vector{format});
     }
 
     std::filesystem::path path() const { return files.at(0).path; }

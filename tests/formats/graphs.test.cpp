@@ -153,7 +153,7 @@ TEST_CASE("an MTG knows who follows whom and who is borne by whom", "[export]") 
     CHECK(branch.features.at("order") == "1");
 }
 
-TEST_CASE("the table has a row for every internode and organ of every frame", "[export]") {
+TEST_CASE("the table has a row for every internode, organ and query of every frame", "[export]") {
     const Exported exported("csv", {}, {0, 4});
     std::istringstream lines(exported.text());
     std::string line;
@@ -166,10 +166,11 @@ TEST_CASE("the table has a row for every internode and organ of every frame", "[
         auto& row = rows.emplace_back();
         for (std::size_t i = 0; i < cells.size(); ++i) row[header[i]] = cells[i];
     }
-    REQUIRE(rows.size() == (1 + 4) + (3 + 4));
+    constexpr std::size_t queries = 2;  // of both plants
+    REQUIRE(rows.size() == (1 + 4 + queries) + (3 + 4 + queries));
     const auto row = [&](const std::string& step, const std::string& plant, const std::string& identity) {
         const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& candidate) {
-            return candidate.at("step") == step && candidate.at("plant") == plant &&
+            return candidate.at("step") == step && candidate.at("name") == plant &&
                    candidate.at("identity") == identity;
         });
         REQUIRE(found != rows.end());
@@ -186,6 +187,9 @@ TEST_CASE("the table has a row for every internode and organ of every frame", "[
     CHECK(triangle.at("symbol") == "P");
     CHECK(std::stod(triangle.at("area")) == Approx(0.5));
     CHECK(triangle.at("vigour").empty());
+    const auto query = row("0", "left", "4");
+    CHECK(query.at("kind") == "query");
+    CHECK(std::stod(query.at("light")) == 0.125);
 }
 
 TEST_CASE("fields become OpenVDB grids with their values, from .vti too", "[export]") {

@@ -178,3 +178,64 @@ TEST_CASE("a USD of one frame has values without times", "[export]") {
     REQUIRE(points.size() == 15);
     CHECK(points[8] == 3);  // the stem's tip, upright
 }
+
+TEST_CASE("the frame rate of growth can be chosen", "[export]") {
+    const auto twice = [](ExportJob& job) { job.steps_per_second = 48; };
+    const Exported exported("gltf", {}, {0, 4}, "", twice);
+    const GlbFile file(exported.text());
+    CHECK(file.channel(file.node_of("left", "2"), "scale").first[1] == Approx(4 / 48.0));
+    CHECK(Exported("usd", {}, {0, 4}, "", twice).text().find("timeCodesPerSecond = 48\n") != std::string::npos);
+}
+
+TEST_CASE("grouped growth has an object for what appears and vanishes together", "[export]") {
+    const Exported exported("gltf", {}, {0, 4}, "", [](ExportJob& job) { job.grouped = true; });
+    const GlbFile file(exported.text());
+    // Of the left plant the seedling, and what came at step 4; of the right one everything at once.
+    CHECK(exported.files.at(0).elements == 3);
+    CHECK(file.json["nodes"].size() == 3 + 2);
+    REQUIRE(file.json["animations"][0]["channels"].size() == 1);
+    const Json& sampler = file.json["animations"][0]["samplers"][0];
+    CHECK(sampler["interpolation"] == "STEP");
+    CHECK(file.numbers(sampler["output"]) == std::vector<float>{0, 0, 0, 1, 1, 1});
+}
+
+TEST_CASE("materials have names that say what they look like", "[export]") {
+    const Exported exported("gltf");
+    const GlbFile file(exported.text());
+    for (const Json& material : file.json["materials"]) {
+        CHECK(material["name"].get<std::string>().starts_with("rgb_"));
+    }
+}
+
+TEST_CASE("organs that look alike are one mesh in many places", "[export]") {
+    const auto instances = [](ExportJob& job) { job.instances = true; };
+    const Exported exported("gltf", {}, {4}, "", instances);
+    const GlbFile file(exported.text());
+    CHECK(file.json["extensionsUsed"] == Json({"EXT_mesh_gpu_instancing"}));
+    int nodes = 0;
+    for (const Json& node : file.json["nodes"]) {
+        if (!node.contains("extensions")) continue;
+        ++nodes;
+        const Json& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        CHECK(file.numbers(attributes["TRANSLATION"]).size() == 3);
+        CHECK(file.numbers(attributes["ROTATION"]).size() == 4);
+    }
+    CHECK(nodes == 1);  // the triangle
+}
+
+TEST_CASE("USD's instances name their shapes and stand where the organs do", "[export]") {
+    const std::string text = Exported("usd", {}, {0, 4}, "", [](ExportJob& job) { job.instances = true; }).text();
+    CHECK(text.find("rel prototypes = [</world/plant_1/organs/shapes/shape_0>]") != std::string::npos);
+    CHECK(numbers_in(samples(text, "right", "organs", "protoIndices").at(0)) == std::vector<double>{0});
+    CHECK(text.find("\"surfaces\"") == std::string::npos);
+    for (const auto& [open, close] : {std::pair{'{', '}'}, {'(', ')'}, {'[', ']'}}) {
+        CHECK(std::count(text.begin(), text.end(), open) == std::count(text.begin(), text.end(), close));
+    }
+}
+
+TEST_CASE("USD's axes have a material, and may be meshes", "[export]") {
+    CHECK(Exported("usd").text().find("rel material:binding = </world/materials/colours>") != std::string::npos);
+    const std::string text = Exported("usd", {}, {4}, "", [](ExportJob& job) { job.mesh_axes = true; }).text();
+    CHECK(text.find("BasisCurves") == std::string::npos);
+    CHECK(numbers_in(samples(text, "left", "surfaces", "faceVertexCounts").at(-1)).size() > 50);
+}

@@ -178,8 +178,26 @@ TEST_CASE("what wears a file that is gone, or no picture, is exported in its own
         const ExportedPlant gltf(leafy_plant(texture), "gltf"), usd(leafy_plant(texture), "usd"),
             obj(leafy_plant(texture), "obj");
         CHECK_FALSE(json_of_glb(bytes_of(gltf.files.at(0).path)).contains("images"));
-        CHECK_THAT(bytes_of(usd.files.at(0).path), !Contains("Material"));
+        CHECK_THAT(bytes_of(usd.files.at(0).path), !Contains("texture_0"));
         CHECK_THAT(bytes_of(obj.folder.path / "export" / "handmade-0000.mtl"), !Contains("map_Kd"));
         CHECK(gltf.files.at(0).triangles == usd.files.at(0).triangles);
     }
+}
+
+TEST_CASE("axes wear their textures, once around and in proportion along", "[export]") {
+    const TemporaryFolder pictures;
+    HandmadePlant plant = branched_plant();
+    plant.interpretation.geometry.shapes = square_leaf(pictures.write("bark.rgb", sgi_picture()));
+    plant.interpretation.geometry.textures.assign(plant.interpretation.geometry.internodes.size(), 1);
+    const ExportedPlant exported(plant, "obj");
+    const std::string text = bytes_of(exported.files.at(0).path);
+    CHECK_THAT(text, Contains("_bark_"));
+    // The stem: 1 m tapering from 10 cm to 5, then 2 m of 5 cm.
+    const double turns = 1 / (std::numbers::pi * 0.15) + 2 / (std::numbers::pi * 0.1);
+    double longest = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("vt ")) longest = std::max(longest, std::stod(line.substr(line.rfind(' '))));
+    }
+    CHECK(longest == Approx(turns));
 }

@@ -84,7 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // Nothing is read from this machine's disk.
     if (size > longest || text.find("include") != std::string_view::npos) return 0;
     ReadOptions options;
-    options.quirks = size % 2 == 1;
+    if (size % 2 == 1) options.arithmetic = Arithmetic::cpfg;
     options.resources = view().resources;
     options.predefined = {{"WIDTH", "1"}};
     try {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::geometry;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::geometry;
 using std::numbers::pi;
 
 namespace {

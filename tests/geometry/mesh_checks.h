@@ -12,6 +12,8 @@
 
 namespace espalier {
 
+using namespace espalier::geometry;
+
 /// Faces left and right of every edge between places in space: a closed, consistently turned surface has each edge as
 /// often in one direction as in the other.
 struct EdgeCount {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::geometry;
 
 TEST_CASE("an empty box stays empty until something is added", "[geometry]") {
     Box box;
@@ -29,15 +30,15 @@ TEST_CASE("a box contains the boxes added to it, and no more", "[geometry]") {
 
 TEST_CASE("a plant's volume is that of its truncated cones", "[geometry]") {
     PlantGeometry geometry;
-    geometry.internodes.push_back({0, 0, 0, 0, {0, 0, 0}, {0, 3, 0}, 1, 1});
-    geometry.internodes.push_back({1, 0, 0, 0, {0, 3, 0}, {0, 6, 0}, 1, 0});
+    geometry.internodes.push_back({0, 0, 0, 0, 0, {0, 0, 0}, {0, 3, 0}, 1, 1});
+    geometry.internodes.push_back({1, 0, 0, 0, 0, {0, 3, 0}, {0, 6, 0}, 1, 0});
     CHECK(total_length(geometry) == Approx(6));
     CHECK(total_volume(geometry) == Approx(3 * std::numbers::pi + std::numbers::pi));
 }
 
 TEST_CASE("a cleared geometry is as new", "[geometry]") {
     PlantGeometry geometry;
-    geometry.internodes.push_back({0, 0, 0, 0, {0, 0, 0}, {0, 3, 0}, 1, 1});
+    geometry.internodes.push_back({0, 0, 0, 0, 0, {0, 0, 0}, {0, 3, 0}, 1, 1});
     geometry.polygons.push_back({0, 0, 3, 0, 0});
     geometry.vertices.resize(3);
     geometry.organs.emplace_back();

@@ -8,6 +8,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::geometry;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::geometry;
 
 namespace {
 

@@ -12,6 +12,8 @@
 
 namespace espalier::test {
 
+using namespace espalier::language;
+
 /// White space as one blank each.
 inline std::string normalised(const std::string& text) {
     std::string result;
@@ -46,7 +48,7 @@ inline std::string derived(const std::string& text, const ReadOptions& options =
 
 /// One step from an axiom.
 inline std::string step(const std::string& axiom, const std::string& productions, const std::string& header = "") {
-    return derived(lsystem("derivation length: 1\n" + header, axiom, productions));
+    return derived(lsystem_of("derivation length: 1\n" + header, axiom, productions));
 }
 
 /// The first message of the mistakes of a model, or of running it.

@@ -2,6 +2,7 @@
 #include "conformance.h"
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {
@@ -42,7 +43,7 @@ TEST_CASE("8 the order of events in a step", "[conformance]") {
     std::string printed;
     DerivationSettings settings;
     settings.print = [&](const std::string& text) { printed += text; };
-    const std::string model = lsystem(
+    const std::string model = lsystem_of(
         "derivation length: 2\nEnd: { printf(\"end%g\", Q); }\n"
         "Start: { n = 1; printf(\"start%g \", Q); }\n"
         "EndEach: { printf(\"after%g \", Q); }\n"
@@ -67,9 +68,9 @@ TEST_CASE("9 decomposition", "[conformance]") {
     DerivationSettings settings;
     settings.print = [&](const std::string& text) { printed += text; };
     derived(
-        lsystem("derivation length: 1\n", "BD",
-                "X --> X\ndecomposition\nmaximum depth: 2\nB : {printf(\"B\");} --> CC\nC : {printf(\"C\");} --> E\n"
-                "D : {printf(\"D\");} --> F\n"),
+        lsystem_of("derivation length: 1\n", "BD",
+                   "X --> X\ndecomposition\nmaximum depth: 2\nB : {printf(\"B\");} --> CC\nC : {printf(\"C\");} --> E\n"
+                   "D : {printf(\"D\");} --> F\n"),
         {}, settings);
     CHECK(printed == "BCCD");
     quote(
@@ -78,6 +79,13 @@ TEST_CASE("9 decomposition", "[conformance]") {
         "module.");
     CHECK(step("AE", "A --> BCB\ndecomposition\nBC --> DD\nB --> F\nE --> G\n") == "DDFG");
     CHECK(step("AX", "A --> B\nX --> C\ndecomposition\nBC --> DD\n") == "BC");
+    quote(
+        "If no production replaces a module, they are that module and those behind it in the old string, before "
+        "productions replace them.");
+    CHECK(step("AB", "Z --> Z\ndecomposition\nAB --> C\n") == "C");
+    CHECK(step("AB", "B --> Q\ndecomposition\nAB --> C\n") == "C");
+    CHECK(step("AB", "A --> A\ndecomposition\nAB --> C\n") == "AB");
+    CHECK(step("XA(1)B(2)D", "B(x) --> Q\ndecomposition\nA(x)B(y) > D --> C(x + y)\n") == "XC(3)D");
     CHECK(step("LA", "A --> BB\nL --> M\ndecomposition\nL < B --> C\nM < B --> D\nB --> E\n") == "MCC");
     quote(
         "`maximum depth: n`, `warnings` and `no warnings` follow the keyword; the last two may be on its line or below "
@@ -92,12 +100,12 @@ TEST_CASE("10 homomorphism", "[conformance]") {
         "not change.");
     const std::string pictures = "A(x) --> A(x + 1)\nhomomorphism\nseed: 3\nA(x) --> !(x)B\nB --> @O(2)\n";
     CHECK(step("A(1)", pictures) == "A(2)");
-    CHECK(seen(lsystem("derivation length: 1\n", "A(1)B", pictures)) == "!(2)B@O(2)");
+    CHECK(seen(lsystem_of("derivation length: 1\n", "A(1)B", pictures)) == "!(2)B@O(2)");
     quote(
         "They are applied depth first, down to the maximum depth (default 1). Modules at this depth are interpreted as "
         "they are.");
     const std::string deep = "X --> X\nhomomorphism\nno warnings\nmaximum depth: 3\nA --> FA\n";
-    CHECK(seen(lsystem("", "A", deep)) == "FFFA");
+    CHECK(seen(lsystem_of("", "A", deep)) == "FFFA");
     quote(
         "`maximum depth: n`, `seed: n`, `warnings` and `no warnings` may follow the keyword. A homomorphism with "
         "weights has its own random numbers.");

@@ -4,6 +4,7 @@
 #include <map>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 TEST_CASE("3 derivation length, Q and Z", "[conformance]") {
@@ -27,13 +28,13 @@ TEST_CASE("3 arrays", "[conformance]") {
     CHECK(step("A", values, "define { array a[2][3] = {1,2,3,4,5,6,}, b[4]={7,8}, c[2][2][2]={{{1,2}}} }\n") ==
           "B(1,6,8,2,0)");
     CHECK(step("A", "A --> B(a[0][1], a[1][0])\n", "define: { array a[2][3] = { {1}, {4, 5} }; }\n") == "B(0,4)");
-    quote("A subscript out of range is an error; with `--cpfg-quirks`, the nearest element is used.");
+    quote("A subscript out of range is an error; with `--arithmetic cpfg`, the nearest element is used.");
     const std::string outside =
-        lsystem("derivation length: 1\ndefine: { array a[3] = {1, 2, 3}; }\n", "A", "A --> B(a[7], a[-1])\n");
+        lsystem_of("derivation length: 1\ndefine: { array a[3] = {1, 2, 3}; }\n", "A", "A --> B(a[7], a[-1])\n");
     CHECK(mistake(outside).find("model.l:5:9") != std::string::npos);
-    ReadOptions quirks;
-    quirks.quirks = true;
-    CHECK(derived(outside, quirks) == "B(3,1)");
+    ReadOptions cpfg;
+    cpfg.arithmetic = Arithmetic::cpfg;
+    CHECK(derived(outside, cpfg) == "B(3,1)");
 }
 
 TEST_CASE("3 variables", "[conformance]") {
@@ -42,7 +43,7 @@ TEST_CASE("3 variables", "[conformance]") {
         "assigned.");
     CHECK(step("A(n)A(n)", "A(x) : n == 0 {n = 5;} --> B(n)\nA(x) --> C(n)\n") == "B(5)C(5)");
     quote("A name that is read but never assigned is 0, with a warning.");
-    const std::string unknown = lsystem("derivation length: 1\n", "A(n)", "A(x) : x == lenght --> B(lenght + 1)\n");
+    const std::string unknown = lsystem_of("derivation length: 1\n", "A(n)", "A(x) : x == lenght --> B(lenght + 1)\n");
     CHECK(derived(unknown) == "B(1)");
     const std::vector<Diagnostic> warnings = reading_warnings(unknown);
     REQUIRE(warnings.size() == 2);
@@ -59,13 +60,13 @@ TEST_CASE("4 the parts of a production", "[conformance]") {
         "empty, with a warning.");
     CHECK(step("ABC(2)", "* < B > * --> *\nC(x) : * {y = x;} --> D(y)\n") == "AD(2)");
     CHECK(step("AB", "A -->\nB --> C\n") == "C");
-    CHECK(reading_warnings(lsystem("", "AB", "A -->\nB --> C\n")).size() == 1);
+    CHECK(reading_warnings(lsystem_of("", "AB", "A -->\nB --> C\n")).size() == 1);
     quote("The strict predecessor may consist of several modules, which are replaced together.");
     CHECK(step("ABABA", "AB --> X\n") == "XXA");
     CHECK(step("A(1)BCA(2)B", "A(x)B > C --> X(x)\n") == "X(1)CA(2)B");
     quote("Parameters of the predecessor and of the contexts are names. Each name occurs only once in a production.");
-    CHECK(mistake(lsystem("", "A(1)", "A(x) < B(x) --> C\n")).find("two parameters") != std::string::npos);
-    CHECK(mistake(lsystem("", "A(1)", "A(1) --> C\n")).find("the name of a parameter") != std::string::npos);
+    CHECK(mistake(lsystem_of("", "A(1)", "A(x) < B(x) --> C\n")).find("two parameters") != std::string::npos);
+    CHECK(mistake(lsystem_of("", "A(1)", "A(1) --> C\n")).find("the name of a parameter") != std::string::npos);
     quote(
         "The parameters of the successor are expressions in the parameters of the predecessor and the "
         "contexts, variables and arrays.");
@@ -116,7 +117,8 @@ TEST_CASE("4.3 stochastic L-systems", "[conformance]") {
         "error.");
     CHECK(step("AAAA", "A --> B : 0\nA --> C\n", "seed: 1\n") == "CCCC");
     CHECK(step("A(2)", "A(x) --> B : x / 3\n", "seed: 1\n") == "B");
-    CHECK(mistake(lsystem("", "A", "A --> B : 1\n")).find("a weight needs a 'seed: number' line") != std::string::npos);
+    CHECK(mistake(lsystem_of("", "A", "A --> B : 1\n")).find("a weight needs a 'seed: number' line") !=
+          std::string::npos);
 }
 
 TEST_CASE("5 contexts and branches", "[conformance]") {
@@ -155,7 +157,7 @@ TEST_CASE("5 ignore and consider", "[conformance]") {
     CHECK(step("B+FA", "B < + --> X\n", "ignore: +\n") == "BXFA");
     CHECK(step("BA", "B < A --> X\n", "ignore:\n") == "BX");
     CHECK(step("BA", "B < A --> X\n", "ignore: *\n") == "BX");
-    CHECK(mistake(lsystem("ignore: F\nconsider: B\n", "A", "A --> A\n")).find("exclude each other") !=
+    CHECK(mistake(lsystem_of("ignore: F\nconsider: B\n", "A", "A --> A\n")).find("exclude each other") !=
           std::string::npos);
     quote(
         "Left contexts always recognise brackets, even ignored ones. Right contexts apply the list first: if brackets "

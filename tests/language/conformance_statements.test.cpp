@@ -4,13 +4,14 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {
 
 /// The value of an expression, to the six digits that are printed.
 std::string value(const std::string& expression, const std::string& start = "") {
-    const std::string text = derived(lsystem("Start: {" + start + "}\n", "A(" + expression + ")", "B --> C\n"));
+    const std::string text = derived(lsystem_of("Start: {" + start + "}\n", "A(" + expression + ")", "B --> C\n"));
     return text.substr(2, text.size() - 3);
 }
 
@@ -20,16 +21,16 @@ TEST_CASE("6 statements", "[conformance]") {
     quote(
         "A statement is an assignment to a variable or an array element, an expression, `if` with or without `else`, "
         "`while` or `do`. Bodies are always in braces.");
-    CHECK(derived(lsystem("define: { array sum[4]; }\nStart: {\n    i = 0;\n"
-                          "    while (i < 4) { sum[i] = 2 ^ i; i = i + 1; }\n"
-                          "    do { i = i - 1; } while (i > 0);\n"
-                          "    if (sum[3] == 8) { ok = 1; } else { ok = 0; }\n}\n",
-                          "A(ok, i, sum[2])", "B --> C\n")) == "A(1,0,4)");
+    CHECK(derived(lsystem_of("define: { array sum[4]; }\nStart: {\n    i = 0;\n"
+                             "    while (i < 4) { sum[i] = 2 ^ i; i = i + 1; }\n"
+                             "    do { i = i - 1; } while (i > 0);\n"
+                             "    if (sum[3] == 8) { ok = 1; } else { ok = 0; }\n}\n",
+                             "A(ok, i, sum[2])", "B --> C\n")) == "A(1,0,4)");
     CHECK(value("n", "if (0) { n = 1; } else { n = 2; }") == "2");
     CHECK(value("n", "if (0)\n{\nn = 1;\n}") == "0");
     CHECK(value("n", "n = m = 3; n + 1;") == "3");
     CHECK(value("n", "n\n= 2; n\n += m\n= 3;") == "5");
-    CHECK(mistake(lsystem("Start: { if (1) n = 2; }\n", "A", "A --> A\n")).find("'{' to begin a block") !=
+    CHECK(mistake(lsystem_of("Start: { if (1) n = 2; }\n", "A", "A --> A\n")).find("'{' to begin a block") !=
           std::string::npos);
     quote("A `;` ends a statement. It is optional before a closing brace, and allowed after one or alone.");
     CHECK(value("n", "if (1) { n = 1; }; ; n = n + 1") == "2");
@@ -63,17 +64,18 @@ TEST_CASE("6 operators", "[conformance]") {
     quote("`&&`, `||` and `? :` evaluate only the operands that they need.");
     CHECK(value("n", "0 && (n = 1); 1 || (n = 2); x = 1 ? 3 : (n = 4);") == "0");
     quote(
-        "Division by zero is an error that names the place and the module; with `--cpfg-quirks`, the divisor is 1. A "
+        "Division by zero is an error that names the place and the module; with `--arithmetic cpfg`, the divisor is 1. "
+        "A "
         "parameter that is infinite or not a number is an error too.");
-    const std::string division = lsystem("derivation length: 1\n", "A(0)", "A(x) --> B(3 / x)\n");
+    const std::string division = lsystem_of("derivation length: 1\n", "A(0)", "A(x) --> B(3 / x)\n");
     CHECK(mistake(division).find("model.l:4:14") != std::string::npos);
-    CHECK(mistake(lsystem("", "A(1 / 0)", "B --> C\n")).find("division by zero: 1 / 0") != std::string::npos);
+    CHECK(mistake(lsystem_of("", "A(1 / 0)", "B --> C\n")).find("division by zero: 1 / 0") != std::string::npos);
     CHECK(value("n", "if (0) { n = 1 / 0; } else { n = 2 > 1 ? 3 : 5 % 0; }") == "3");
-    ReadOptions quirks;
-    quirks.quirks = true;
-    CHECK(derived(division, quirks) == "B(3)");
-    CHECK_FALSE(mistake(lsystem("derivation length: 1\n", "A(-1)", "A(x) --> B(sqrt(x))\n")).empty());
-    CHECK_FALSE(mistake(lsystem("derivation length: 1\n", "A(1000)", "A(x) --> B(exp(x))\n")).empty());
+    ReadOptions cpfg;
+    cpfg.arithmetic = Arithmetic::cpfg;
+    CHECK(derived(division, cpfg) == "B(3)");
+    CHECK_FALSE(mistake(lsystem_of("derivation length: 1\n", "A(-1)", "A(x) --> B(sqrt(x))\n")).empty());
+    CHECK_FALSE(mistake(lsystem_of("derivation length: 1\n", "A(1000)", "A(x) --> B(exp(x))\n")).empty());
 }
 
 TEST_CASE("7 functions of numbers", "[conformance]") {
@@ -82,12 +84,12 @@ TEST_CASE("7 functions of numbers", "[conformance]") {
     CHECK(value("asin(0.5), acos(0.5), atan(1)") == "30,60,45");
     CHECK(value("atan(0, 2), atan(-1, 0), atan2(1, 0)") == "90,180,90");
     CHECK(value("exp(1), log(exp(2)), sqrt(16), fabs(-3), floor(-1.5), ceil(-1.5)") == "2.71828,2,4,3,-2,-1");
-    quote("-1, 0 or 1; x truncated to a whole number (with `--cpfg-quirks`: x rounded)");
+    quote("-1, 0 or 1; x truncated to a whole number (with `--arithmetic cpfg`: x rounded)");
     CHECK(value("sign(-3), sign(0), sign(0.1)") == "-1,0,1");
     CHECK(value("trunc(2.5), trunc(-2.5)") == "2,-2");
-    ReadOptions quirks;
-    quirks.quirks = true;
-    CHECK(derived(lsystem("", "A(trunc(2.5))", "B --> C\n"), quirks) == "A(3)");
+    ReadOptions cpfg;
+    cpfg.arithmetic = Arithmetic::cpfg;
+    CHECK(derived(lsystem_of("", "A(trunc(2.5))", "B --> C\n"), cpfg) == "A(3)");
 }
 
 TEST_CASE("7 random numbers", "[conformance]") {
@@ -113,7 +115,7 @@ TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
     std::string printed;
     DerivationSettings settings;
     settings.print = [&](const std::string& text) { printed += text; };
-    derived(lsystem("derivation length: 1\n", "A(2)", "A(x) : {printf(\"%g of %d%s\\n\", x, 3, \"!\");} --> A(x)\n"),
+    derived(lsystem_of("derivation length: 1\n", "A(2)", "A(x) : {printf(\"%g of %d%s\\n\", x, 3, \"!\");} --> A(x)\n"),
             {}, settings);
     CHECK(printed == "2 of 3!\n");
     quote("ends the derivation after this step");
@@ -149,11 +151,11 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
         "meaning.");
     const std::string declared =
         "environment light;\nmodule Apex(age, vigour), A(x), Internode(length);\nconst turn = 360 / 1.618^2;\n";
-    CHECK(derived(declared + lsystem("derivation length: 1\n", "Apex(0, 1)?light(1)?E(2)A(3)",
-                                     "Apex(age, vigour) > ?light(q) : q > 0.5 --> Internode(1)[+(turn)]\n"
-                                     "E(x) --> E(x + 1)\nA(x) --> A(x + 1)\n")) ==
+    CHECK(derived(declared + lsystem_of("derivation length: 1\n", "Apex(0, 1)?light(1)?E(2)A(3)",
+                                        "Apex(age, vigour) > ?light(q) : q > 0.5 --> Internode(1)[+(turn)]\n"
+                                        "E(x) --> E(x + 1)\nA(x) --> A(x + 1)\n")) ==
           "Internode(1)[+(137.514)]?light(1)?E(3)A(4)");
-    CHECK(mistake(declared + lsystem("", "Apex(1)", "A(x) --> B\n")).find("declared with 2 parameters") !=
+    CHECK(mistake(declared + lsystem_of("", "Apex(1)", "A(x) --> B\n")).find("declared with 2 parameters") !=
           std::string::npos);
     quote("`environment ...;`, `module ...;` and `const ...;` are written before `lsystem:` or in its header.");
     CHECK(derived("lsystem: 1\nconst n = 2;\nmodule Bud;\nderivation length: n\naxiom: Bud\nBud --> BudB\n"
@@ -165,9 +167,9 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
         "definition in the file is then ignored. A name that the file neither defines nor tests is refused.");
     ReadOptions options;
     options.defines = {{"ANGLE", "30"}};
-    CHECK(derived("#define ANGLE 25\n" + lsystem("derivation length: 1\n", "A", "A --> +(ANGLE)\n"), options) ==
+    CHECK(derived("#define ANGLE 25\n" + lsystem_of("derivation length: 1\n", "A", "A --> +(ANGLE)\n"), options) ==
           "+(30)");
-    CHECK(mistake(lsystem("", "A", "A --> +(ANGLE)\n"), options).find("cannot be overridden") != std::string::npos);
+    CHECK(mistake(lsystem_of("", "A", "A --> +(ANGLE)\n"), options).find("cannot be overridden") != std::string::npos);
 }
 
 TEST_CASE("14 differences", "[conformance]") {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 TEST_CASE("1.1 comments and joined lines", "[conformance]") {
@@ -23,7 +24,7 @@ TEST_CASE("1.1 directives", "[conformance]") {
     CHECK(step("A",
                "#line 7\n  # pragma once\n#define N 2\n#if N == 1\nA --> B\n#elif N == 2\nA --> C\n#else\n"
                "A --> D\n#endif\n#undef N\n#ifndef N\n#ifdef M\nC --> E\n#endif\n#endif\n") == "C");
-    CHECK(mistake("#error not yet\n" + lsystem("", "A", "A --> B\n")).find("#error not yet") != std::string::npos);
+    CHECK(mistake("#error not yet\n" + lsystem_of("", "A", "A --> B\n")).find("#error not yet") != std::string::npos);
     quote("A line that begins with `#` but is not a directive contains modules.");
     CHECK(step("A#", "A --> B\n\t#(0.06)F\n# --> #5 F\n#define W 3\n") == "B#(0.06)F#5F");
     CHECK(step("A", "#define W 3\nA --> B\n\t#(W)F\n") == "B#(3)F");
@@ -43,14 +44,14 @@ TEST_CASE("1.1 macros", "[conformance]") {
         "Nothing is replaced inside single or double quotes. A quote without a closing quote ends at the end of its "
         "line.");
     CHECK(step("X", "#define A 1\nX --> 'A'A 'A\nY --> A\n") == "'A'1'A");
-    CHECK(read(lsystem("", "X", "#define A 1\nX --> @L(\"A\", A)\n"))->texts.at(0) == "A");
+    CHECK(read(lsystem_of("", "X", "#define A 1\nX --> @L(\"A\", A)\n"))->texts.at(0) == "A");
     quote(
         "The replacement of a macro is inserted without blanks, except where two signs would become one: `-N` with N = "
         "-3 is `- -3`.");
     CHECK(step("X", "#define N -3\n#define M 4\nX --> F(1-N)-(M)\n") == "F(4)-(4)");
     CHECK(derived("#define BOTH(x, y) ((x) > 1 && (y) < 3)\n#define AND &&\n#define BEGIN { n = 2;\n" +
-                  lsystem("derivation length: 1\nStart: BEGIN }\n", "A(2, 1)",
-                          "A(x, y) : BOTH ( x , y ) AND n > 1 --> B\n")) == "B");
+                  lsystem_of("derivation length: 1\nStart: BEGIN }\n", "A(2, 1)",
+                             "A(x, y) : BOTH ( x , y ) AND n > 1 --> B\n")) == "B");
 }
 
 TEST_CASE("1.1 included files", "[conformance]") {
@@ -60,14 +61,15 @@ TEST_CASE("1.1 included files", "[conformance]") {
     std::filesystem::create_directories(folder / "parts");
     std::ofstream(folder / "parts/one.h") << "#include <two.h>\n";
     std::ofstream(folder / "parts/two.h") << "#if UNKNOWN + 7 / 2 == 3\n#define N 5\n#endif\n";
-    std::ofstream(folder / "m.l") << "#include \"parts/one.h\"\n" + lsystem("derivation length: N\n", "A", "A --> A\n");
+    std::ofstream(folder / "m.l") << "#include \"parts/one.h\"\n" +
+                                         lsystem_of("derivation length: N\n", "A", "A --> A\n");
     CHECK(read_model(folder / "m.l")->main().derivation_length->value == 5);
     std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("1.1 ends of lines", "[conformance]") {
     quote("Lines end as in Unix or as in Windows. The last line needs no end.");
-    const std::string unix_text = lsystem("derivation length: 1\n", "A", "A -->\n\tB\nB --> C\n");
+    const std::string unix_text = lsystem_of("derivation length: 1\n", "A", "A -->\n\tB\nB --> C\n");
     std::string windows_text;
     for (const char c : unix_text) windows_text += c == '\n' ? std::string("\r\n") : std::string(1, c);
     CHECK(derived(windows_text) == "B");
@@ -117,7 +119,7 @@ TEST_CASE("1.3 modules", "[conformance]") {
         "A parameter of a module may be a text in double quotes, as in `@L(\"%d\", n)`. Each distinct text of a model "
         "has a number, which becomes the parameter. In texts, `\\n`, `\\t` and `\\r` are newline, TAB and carriage "
         "return.");
-    CHECK(read(lsystem("", "@L(\"a\\tb\\r\\n\")", "A --> @S(\"a\")\n"))->texts ==
+    CHECK(read(lsystem_of("", "@L(\"a\\tb\\r\\n\")", "A --> @S(\"a\")\n"))->texts ==
           std::vector<std::string>{"a\tb\r\n", "a"});
     CHECK(step("@S(\"a\")A", "A --> @L(\"%d\", 7)@L(\"a\", 8)\nL(t, n) --> L(t)\n") == "@S(0)@L(1,7)@L(0,8)");
 }
@@ -157,7 +159,7 @@ TEST_CASE("2 the parts of a file", "[conformance]") {
         "may have the names of keywords.");
     CHECK(step("end", "end --> F\n") == "F");
     CHECK(step("end", "end : 1 > 0 --> F\n") == "F");
-    CHECK_FALSE(mistake(lsystem("", "A", "homomorphism: A --> B\n")).empty());
+    CHECK_FALSE(mistake(lsystem_of("", "A", "homomorphism: A --> B\n")).empty());
     CHECK(step("enD", "e < n > D : 1 > 0 --> F\nwarnings --> X\n") == "eFD");
     CHECK(step("A(end)", "A(seed) : if == 3 --> B(seed, start, for)\n",
                "Start: { end = 2; start = 1; if = 3; for = 4; axiom = 5; }\n") == "B(2,1,4)");

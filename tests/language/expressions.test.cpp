@@ -6,12 +6,13 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {
 
 double value(const std::string& expression) {
-    const auto model = read(lsystem("derivation length: " + expression + "\n", "A", "A --> A\n"));
+    const auto model = read(lsystem_of("derivation length: " + expression + "\n", "A", "A --> A\n"));
     const std::optional<double> result = language::constant_value(*model->main().derivation_length);
     REQUIRE(result);
     return *result;
@@ -61,13 +62,13 @@ TEST_CASE("functions take angles in degrees", "[language]") {
 }
 
 TEST_CASE("pi and e are ordinary names that a model may redefine", "[language]") {
-    const auto plain = read(lsystem("", "A(pi, e)", "A(e, x) --> A(e, pi * x)\n"));
+    const auto plain = read(lsystem_of("", "A(pi, e)", "A(e, x) --> A(e, pi * x)\n"));
     CHECK(plain->main().globals == std::vector<std::string>{"Q", "Z"});
     CHECK(plain->main().axiom[0].arguments[0].value == std::numbers::pi);
     CHECK(plain->main().axiom[0].arguments[1].value == std::numbers::e);
     CHECK(plain->main().productions[0].successor[0].arguments[0].kind == Expression::Kind::formal);
 
-    const auto redefined = read(lsystem("Start: { y = pi; pi = 3; }\n", "A(pi, e)", "A(x, y) --> A(x, y)\n"));
+    const auto redefined = read(lsystem_of("Start: { y = pi; pi = 3; }\n", "A(pi, e)", "A(x, y) --> A(x, y)\n"));
     CHECK(redefined->main().globals == std::vector<std::string>{"Q", "Z", "y", "pi"});
     CHECK(redefined->main().axiom[0].arguments[0].kind == Expression::Kind::global);
     CHECK(redefined->main().axiom[0].arguments[0].index == 3);
@@ -75,20 +76,20 @@ TEST_CASE("pi and e are ordinary names that a model may redefine", "[language]")
 }
 
 TEST_CASE("const names a value once and for all", "[language]") {
-    const auto model = read("const turn = 360;\nconst half = turn / 2;\n" + lsystem("", "+(half)", "A --> A\n"));
+    const auto model = read("const turn = 360;\nconst half = turn / 2;\n" + lsystem_of("", "+(half)", "A --> A\n"));
     CHECK(model->main().axiom[0].arguments[0].value == 180);
-    CHECK(messages("const a = 1;\n" + lsystem("Start: { a = 2; }\n", "A", "A --> A\n")) ==
+    CHECK(messages("const a = 1;\n" + lsystem_of("Start: { a = 2; }\n", "A", "A --> A\n")) ==
           "3:10: 'a' is a constant and cannot be assigned");
 }
 
 TEST_CASE("Q is the current step and Z the derivation length", "[language]") {
-    const auto model = read(lsystem("", "A(Z, Q)", "A(x, y) --> A(x, y)\n"));
+    const auto model = read(lsystem_of("", "A(Z, Q)", "A(x, y) --> A(x, y)\n"));
     CHECK(model->main().axiom[0].arguments[0].index == 1);
     CHECK(model->main().axiom[0].arguments[1].index == 0);
 }
 
 TEST_CASE("names assigned in blocks are globals everywhere and formals hide them", "[language]") {
-    const auto model = read(lsystem("EndEach: { n = n + 1; }\n", "A(n)", "A(n) --> A(n)\nB --> A(n)\n"));
+    const auto model = read(lsystem_of("EndEach: { n = n + 1; }\n", "A(n)", "A(n) --> A(n)\nB --> A(n)\n"));
     CHECK(model->main().globals.back() == "n");
     CHECK(model->main().axiom[0].arguments[0].kind == Expression::Kind::global);
     CHECK(model->main().productions[0].successor[0].arguments[0].kind == Expression::Kind::formal);
@@ -97,11 +98,11 @@ TEST_CASE("names assigned in blocks are globals everywhere and formals hide them
 
 TEST_CASE("statements: branches, loops, steps and compound assignments", "[language]") {
     const auto model =
-        read(lsystem("define: { array a[3]; }\nStart: {\n"
-                     "  for (i = 0; i < 3; i++) { a[i] *= 2; if (i == 1) { break; } else if (i > 7) { x = 1; }"
-                     " else { x = 2; } }\n"
-                     "  while (x > 0) { x -= 1; }\n  do { --x; } while (x > 0);\n  printf(\"%g\\n\", x);\n}\n",
-                     "A", "A --> A\n"));
+        read(lsystem_of("define: { array a[3]; }\nStart: {\n"
+                        "  for (i = 0; i < 3; i++) { a[i] *= 2; if (i == 1) { break; } else if (i > 7) { x = 1; }"
+                        " else { x = 2; } }\n"
+                        "  while (x > 0) { x -= 1; }\n  do { --x; } while (x > 0);\n  printf(\"%g\\n\", x);\n}\n",
+                        "A", "A --> A\n"));
     const Block& start = model->main().start;
     REQUIRE(start.size() == 4);
     CHECK(start[0].kind == Statement::Kind::for_loop);
@@ -122,7 +123,7 @@ TEST_CASE("statements: branches, loops, steps and compound assignments", "[langu
 }
 
 TEST_CASE("view extents are numbered and noise always has three coordinates", "[language]") {
-    const auto model = read(lsystem("", "A(vvYmax(0), vvScale(1), noise(1))", "A(x,y,z) --> A(x,y,z)\n"));
+    const auto model = read(lsystem_of("", "A(vvYmax(0), vvScale(1), noise(1))", "A(x,y,z) --> A(x,y,z)\n"));
     const std::vector<Expression>& arguments = model->main().axiom[0].arguments;
     CHECK(arguments[0].function == Function::view_extent);
     CHECK(arguments[0].index == 3);
@@ -132,21 +133,21 @@ TEST_CASE("view extents are numbered and noise always has three coordinates", "[
 
 TEST_CASE("expressions of any depth are read or refused, never a crash", "[language]") {
     const std::string deep(100'000, '(');
-    CHECK(messages(lsystem("derivation length: " + deep + "\n", "A", "A --> A\n")).find("nested too deeply") !=
+    CHECK(messages(lsystem_of("derivation length: " + deep + "\n", "A", "A --> A\n")).find("nested too deeply") !=
           std::string::npos);
-    CHECK(messages(lsystem("derivation length: " + std::string(100'000, '-') + "1\n", "A", "A --> A\n"))
+    CHECK(messages(lsystem_of("derivation length: " + std::string(100'000, '-') + "1\n", "A", "A --> A\n"))
               .find("nested too deeply") != std::string::npos);
     std::string sum = "1";
     for (int i = 0; i < 300; ++i) sum += "+1";
     CHECK(value(sum) == 301);
     for (int i = 0; i < 100'000; ++i) sum += "+1";
-    CHECK(messages(lsystem("derivation length: " + sum + "\n", "A", "A --> A\n")).find("too long") !=
+    CHECK(messages(lsystem_of("derivation length: " + sum + "\n", "A", "A --> A\n")).find("too long") !=
           std::string::npos);
 }
 
 TEST_CASE("min and max of thousands of values are refused, not nested without bound", "[language]") {
     std::string values = "Q";
     for (int k = 0; k < 5000; ++k) values += ", Q";
-    CHECK(messages(lsystem("", "A(min(" + values + "))", "")).find("too long") != std::string::npos);
-    CHECK(messages(lsystem("", "A(max(Q, 1, 2, 3, 4, 5))", "")).empty());
+    CHECK(messages(lsystem_of("", "A(min(" + values + "))", "")).find("too long") != std::string::npos);
+    CHECK(messages(lsystem_of("", "A(max(Q, 1, 2, 3, 4, 5))", "")).empty());
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 namespace fs = std::filesystem;
 

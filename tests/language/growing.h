@@ -10,6 +10,8 @@
 
 namespace espalier::test {
 
+using namespace espalier::language;
+
 /// A plant grown from text, with what it printed.
 struct Grown {
     std::shared_ptr<const Model> model;

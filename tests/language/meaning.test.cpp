@@ -3,6 +3,7 @@
 #include "language/growing.h"
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {
@@ -54,21 +55,49 @@ TEST_CASE("every mistake in the collection is explained as approved", "[language
 TEST_CASE("many mistakes are reported in one go, up to twenty, sorted by place", "[language]") {
     std::string rules;
     for (int i = 0; i < 30; ++i) rules += "A -> B\n";
-    const std::vector<Diagnostic> found = mistakes(lsystem("", "A", rules));
+    const std::vector<Diagnostic> found = mistakes(lsystem_of("", "A", rules));
     CHECK(found.size() == 20);
     CHECK(std::is_sorted(found.begin(), found.end(),
                          [](const auto& a, const auto& b) { return a.place.line < b.place.line; }));
 }
 
+TEST_CASE("models of other programs and binary files are told apart in a sentence", "[language]") {
+    CHECK(messages("Axiom: A(0)\nderivation length: 5\nproduction:\nA(x) --> F(x)A(x+1)\nendlsystem\n") ==
+          "0:0: model.l: this is a model of L-Py, which is Python and needs that program; Espalier reads models of "
+          "cpfg, which begin with 'lsystem:'");
+    CHECK(messages("#include <lpfgall.h>\nmodule A(int);\nAxiom: A(0);\nA(x) : { produce F(x) A(x+1); }\n") ==
+          "0:0: model.l: this is a model in L+C, the language of lpfg, which is C++ and needs that program; Espalier "
+          "reads models of cpfg, which begin with 'lsystem:'");
+    CHECK(messages("\x7f"
+                   "ELF\x02\x01" +
+                   std::string(9, '\0')) == "0:0: model.l is a binary file, not the text of a model");
+    CHECK(messages(lsystem_of("", "A", "A --> \x1b\n")).find("control character 0x1b") != std::string::npos);
+}
+
+TEST_CASE("what a terminal would obey is not printed", "[language]") {
+    const std::vector<Diagnostic> found = mistakes(lsystem_of("", "A", "A --> \x1b[31m\x9b\n"));
+    REQUIRE(!found.empty());
+    CHECK(to_string(found[0]).find('\x1b') == std::string::npos);
+    CHECK(to_string(found[0]).find('\x9b') == std::string::npos);
+    CHECK(to_string(Diagnostic{Diagnostic::Severity::error, {}, "found '\x1b' and '\u00e9'", ""}) ==
+          "found '?' and '\u00e9'");
+}
+
+TEST_CASE("keywords are offered for a function that is not known only where braces follow", "[language]") {
+    CHECK(messages(lsystem_of("", "A", "A --> B(foo(3))\n")) == "3:9: there is no function 'foo'");
+    CHECK(messages(lsystem_of("Start: { fo (i = 0; i < 3; i++) { n = i; } }\n", "A", "A --> A\n")).find("'for'") !=
+          std::string::npos);
+}
+
 TEST_CASE("a mistake in one statement hides none in the next and begets none", "[language]") {
-    CHECK(messages(lsystem("Start: { n = 1 m = 2; k = 3; }\n", "A(m)", "A(x) --> A(k, n)\nB --> )\nC --> C\n")) ==
+    CHECK(messages(lsystem_of("Start: { n = 1 m = 2; k = 3; }\n", "A(m)", "A(x) --> A(k, n)\nB --> )\nC --> C\n")) ==
           "2:16: expected ';' after the statement, found 'm'\n5:7: this ')' closes nothing");
 }
 
 TEST_CASE("a model cut off anywhere is refused in words, never a crash", "[language]") {
     const std::string whole =
         "#define W(x) (2*x)\nmodule Apex(a);\nenvironment light;\n" +
-        lsystem(
+        lsystem_of(
             "seed: 3\ndefine: { array a[2] = {1, 2}; }\nStart: { for (i = 0; i < 3; i++) { a[i] = \"x\" ? 1 : 2; } }\n",
             "Apex(1)[+B]", "A < Apex(x) > [B=] : {y = 1;} x > W(1) {z = 2;} --> F(\"text\")[+A]?light(1) : 0.5\n");
     for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -87,7 +116,7 @@ TEST_CASE("any bytes at all are read or refused, never a crash", "[language]") {
             rules += alphabet[(state >> 16) % alphabet.size()];
         }
         try {
-            const auto model = read(lsystem("seed: 1\nStart: {" + rules.substr(0, 10) + "}\n", "A", rules + "\n"));
+            const auto model = read(lsystem_of("seed: 1\nStart: {" + rules.substr(0, 10) + "}\n", "A", rules + "\n"));
             CHECK(model->systems.size() == 1);
         } catch (const UserError& error) {
             CHECK_FALSE(error.diagnostics().empty());

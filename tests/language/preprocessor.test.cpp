@@ -8,7 +8,9 @@
 #include <fstream>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -39,6 +41,45 @@ TEST_CASE("comments become a blank and the line of a // comment ends", "[languag
 
 TEST_CASE("a backslash before the end of a line joins it with the next", "[language]") {
     CHECK(preprocessed("#define W 1 + \\\n 2\nA(W)\n") == "\nA(1 +  2)\n");
+}
+
+TEST_CASE("of two backslashes at the end of a macro's line one is ignored with a warning", "[language]") {
+    const std::string model = "#define T(x) F(x) \\\\\n  +(3)\n" + lsystem_of("", "T(2)", "A --> F\\\\\n\tF\n");
+    const auto found = reading_warnings(model);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].place.line == 1);
+    CHECK_THAT(found[0].message, Contains("this backslash is ignored"));
+    const auto read_model = read(model);
+    CHECK(modules(*read_model, read_model->main().axiom) == "F/1 +/1");
+    // Elsewhere it is the turtle's.
+    CHECK(modules(*read_model, read_model->main().productions[0].successor) == "F \\ F");
+}
+
+TEST_CASE("a comment that hides modules of a production is warned about", "[language]") {
+    const auto warned = [](const std::string& production) {
+        return reading_warnings(lsystem_of("seed: 1\n", "A", production + "\nB --> C\n")).size();
+    };
+    CHECK(warned("A --> [&FL!A]/////[&FL!A]") == 1);
+    CHECK(warned("A --> S ///// F") == 1);
+    CHECK(warned("A --> B\n\tC//D") == 1);
+    CHECK(warned("A --> B // a comment") == 0);
+    CHECK(warned("A --> B : 2// a comment") == 0);
+    CHECK(warned("A : {x = 1;// a comment\n} --> B") == 0);
+    CHECK(warned("A --> B/ / /C") == 0);
+    CHECK(reading_warnings("// A --> B//C\n" + lsystem_of("", "A", "A --> B\n")).empty());
+}
+
+TEST_CASE("a quote that nothing reads is warned about once", "[language]") {
+    CHECK(reading_warnings(lsystem_of("", "A", "A --> 'F'A\n")).size() == 1);
+    CHECK(reading_warnings(lsystem_of("", "A", "A --> 'F'A\nhomomorphism\n' --> ;\n")).empty());
+    CHECK(reading_warnings(lsystem_of("ignore: '\n", "A", "A --> 'F'A\n")).empty());
+}
+
+TEST_CASE("a macro that is defined with '=' is a mistake where it is defined", "[language]") {
+    CHECK(messages("#define MAX = 5\n" + lsystem_of("", "A(MAX)", "A(x) : x < MAX --> A(x+1)\n")) ==
+          "1:1: 'MAX' stands for '= 5' here: write '#define MAX 5', without '='");
+    CHECK(messages("#define MAX = 5\n" + lsystem_of("", "A", "A --> B\n")) == "");
+    CHECK(messages("#define SAME ==\n" + lsystem_of("", "A(1)", "A(x) : x SAME 1 --> B\n")) == "");
 }
 
 TEST_CASE("macros expand as names do in C and no blanks are inserted", "[language]") {
@@ -105,7 +146,7 @@ TEST_CASE("an overridden name keeps its new value whatever the file says", "[lan
 TEST_CASE("overriding a name the model never defines offers the nearest one", "[language]") {
     ReadOptions options;
     options.defines = {{"ANGEL", "30"}};
-    CHECK(messages("#define ANGLE 25\n" + lsystem("", "A", "A --> B\n"), options) ==
+    CHECK(messages("#define ANGLE 25\n" + lsystem_of("", "A", "A --> B\n"), options) ==
           "0:0: 'ANGEL' cannot be overridden: the model never defines it (did you mean 'ANGLE'?)");
 }
 
@@ -113,8 +154,8 @@ TEST_CASE("a second, different definition is warned about and wins", "[language]
     std::vector<Diagnostic> warnings;
     ReadOptions options;
     options.warnings = &warnings;
-    const auto model =
-        read("#define N 1\n#define N 1\n#define N 2\n" + lsystem("derivation length: N\n", "A", "A --> A\n"), options);
+    const auto model = read(
+        "#define N 1\n#define N 1\n#define N 2\n" + lsystem_of("derivation length: N\n", "A", "A --> A\n"), options);
     REQUIRE(warnings.size() == 1);
     CHECK(to_string(warnings[0].place) == "model.l:3:1");
     CHECK(warnings[0].severity == Diagnostic::Severity::warning);
@@ -139,7 +180,8 @@ TEST_CASE("included files are found beside the file that includes them", "[langu
     const Folder folder;
     folder.write("parts/angle.h", "#include \"deeper.h\"\n");
     folder.write("parts/deeper.h", "#define ANGLE 22\n");
-    folder.write("model.l", "#include \"parts/angle.h\"\n" + lsystem("derivation length: ANGLE\n", "A", "A --> A\n"));
+    folder.write("model.l",
+                 "#include \"parts/angle.h\"\n" + lsystem_of("derivation length: ANGLE\n", "A", "A --> A\n"));
     const auto model = read_model(folder.path / "model.l");
     CHECK(model->main().derivation_length->value == 22);
     CHECK(model->name == "model.l");
@@ -148,7 +190,7 @@ TEST_CASE("included files are found beside the file that includes them", "[langu
 TEST_CASE("a mistake in an included file is shown where it was written", "[language]") {
     const Folder folder;
     folder.write("rules.h", "\nA --> B C(\n");
-    folder.write("model.l", lsystem("", "A", "#include \"rules.h\"\n"));
+    folder.write("model.l", lsystem_of("", "A", "#include \"rules.h\"\n"));
     try {
         read_model(folder.path / "model.l");
         FAIL("the mistake went unnoticed");
@@ -162,18 +204,18 @@ TEST_CASE("a mistake in an included file is shown where it was written", "[langu
 
 TEST_CASE("files that include themselves without end are stopped", "[language]") {
     const Folder folder;
-    folder.write("model.l", "#include \"model.l\"\n" + lsystem("", "A", "A --> A\n"));
+    folder.write("model.l", "#include \"model.l\"\n" + lsystem_of("", "A", "A --> A\n"));
     folder.write("twice.l",
-                 "#ifndef ONCE\n#define ONCE\n#include \"twice.l\"\n" + lsystem("", "A", "A --> A\n") + "#endif\n");
+                 "#ifndef ONCE\n#define ONCE\n#include \"twice.l\"\n" + lsystem_of("", "A", "A --> A\n") + "#endif\n");
     CHECK_THROWS_WITH(read_model(folder.path / "model.l"),
                       Catch::Contains("does") && Catch::Contains("include itself?"));
     CHECK(read_model(folder.path / "twice.l")->systems.size() == 1);
 }
 
 TEST_CASE("places count through macros, comments and joined lines as the author wrote them", "[language]") {
-    CHECK(messages("#define BAD 1 2\n/* two\nlines */\n" + lsystem("", "A", "A --> \\\n  F(BAD)\n")) ==
+    CHECK(messages("#define BAD 1 2\n/* two\nlines */\n" + lsystem_of("", "A", "A --> \\\n  F(BAD)\n")) ==
           "7:5: expected ')' after the parameters of 'F', found '2'");
-    CHECK(messages(lsystem("", "ééé) A", "A --> A\n")) == "2:11: this ')' closes nothing");
+    CHECK(messages(lsystem_of("", "ééé) A", "A --> A\n")) == "2:11: this ')' closes nothing");
 }
 
 TEST_CASE("macros that expand without end are an error, not a hang", "[language]") {
@@ -181,10 +223,10 @@ TEST_CASE("macros that expand without end are an error, not a hang", "[language]
     for (int i = 1; i <= 40; ++i) {
         bomb += "#define m" + std::to_string(i) + " m" + std::to_string(i - 1) + " m" + std::to_string(i - 1) + "\n";
     }
-    CHECK(messages(bomb + lsystem("", "A", "A --> F(m40)\n")).find("expands without end") != std::string::npos);
+    CHECK(messages(bomb + lsystem_of("", "A", "A --> F(m40)\n")).find("expands without end") != std::string::npos);
     std::string chain = "#define n0 1\n";
     for (int i = 1; i <= 1000; ++i) chain += "#define n" + std::to_string(i) + " n" + std::to_string(i - 1) + "\n";
-    CHECK(messages(chain + lsystem("", "A", "A --> F(n1000)\n")).find("nested more than 200") != std::string::npos);
+    CHECK(messages(chain + lsystem_of("", "A", "A --> F(n1000)\n")).find("nested more than 200") != std::string::npos);
 }
 
 TEST_CASE("the text of a side file knows where it was written, through macros and included files", "[language]") {

@@ -7,8 +7,10 @@
 
 namespace espalier::test {
 
+using namespace espalier::language;
+
 /// An L-system around header items, an axiom and productions.
-inline std::string lsystem(const std::string& header, const std::string& axiom, const std::string& rules) {
+inline std::string lsystem_of(const std::string& header, const std::string& axiom, const std::string& rules) {
     return "lsystem: 1\n" + header + "axiom: " + axiom + "\n" + rules + "endlsystem\n";
 }
 

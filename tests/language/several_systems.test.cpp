@@ -2,11 +2,12 @@
 #include "reading.h"
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 TEST_CASE("each text among the parameters of modules is entered once, escapes included", "[language]") {
-    const auto model = read(lsystem("", R"(@L("%d leaves\n", 3) @L("a\tb"))",
-                                    "A --> @L(\"%d leaves\\n\", 2)@S(\"date\")\nB(x) --> @L(\"a\\tb\", x)\n"));
+    const auto model = read(lsystem_of("", R"(@L("%d leaves\n", 3) @L("a\tb"))",
+                                       "A --> @L(\"%d leaves\\n\", 2)@S(\"date\")\nB(x) --> @L(\"a\\tb\", x)\n"));
     CHECK(model->texts == std::vector<std::string>{"%d leaves\n", "a\tb", "date"});
     const ModuleTemplate& first = model->main().axiom[1];
     CHECK(first.arguments[0].kind == Expression::Kind::text);
@@ -59,7 +60,7 @@ TEST_CASE("side files that expressions ask are handed to the model", "[language]
     ReadOptions options;
     options.resources = std::make_shared<Resources>();
     options.predefined = {{"HEIGHT", "2"}};
-    const auto model = read(lsystem("", "A(func(HEIGHT, 0.5), vvZmax(0))", "A --> A\n"), options);
+    const auto model = read(lsystem_of("", "A(func(HEIGHT, 0.5), vvZmax(0))", "A --> A\n"), options);
     CHECK(model->resources == options.resources);
     const std::vector<Expression>& arguments = model->main().axiom[0].arguments;
     CHECK(arguments[0].function == Function::func);

@@ -11,6 +11,7 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::language;
 
 namespace {
 

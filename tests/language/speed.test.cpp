@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {
@@ -43,16 +44,17 @@ void check_linear(const std::function<std::string(int)>& text) {
 }  // namespace
 
 TEST_CASE("reading takes time in proportion to the length of axiom, successors, lines and names", "[language]") {
-    check_linear([](int n) { return lsystem("", repeated("F(1.5)[+(30)A]", n), "A --> B\n"); });
-    check_linear([](int n) { return lsystem("", repeated("[A", n) + repeated("]", n), "A --> B\n"); });
-    check_linear([](int n) { return lsystem("", "A", "A --> " + repeated("F(1.5)[+(30)A]", n) + "\n"); });
-    check_linear([](int n) { return lsystem("", "A", "A --> B\n" + repeated("\tF(1.5)[+(30)A]\n", n)); });
-    check_linear([](int n) { return "#define W 0.5\n" + lsystem("", repeated("F(W)@L(\"%d\",1)", n), "A --> B\n"); });
-    check_linear([](int n) { return lsystem("", "A", repeated("A(x) : x > 1 {y = x;} --> F(x)A(x - 1)\n", n)); });
+    check_linear([](int n) { return lsystem_of("", repeated("F(1.5)[+(30)A]", n), "A --> B\n"); });
+    check_linear([](int n) { return lsystem_of("", repeated("[A", n) + repeated("]", n), "A --> B\n"); });
+    check_linear([](int n) { return lsystem_of("", "A", "A --> " + repeated("F(1.5)[+(30)A]", n) + "\n"); });
+    check_linear([](int n) { return lsystem_of("", "A", "A --> B\n" + repeated("\tF(1.5)[+(30)A]\n", n)); });
+    check_linear(
+        [](int n) { return "#define W 0.5\n" + lsystem_of("", repeated("F(W)@L(\"%d\",1)", n), "A --> B\n"); });
+    check_linear([](int n) { return lsystem_of("", "A", repeated("A(x) : x > 1 {y = x;} --> F(x)A(x - 1)\n", n)); });
     check_linear([](int n) {
         std::string declared;
         for (int i = 0; i < n / 4; ++i) declared += fmt::format("module Bud{}(a);\n", i);
-        return declared + lsystem("", repeated("Bud7(1)", n), "A --> B\n");
+        return declared + lsystem_of("", repeated("Bud7(1)", n), "A --> B\n");
     });
     check_linear([](int n) {
         std::string systems;
@@ -66,7 +68,7 @@ TEST_CASE("reading takes time in proportion to the length of axiom, successors, 
         for (int i = 0; i < n / 4; ++i) names += fmt::format("v{0} = u{0} + a{0}[1];\n", i);
         std::string arrays;
         for (int i = 0; i < n / 4; ++i) arrays += fmt::format("array a{}[2];\n", i);
-        return lsystem("define: {\n" + arrays + "}\nStart: {" + names + "}\n", "A", "A --> B\n");
+        return lsystem_of("define: {\n" + arrays + "}\nStart: {" + names + "}\n", "A", "A --> B\n");
     });
 }
 
@@ -75,7 +77,7 @@ TEST_CASE("reading takes time in proportion to the length of included files", "[
     std::filesystem::create_directories(folder);
     const auto including = [&](int lines) {
         std::ofstream(folder / "part.h") << repeated("\tF(1.5)[+(30)A]\n", lines);
-        std::ofstream(folder / "model.l") << lsystem("", "A", "A --> B\n#include \"part.h\"\n");
+        std::ofstream(folder / "model.l") << lsystem_of("", "A", "A --> B\n#include \"part.h\"\n");
         return seconds([&] { read_model(folder / "model.l"); });
     };
     const double small = including(2000);

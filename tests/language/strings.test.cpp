@@ -6,6 +6,7 @@
 #include <algorithm>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {
@@ -24,7 +25,7 @@ std::string derived(const std::string& text, int steps) {
 }
 
 std::string derived(const std::string& axiom, const std::string& rules, int steps, const std::string& header = "") {
-    return derived(lsystem(header, axiom, rules), steps);
+    return derived(lsystem_of(header, axiom, rules), steps);
 }
 
 auto count(const std::string& text, char symbol) {
@@ -138,6 +139,6 @@ TEST_CASE("decomposition is applied within the step", "[language]") {
 
 TEST_CASE("modules with names of several letters are written like any other", "[language]") {
     CHECK(derived("module Apex(age), Internode(length);\n" +
-                      lsystem("", "Apex(0)", "Apex(a) --> Internode(a + 1)[+Apex(a + 1)]Apex(a + 1)\n"),
+                      lsystem_of("", "Apex(0)", "Apex(a) --> Internode(a + 1)[+Apex(a + 1)]Apex(a + 1)\n"),
                   2) == "Internode(1)[+Internode(2)[+Apex(2)]Apex(2)]Internode(2)[+Apex(2)]Apex(2)");
 }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::language;
 using namespace espalier::test;
 
 namespace {

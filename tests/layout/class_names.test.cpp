@@ -49,6 +49,21 @@ TEST_CASE("no two files define a class of the same name in the same namespace", 
     }
 }
 
+TEST_CASE("the code of every station lies in the station's namespace", "[layout]") {
+    for (const fs::path folder : {"src", "include/espalier"}) {
+        for (const fs::path& file : sources_below(folder)) {
+            const fs::path below = file.lexically_relative(folder);
+            const std::string station = below.begin()->string();
+            if (station == "base") continue;  // its names are the vocabulary of all stations
+            INFO(file.string());
+            const std::string opening = "namespace espalier::" + station;
+            const auto lines = lines_of(file);
+            CHECK(std::any_of(lines.begin(), lines.end(),
+                              [&](const std::string& line) { return line.starts_with(opening); }));
+        }
+    }
+}
+
 TEST_CASE("the reader of class names knows namespaces, final classes and bases", "[layout]") {
     const std::vector<std::string> lines{"namespace espalier::view {",
                                          "class Painter {",

@@ -123,8 +123,35 @@ TEST_CASE("pkg-config knows what a program needs", "[library]") {
                            "/pkgconfig' && export PKG_CONFIG_PATH && " ESPALIER_CXX
                            " sizes.cpp -o sizes $(pkg-config --cflags --libs espalier)",
                        project.path()));
-    const Outcome outcome = shell("LD_LIBRARY_PATH='" + libraries + "' ./sizes", project.path());
+    const Outcome outcome = shell("env -u LD_LIBRARY_PATH ./sizes", project.path());
     CHECK(outcome.text == examples().printed.at("sizes"));
+}
+
+TEST_CASE("a process of the manual works in one's own program", "[library]") {
+    const Installed& installed = Installed::once();
+    const TemporaryFolder project;
+    for (const Block& block : blocks_of("docs/environment-processes.md")) {
+        if (block.language != "cpp") continue;
+        project.write("height.cpp", text_of_lines(block.lines));
+        break;
+    }
+    project.write("main.cpp", R"(#include <espalier/simulation/world.h>
+#include <cstdio>
+int main() {
+    espalier::Scene scene;
+    scene.plants.push_back(espalier::plant_of_text("environment up;\nlsystem: 1\naxiom: F(2)?up(0)\nendlsystem\n"));
+    scene.environment.add("up", "height", {{"ground", -1}});
+    espalier::World world(scene);
+    world.start();
+    std::printf("%g\n", world.string(0).parameters[1]);
+})");
+    project.write("CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(up LANGUAGES CXX)\nfind_package(Espalier REQUIRED)\n"
+                  "add_executable(up main.cpp height.cpp)\ntarget_link_libraries(up Espalier::espalier)\n");
+    require_done(shell(std::string(ESPALIER_CMAKE) + " -S . -B build -DCMAKE_PREFIX_PATH='" +
+                           installed.prefix().string() + "' && " ESPALIER_CMAKE " --build build",
+                       project.path()));
+    CHECK(shell("build/up", project.path()).text == "3\n");
 }
 
 TEST_CASE("the installed program finds its models and environments wherever it is started", "[library]") {

@@ -7,6 +7,7 @@
 #include <vector>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {

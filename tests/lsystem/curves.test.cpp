@@ -9,6 +9,7 @@
 #include <limits>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 
 namespace {
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 TEST_CASE("every letter is replaced at once", "[lsystem]") {
@@ -158,9 +159,9 @@ TEST_CASE("division by zero names place, module and values", "[lsystem]") {
         FAIL("no error");
     } catch (const RunError& error) {
         CHECK(std::string(error.what()) ==
-              "model.l:7:3: division by zero: 4 / 0 (--cpfg-quirks divides by 1), in module A(4,0) at step 1");
+              "model.l:7:3: division by zero: 4 / 0 (--arithmetic cpfg divides by 1), in module A(4,0) at step 1");
     }
-    model.model().quirks = true;
+    model.model().arithmetic = Arithmetic::cpfg;
     CHECK(text_after(model, 1) == "A(4,1)");
 }
 

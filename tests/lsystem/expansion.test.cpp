@@ -4,6 +4,7 @@
 #include <set>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {

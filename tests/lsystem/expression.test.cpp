@@ -1,20 +1,20 @@
-#include "espalier/lsystem/constant.h"
-
 #include "catch.h"
 #include "lsystem/model_builder.h"
+#include "lsystem/programs/constant.h"
 #include "lsystem/programs/functions.h"
 
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {
 
 /// The value of an expression in which formal 0 is `x`.
-double value_of(const Expression& expression, double x = 0, bool quirks = false) {
+double value_of(const Expression& expression, double x = 0, Arithmetic arithmetic = Arithmetic::double_precision) {
     ModelBuilder model;
-    model.model().quirks = quirks;
+    model.model().arithmetic = arithmetic;
     model.system().axiom = {model.module("A", {number(x)})};
     model.rule({{"A", 1}}, {model.module("B", {expression})});
     Derivation derivation(model.compiled(), with_lineage(1, 0));
@@ -59,7 +59,9 @@ TEST_CASE("functions work in degrees, folded or not", "[lsystem]") {
 }
 
 TEST_CASE("a constant is known where what it depends on is", "[lsystem]") {
-    const auto value = [](const Expression& expression) { return constant_value(expression, false); };
+    const auto value = [](const Expression& expression) {
+        return constant_value(expression, Arithmetic::double_precision);
+    };
     CHECK(value(apply(Operator::add, {number(2), apply(Operator::negate, {number(5)})})) == -3);
     CHECK(value(call(Function::max, {number(2), number(7), number(5)})) == 7);
     CHECK_FALSE(value(formal(0)));
@@ -71,7 +73,7 @@ TEST_CASE("a constant is known where what it depends on is", "[lsystem]") {
     // A division by zero is a mistake of whoever gets there, and a number arguments short is no call.
     CHECK_FALSE(value(apply(Operator::divide, {number(1), number(0)})));
     CHECK_FALSE(value(apply(Operator::remainder, {number(1), number(0.5)})));
-    CHECK(constant_value(apply(Operator::divide, {number(3), number(0)}), true) == 3);
+    CHECK(constant_value(apply(Operator::divide, {number(3), number(0)}), Arithmetic::cpfg) == 3);
     CHECK_FALSE(value(call(Function::atan2, {})));
 }
 
@@ -94,8 +96,8 @@ TEST_CASE("&&, || and ?: evaluate only what they need", "[lsystem]") {
 }
 
 TEST_CASE("the reference program's quirks come back on request", "[lsystem]") {
-    CHECK(value_of(formal(0) / number(0), 3, true) == 3);
-    CHECK(value_of(call(Function::trunc, {number(2.5)}), 0, true) == 3);
+    CHECK(value_of(formal(0) / number(0), 3, Arithmetic::cpfg) == 3);
+    CHECK(value_of(call(Function::trunc, {number(2.5)}), 0, Arithmetic::cpfg) == 3);
     CHECK_THROWS_AS(value_of(formal(0) / number(0), 3), RunError);
     CHECK_THROWS_AS(value_of(number(1) / number(0)), RunError);
 }
@@ -119,7 +121,7 @@ TEST_CASE("arrays are row-major, zero-filled and bounded", "[lsystem]") {
     CHECK(text_after(model, 0) == "A(4,0)");
     model.system().axiom = {model.module("A", {element(0, {number(0), number(3)})})};
     CHECK_THROWS_AS(text_after(model, 0), RunError);
-    model.model().quirks = true;
+    model.model().arithmetic = Arithmetic::cpfg;
     CHECK(text_after(model, 0) == "A(3)");
     model.system().axiom = {model.module("A", {element(0, {number(0)})})};
     CHECK_THROWS_AS(model.compiled(), UserError);

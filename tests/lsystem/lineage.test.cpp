@@ -6,6 +6,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {

@@ -10,6 +10,7 @@
 #include <random>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {
@@ -327,7 +328,7 @@ bool agrees(const Plain& plain, const Modules& axiom, std::size_t threads) {
     derivation.start(string);
     derivation.step(string, next);
     const RandomKey key(7, 0, Stream::derivation, std::bit_cast<std::uint64_t>(1.0));
-    const auto uniform = [&](std::size_t i) { return RandomDraws(key, string.identity(i), 1).uniform(); };
+    const auto uniform = [&](std::size_t i) { return RandomSamples(key, string.identity(i), 1).uniform(); };
     return modules_of(next, model.model().alphabet) == plain.step(axiom, uniform);
 }
 

@@ -12,6 +12,8 @@
 
 namespace espalier::test {
 
+using namespace espalier::lsystem;
+
 inline Expression number(double value) {
     return Expression::number(value);
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 TEST_CASE("productions are chosen with the frequency of their weights", "[lsystem]") {

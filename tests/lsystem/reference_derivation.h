@@ -13,6 +13,8 @@
 
 namespace espalier::test {
 
+using namespace espalier::lsystem;
+
 struct PlainModule {
     LetterId letter = no_letter;
     std::vector<double> values;
@@ -84,7 +86,7 @@ inline const Production* plain_choice(const LSystem& system, const PlainString& 
     double sum = 0;
     for (const Production* candidate : candidates) sum += weight(*candidate);
     const RandomKey key(0, 0, Stream::derivation, std::bit_cast<std::uint64_t>(system.seed->value));
-    double left = RandomDraws(key, string[at].identity, step).uniform() * sum;
+    double left = RandomSamples(key, string[at].identity, step).uniform() * sum;
     const Production* chosen = nullptr;
     for (const Production* candidate : candidates) {
         if (weight(*candidate) == 0) continue;

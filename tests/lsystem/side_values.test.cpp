@@ -4,6 +4,7 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {

@@ -2,6 +2,7 @@
 // the other writes: the same modules, who are the same.
 #include "catch.h"
 #include "lsystem/compile/compiled_model.h"
+#include "lsystem/derive/small_step.h"
 #include "lsystem/derive/step.h"
 #include "lsystem/model_builder.h"
 
@@ -12,6 +13,7 @@
 #include <string>
 
 using namespace espalier;
+using namespace espalier::lsystem;
 using namespace espalier::test;
 
 namespace {
@@ -21,6 +23,7 @@ struct Kind {
     bool contexts = false, conditions = false, weights = false, several = false;
     bool nearest = false;  ///< contexts are one module, whose parameters nobody reads
     bool decomposition = false, cuts = false, blocks = false, sub_systems = false;
+    bool cpfg = false;  ///< arithmetic
 };
 
 constexpr int letters = 5;
@@ -30,6 +33,7 @@ public:
     RandomModel(unsigned seed, const Kind& kind, int length) : random_(seed), kind_(kind) {
         for (int k = 0; k < letters; ++k) arities_.push_back(kind.nearest ? 0 : below(3));
         LSystem& system = builder.system();
+        if (kind.cpfg) builder.model().arithmetic = Arithmetic::cpfg;
         if (kind.weights) system.seed = number(1);
         if (kind.contexts && below(2) == 0) {
             system.filter = LSystem::Filter::ignore;
@@ -116,8 +120,11 @@ private:
 
     void decompose() {
         RuleSet& rules = builder.system().decomposition;
-        const Pattern whole = pattern();
-        rules.productions.push_back(builder.make({}, {whole}, {}, word(1 + below(2), whole.arity)));
+        std::vector<Pattern> whole{pattern()};
+        if (kind_.several && below(2) == 0) whole.push_back(pattern());
+        int formals = 0;
+        for (const Pattern& each : whole) formals += each.arity;
+        rules.productions.push_back(builder.make({}, whole, {}, word(1 + below(2), formals)));
         rules.maximum_depth = number(1 + below(2));
     }
     void count_uses() {
@@ -151,6 +158,9 @@ std::string way_of(const CompiledModel& model, const ModuleString& from) {
     if (model.nested) return "sub-L-systems" + size;
     if (main.serial()) return "in order" + size;
     if (!main.decomposition.empty()) return "decomposed" + size;
+    ModuleString to;
+    const bool may_be_simple = !model.uses_context && !main.may_cut;
+    if (may_be_simple && rewrite_small(main, from, 1, std::size_t(-1), to)) return "in one pass, at once";
     if (main.plans.all_known) return "told by letters" + size;
     if (!model.uses_context) return (main.rules.stochastic ? "sampled" : "tested") + size;
     return (main.choosing.sides.positions ? "by neighbours" : "by neighbours' letters") + size;
@@ -186,6 +196,8 @@ TEST_CASE("every way of doing a step writes what replacing one module after the 
                           {.conditions = true},
                           {.weights = true},
                           {.conditions = true, .weights = true, .several = true},
+                          {.cpfg = true},
+                          {.contexts = true, .conditions = true, .weights = true, .cpfg = true},
                           {.contexts = true},
                           {.contexts = true, .nearest = true},
                           {.contexts = true, .weights = true, .nearest = true},
@@ -193,6 +205,7 @@ TEST_CASE("every way of doing a step writes what replacing one module after the 
                           {.contexts = true, .conditions = true, .weights = true, .several = true},
                           {.contexts = true, .weights = true, .cuts = true},
                           {.conditions = true, .decomposition = true},
+                          {.conditions = true, .several = true, .decomposition = true},
                           {.contexts = true, .weights = true, .several = true, .decomposition = true, .cuts = true},
                           {.contexts = true, .conditions = true, .cuts = true, .blocks = true},
                           {.contexts = true, .weights = true, .decomposition = true, .sub_systems = true}};
@@ -207,6 +220,7 @@ TEST_CASE("every way of doing a step writes what replacing one module after the 
     std::string taken;
     for (const auto& [way, steps] : ways) taken += way + ": " + std::to_string(steps) + "\n";
     INFO(taken);
+    CHECK(ways["in one pass, at once"] > 10);
     for (const char* way : {"told by letters", "sampled", "tested", "by neighbours", "by neighbours' letters",
                             "decomposed", "in order", "sub-L-systems"}) {
         for (const char* size : {", at once", ", in parts"}) {

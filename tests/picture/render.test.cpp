@@ -157,3 +157,14 @@ TEST_CASE("render: frames are chosen evenly, first and last among them", "[pictu
     CHECK(evenly({all[2]}, 3) == std::vector{all[2], all[2], all[2]});
     CHECK(evenly({}, 3).empty());
 }
+
+TEST_CASE("render: where nothing is drawn it says so", "[pictures]") {
+    if (!can_draw()) return;
+    const HandmadePlant nothing;
+    const Pictured pictured({&nothing});
+    const RenderJob job{*pictured.run, {&pictured.run->frames()[1]}, {}, {}, 0, {}, false, {96, 72}, {}};
+    const auto path = pictured.folder.path / "nothing.png";
+    CHECK_THROWS_AS(render_pictures(job, path), UserError);
+    CHECK_THROWS_WITH(render_pictures(job, path), Contains("nothing to draw"));
+    CHECK_FALSE(std::filesystem::exists(path));
+}

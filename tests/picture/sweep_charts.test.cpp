@@ -1,5 +1,5 @@
 // What the page of a sweep holds: means and deviations of known numbers, and cells of a known map.
-#include "espalier/picture/sweep_charts.h"
+#include "picture/charts/sweep_charts.h"
 
 #include "espalier/base/error.h"
 
@@ -70,9 +70,13 @@ TEST_CASE("runs that differ in their seed alone are a mean, a deviation and dots
     CHECK(dots.x == std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1});
     CHECK(dots.y == std::vector<double>{2, 4, 4, 6, 10, 10, 10, 10});
 
-    // Alone, the seed is what there is to look along.
-    SweptRuns seeds{"", {"simulation.seed"}, {run({"3"}, 7, 1), run({"1"}, 5, 1)}};
-    CHECK(sweep_page(seeds, {"organs"}, false).charts[0].series[0].x == std::vector<double>{1, 3});
+    // Alone, seeds are repetitions of one thing.
+    const SweptRuns seeds{"", {"simulation.seed"}, {run({"3"}, 7, 1), run({"1"}, 5, 1)}};
+    const Chart alone = sweep_page(seeds, {"organs"}, false).charts[0];
+    CHECK(alone.series[0].y == std::vector<double>{6});
+    CHECK(alone.series[0].high[0] == Approx(6 + std::sqrt(2)));
+    CHECK(alone.series[1].y == std::vector<double>{7, 5});
+    CHECK(alone.x_names == std::vector<std::string>{"2 runs"});
 }
 
 TEST_CASE("of two keys the one with more numbers goes along, and the other makes the lines", "[pictures]") {

@@ -90,6 +90,22 @@ TEST_CASE_METHOD(EnvironmentFolder, "a process nobody provides is an error that 
     CHECK(message(std::string("\0\xff:\t::\t\n", 8)) != "no error");
 }
 
+TEST_CASE_METHOD(EnvironmentFolder, "a program of one's own cannot be attached yet, and what can is named",
+                 "[simulation]") {
+    const std::string said = message("executable: ./mine plant.spec\n");
+    CHECK_THAT(said, Contains("plant.e:1") && Contains("'mine'") && Contains("of your own cannot be attached yet"));
+    CHECK_THAT(said, Contains("honda81") && Contains("voxel-shade") && Contains("in C++"));
+}
+
+TEST_CASE_METHOD(EnvironmentFolder, "programs of cpfg answer as there, with and without a file of parameters",
+                 "[simulation]") {
+    CHECK(read("executable: clover\n").processes[0].second.text("numbers") == "cpfg");
+    CHECK(read("executable: chiba plant.spec\n").processes[0].second.text("numbers") == "cpfg");
+    folder().write("ours.toml", "numbers = \"exact\"\n");
+    CHECK(read("executable: chiba ours.toml\n").processes[0].second.text("numbers") == "exact");
+    CHECK_FALSE(read("executable: voxel-shade\n").processes[0].second.has("numbers"));
+}
+
 TEST_CASE_METHOD(EnvironmentFolder, "several environment files stand behind one process", "[simulation]") {
     folder().write("a.e", "executable: shape plant.spec\n");
     folder().write("b.e", "executable: voxel-shade\nturtle position: %.0f %.0f %.0f\n");

@@ -45,6 +45,7 @@ Scene made_by_program() {
     for (const double x : {0.0, 1.0}) {
         Plant plant = plant_of_text(competing, "competing.l");
         plant.turtle.pose.position.x = x;
+        plant.name = x == 0 ? "competing-1" : "competing-2";
         scene.plants.push_back(plant);
     }
     scene.environment.add("light", "voxel-shade", {{"voxel", 0.25}});
@@ -87,7 +88,6 @@ TEST_CASE("a scene made by a program grows and records what the same scene in a 
     run(read_scene_text(as_a_file, "scene.toml", folder.path()), {.output = folder.path() / "file"});
     auto program = timeline_in(folder.path() / "program"), file = timeline_in(folder.path() / "file");
     CHECK(program.size() > 10);
-    // The names of the plants are of no file but statistics of processes; the numbers are.
     REQUIRE(program.size() == file.size());
     for (const auto& [name, bytes] : program) {
         INFO(name);
@@ -167,7 +167,7 @@ TEST_CASE("plants of a program are individuals by their place in the scene, unle
         scene.plants[1].stream = stream;
         World world(scene);
         for (world.start(); !world.at_end();) world.step();
-        CHECK(world.scene().plants[1].name == "bush");
+        CHECK(world.scene().plants[1].name == "bush-2");
         return std::pair(to_text(world.string(0), world.model(0).alphabet),
                          to_text(world.string(1), world.model(1).alphabet));
     };

@@ -1,4 +1,4 @@
-#include "espalier/simulation/variation.h"
+#include "simulation/variation.h"
 
 #include "espalier/base/error.h"
 

@@ -68,6 +68,17 @@ TEST_CASE_METHOD(Worlds, "the axiom is exchanged before the first derivation", "
     CHECK(text(world) == "F(2)F(2)?P(0,4,0)");
 }
 
+TEST_CASE_METHOD(Worlds, "answers are kept as all parameters of a plant's arithmetic are", "[simulation]") {
+    const std::string model = "lsystem: 1\nderivation length: 1\naxiom: +(10)F(0.1)?P(0,0)\nendlsystem\n";
+    const auto height = [&](const std::string& arithmetic) {
+        World world(scene(model, "", "arithmetic = '" + arithmetic + "'\n"));
+        world.start();
+        return world.string(0).parameters.back();
+    };
+    CHECK(height("double") != static_cast<float>(height("double")));
+    CHECK(height("cpfg") == static_cast<float>(height("cpfg")));
+}
+
 TEST_CASE_METHOD(Worlds, "a plant is answered in the steps in which it asks, whoever else does", "[simulation]") {
     const std::string model =
         "#define WAIT 1\nlsystem: 1\nderivation length: 4\naxiom: F(2)A(WAIT)\nA(n) : n > 0 --> A(n - 1)\n"

@@ -66,7 +66,7 @@ struct HandmadePlant {
                        glm::dvec3 base, glm::dvec3 tip, double vigour) {
         const std::uint32_t module = add("F", {glm::distance(base, tip), vigour}, identity, parent, birth);
         PlantGeometry& geometry = interpretation.geometry;
-        geometry.internodes.push_back({module, axis, order, std::uint16_t(7 + order), base, tip, 0.1, 0.05});
+        geometry.internodes.push_back({module, axis, order, std::uint16_t(7 + order), 0, base, tip, 0.1, 0.05});
         geometry.axes = std::max(geometry.axes, axis + 1);
         geometry.bounds.add(base);
         geometry.bounds.add(tip);

@@ -13,7 +13,7 @@ TEST_CASE("a plant is as high as its highest point: an upright axis as its tip, 
     PlantGeometry geometry;
     CHECK(!highest_point(geometry));
     const auto add = [&](const glm::dvec3& base, const glm::dvec3& tip, double base_radius, double tip_radius) {
-        geometry.internodes.push_back({0, 0, 0, 0, base, tip, base_radius, tip_radius});
+        geometry.internodes.push_back({0, 0, 0, 0, 0, base, tip, base_radius, tip_radius});
         return highest_point(geometry).value();
     };
     CHECK(add({0, 0, 0}, {0, 2, 0}, 0.5, 0.5) == 2);

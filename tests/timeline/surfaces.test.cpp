@@ -11,6 +11,7 @@
 #include <vtkPolygon.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -120,6 +121,30 @@ TEST_CASE("patches have their own colours, or the turtle's", "[timeline]") {
     CHECK(values(data->GetCellData(), "colour") == std::vector<double>{3, 3, 3, 3, 9, 9, 9, 9});
     CHECK(values(data->GetCellData(), "back_colour") == std::vector<double>{4, 4, 4, 4, 8, 8, 8, 8});
     CHECK(values(data->GetPointData(), "colour")[17] == 9);
+}
+
+TEST_CASE("with materials, patches have the turtle's colour, as in cpfg", "[timeline]") {
+    Palette materials;
+    materials.of_materials = true;
+    const auto data = recorded(leafy_plant({1, 1, 1}), &materials);
+    for (const double colour : values(data->GetCellData(), "colour")) CHECK(colour == 3);
+    for (const double colour : values(data->GetCellData(), "back_colour")) CHECK(colour == 4);
+}
+
+TEST_CASE("polygons have texture coordinates", "[timeline]") {
+    HandmadePlant plant;
+    plant.add_triangle(1);
+    const std::vector<double> uvs = values(recorded(plant)->GetPointData(), "TCoords");
+    CHECK(*std::min_element(uvs.begin(), uvs.end()) == 0);
+    CHECK(*std::max_element(uvs.begin(), uvs.end()) == 1);
+}
+
+TEST_CASE("widths of lines in pixels are an array of their own", "[timeline]") {
+    HandmadePlant plant = branched_plant();
+    CHECK_FALSE(recorded(plant)->GetPointData()->GetArray("pixels"));
+    plant.interpretation.geometry.in_pixels = true;
+    for (Internode& internode : plant.interpretation.geometry.internodes) internode.pixels = 3;
+    CHECK(values(recorded(plant)->GetPointData(), "pixels") == std::vector<double>(5, 3));
 }
 
 TEST_CASE("a surface that a negative factor mirrors still agrees with its normals", "[timeline]") {

@@ -1,7 +1,7 @@
-#include "espalier/base/csv_file.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "base/csv_file.h"
 #include "catch.h"
 #include "small_disk.h"
 #include "timeline/frames.h"
@@ -152,15 +152,15 @@ TEST_CASE("statistics.csv has one row per step and plant, whatever every says", 
         record(timeline, step, {&stem, &other});
     }
     CHECK(bytes_of(folder.path / "statistics.csv") ==
-          "step,plant,modules,queries,internodes,organs,length,height,volume,born,died,light.mean,\"a,b.x\"\n"
-          "0,0,1,0,1,0,1,1,0.01832595714594046,1,0,0.1,1\n"
-          "0,1,4,2,0,0,0,0,0,4,0,0.5,2\n"
-          "1,0,2,0,2,0,3,3,0.05497787143782139,1,0,1.1,1\n"
-          "1,1,4,2,0,0,0,0,0,0,0,0.5,2\n"
-          "2,0,1,0,1,0,3,3,0.05497787143782139,0,1,2.1,1\n"
-          "2,1,4,2,0,0,0,0,0,0,0,0.5,2\n"
-          "3,0,2,0,2,0,6,6,0.10995574287564278,1,0,3.1,1\n"
-          "3,1,4,2,0,0,0,0,0,0,0,0.5,2\n");
+          "step,time,plant,name,modules,queries,internodes,organs,length,height,volume,born,died,light.mean,\"a,b.x\"\n"
+          "0,0,0,plant,1,0,1,0,1,1,0.01832595714594046,1,0,0.1,1\n"
+          "0,0,1,plant,4,2,0,0,0,0,0,4,0,0.5,2\n"
+          "1,0.5,0,plant,2,0,2,0,3,3,0.05497787143782139,1,0,1.1,1\n"
+          "1,0.5,1,plant,4,2,0,0,0,0,0,0,0,0.5,2\n"
+          "2,1,0,plant,1,0,1,0,3,3,0.05497787143782139,0,1,2.1,1\n"
+          "2,1,1,plant,4,2,0,0,0,0,0,0,0,0.5,2\n"
+          "3,1.5,0,plant,2,0,2,0,6,6,0.10995574287564278,1,0,3.1,1\n"
+          "3,1.5,1,plant,4,2,0,0,0,0,0,0,0,0.5,2\n");
     CHECK_FALSE(std::filesystem::exists(folder.path / "plants/0001.vtp"));
     CHECK(std::filesystem::exists(folder.path / "plants/0003.vtp"));
 }
@@ -174,8 +174,8 @@ TEST_CASE("modules now are modules before, plus born, minus died", "[timeline]")
     for (Identity i = 11; i <= 15; ++i) after.add("A", {}, i, 4, 1);
     record(timeline, 0, {&before});
     record(timeline, 1, {&after});
-    CHECK(bytes_of(folder.path / "statistics.csv").find("\n0,0,10,0,0,0,0,0,0,10,0\n") != std::string::npos);
-    CHECK(bytes_of(folder.path / "statistics.csv").find("\n1,0,12,0,0,0,0,0,0,5,3\n") != std::string::npos);
+    CHECK(bytes_of(folder.path / "statistics.csv").find("\n0,0,0,plant,10,0,0,0,0,0,0,10,0\n") != std::string::npos);
+    CHECK(bytes_of(folder.path / "statistics.csv").find("\n1,0.5,0,plant,12,0,0,0,0,0,0,5,3\n") != std::string::npos);
 }
 
 TEST_CASE("height is measured from the base of the first internode", "[timeline]") {
@@ -185,7 +185,7 @@ TEST_CASE("height is measured from the base of the first internode", "[timeline]
     plant.add_internode(1, 0, 0, 0, 0, {0, 10, 0}, {0, 12, 0}, 1);
     plant.add_internode(2, 0, 0, 1, 1, {0, 10, 0}, {0, 7, 0}, 1);
     record(timeline, 0, {&plant});
-    CHECK(bytes_of(folder.path / "statistics.csv").find("\n0,0,2,0,2,0,5,2,") != std::string::npos);
+    CHECK(bytes_of(folder.path / "statistics.csv").find("\n0,0,0,plant,2,0,2,0,5,2,") != std::string::npos);
 }
 
 TEST_CASE("quantities that change their names are refused, not written under the wrong ones", "[timeline]") {

@@ -6,6 +6,7 @@
 #include <memory>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 

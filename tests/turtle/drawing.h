@@ -14,6 +14,8 @@
 
 namespace espalier {
 
+using namespace espalier::turtle;
+
 /// A string and the alphabet it needs: "F(1)[+(30)F]", each character a module. A name in <> is one letter.
 struct Drawing {
     Model model;
@@ -23,6 +25,7 @@ struct Drawing {
 
     explicit Drawing(const std::string& text) {
         model.name = "test";
+        settings.line_width = 1;
         for (std::size_t i = 0; i < text.size();) {
             std::string symbol(1, text[i++]);
             if (symbol == "<") {

@@ -10,6 +10,7 @@
 #include <string>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 
@@ -209,21 +210,62 @@ TEST_CASE("polygons nest, and G and g mark no vertex", "[turtle]") {
     Drawing drawing("{.f+(90)f{.G+(90)F+(90).f}+(90)g.}");
     const PlantGeometry& geometry = drawing.geometry();
     REQUIRE(geometry.polygons.size() == 2);
-    CHECK(geometry.polygons[0].count == 4);  // the inner one is finished first
-    CHECK(geometry.polygons[1].count == 4);
+    CHECK(geometry.polygons[0].count == 3);  // the inner one is finished first
+    CHECK(geometry.polygons[1].count == 3);
     CHECK(geometry.polygons[0].module == 5);
     CHECK(geometry.polygons[1].module == 0);
-    CHECK(geometry.vertices.size() == 8);
+    CHECK(geometry.vertices.size() == 6);
+}
+
+TEST_CASE("a point behind a step marks the vertex that the step marked", "[turtle]") {
+    const PlantGeometry leaf = Drawing("{.+(30)f(0.5).-(60)f(0.5).-(120)f(0.5).}").geometry();
+    REQUIRE(leaf.polygons.size() == 1);
+    CHECK(leaf.polygons[0].count == 4);
+    const PlantGeometry closed = Drawing("{.+(30)f(0.5).-(60)f(0.5).-(120)f(0.5).-(60)f(0.5).}").geometry();
+    CHECK(closed.polygons.at(0).count == 4);  // it comes back to its first vertex, but for rounding
+}
+
+TEST_CASE("the colour of a polygon is that of its first vertex", "[turtle]") {
+    Drawing drawing(";(2){;(3).f(1)+(90)f(1)+(90)f(1);(7)}F");
+    const PlantGeometry& geometry = drawing.geometry();
+    REQUIRE(geometry.polygons.size() == 1);
+    CHECK(geometry.polygons[0].colour == 3);
+    CHECK(geometry.polygons[0].look.back_colour == 3);
+    CHECK(geometry.internodes[0].colour == 7);
+}
+
+TEST_CASE("a line that nobody gave a width has no radius, and one pixel", "[turtle]") {
+    Drawing drawing("F[!(0.2)F]F!F#F");
+    drawing.settings.line_width.reset();
+    const auto& lines = drawing.geometry().internodes;
+    for (const std::size_t i : {0, 2, 3, 4}) {
+        CHECK(lines[i].base_radius == 0);
+        CHECK(lines[i].tip_radius == 0);
+        CHECK(lines[i].pixels == 1);
+    }
+    CHECK(lines[1].tip_radius == Approx(0.1));
+    CHECK(lines[1].pixels == 0);
+    CHECK(drawing.geometry().bounds.upper.x == Approx(0.1));
+}
+
+TEST_CASE("a width given on the way tapers from nothing, and a sub-system gives none", "[turtle]") {
+    Drawing drawing("?(1,2)F$F!(0.2)F");
+    drawing.settings.line_width.reset();
+    const auto& lines = drawing.geometry().internodes;
+    CHECK(lines[0].tip_radius == 0);
+    CHECK(lines[1].tip_radius == 0);
+    CHECK(lines[2].base_radius == 0);
+    CHECK(lines[2].tip_radius == Approx(0.1));
 }
 
 TEST_CASE("a polygon reaches across branches", "[turtle]") {
     Drawing drawing("[+(30)F{.]F.[-(30)F.}]");  // ABOP's framework leaf ties marked points of several branches
     const PlantGeometry& geometry = drawing.geometry();
     REQUIRE(geometry.polygons.size() == 1);
-    REQUIRE(geometry.polygons[0].count == 5);
+    REQUIRE(geometry.polygons[0].count == 3);
     CHECK(geometry.vertices[0].x == Approx(-0.5));
     CHECK(geometry.vertices[1].y == 1);
-    CHECK(geometry.vertices[4].x == Approx(0.5));
+    CHECK(geometry.vertices[2].x == Approx(0.5));
 }
 
 TEST_CASE("unfinished, unopened and too small polygons draw nothing", "[turtle]") {
@@ -231,7 +273,7 @@ TEST_CASE("unfinished, unopened and too small polygons draw nothing", "[turtle]"
         INFO(text);
         CHECK(Drawing(text).geometry().polygons.empty());
     }
-    CHECK(Drawing("{.f.{(1)ff}.+f.}").geometry().polygons.at(0).count == 6);  // a cylinder's points do not count
+    CHECK(Drawing("{.f.{(1)ff}.+f.}").geometry().polygons.at(0).count == 4);  // a cylinder's points do not count
 }
 
 TEST_CASE("discs, spheres and outlines have a diameter, by default the line width", "[turtle]") {
@@ -304,7 +346,7 @@ TEST_CASE("interpreting twice changes nothing", "[turtle]") {
 TEST_CASE("a reused result holds nothing of the plant before", "[turtle]") {
     Drawing large("F[+F]F@o{.f.f.f.}?E(1)"), small("F");
     large.draw();
-    interpret(small.model, *symbol_table(small.model), small.string, {}, nullptr, {}, large.result);
+    interpret(small.model, *symbol_table(small.model), small.string, small.settings, nullptr, {}, large.result);
     CHECK(same(large.result, small.draw()));
 }
 
@@ -366,6 +408,8 @@ TEST_CASE("lines whose width is in pixels have no radius, and queries keep the w
     CHECK(total_volume(drawing.geometry()) == 0);
     CHECK(drawing.geometry().bounds.upper.x == 0);
     CHECK(drawing.result.queries.at(0).width == 2);
+    CHECK(drawing.result.geometry.in_pixels);
+    CHECK(drawing.result.geometry.internodes[0].pixels == 3);
     drawing.settings.line_style = LineStyle::polygon;
     CHECK(total_volume(drawing.geometry()) > 0);
 }

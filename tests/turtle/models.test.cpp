@@ -14,6 +14,7 @@
 #include <vector>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 

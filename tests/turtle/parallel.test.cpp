@@ -17,6 +17,7 @@
 #include <vector>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 
@@ -26,7 +27,8 @@ public:
     explicit Bytes(const Interpretation& result) {
         const PlantGeometry& geometry = result.geometry;
         for (const Internode& row : geometry.internodes) {
-            add(row.module, row.axis, row.order, row.colour, row.base, row.tip, row.base_radius, row.tip_radius);
+            add(row.module, row.axis, row.order, row.colour, row.pixels, row.base, row.tip, row.base_radius,
+                row.tip_radius);
         }
         for (const Polygon& row : geometry.polygons) {
             add(row.module, row.first, row.count, row.order, row.colour, row.look.back_colour, row.look.texture);
@@ -145,9 +147,10 @@ TurtleSettings busy_settings() {
     return settings;
 }
 
-const std::vector<std::string> plain = {"F(#)",  "F",         "G(#)",      "f(#)",  "+(#)",  "-",  "&(#)", "^", "/(#)",
-                                        "\\",    "|",         "!(#)",      "#(#)",  ";(#)",  ",",  "@v",   "A", "B(#)",
-                                        "@D(#)", "@Di(1.01)", "?P(#,#,#)", "?E(#)", "@O(#)", "@c", "~l(#)"};
+const std::vector<std::string> plain = {"F(#)",      "F",     "G(#)",  "f(#)", "+(#)",  "-",         "&(#)",
+                                        "^",         "/(#)",  "\\",    "|",    "!(#)",  "#(#)",      ";(#)",
+                                        ",",         "@v",    "A",     "B(#)", "@D(#)", "@R(#,#,#)", "@Di(1.01)",
+                                        "?P(#,#,#)", "?E(#)", "@O(#)", "@c",   "~l(#)"};
 
 /// Symbols that carry something from one branch to the next, and some that only look like others.
 const std::vector<std::string> carrying = {
@@ -172,6 +175,7 @@ TEST_CASE("a plant walked by several threads is the plant walked in one piece, t
             Drawing drawing(random.of(plain, 800 + 100 * seed));
             if (seed % 2) drawing.settings = busy_settings();
             if (seed % 3 == 0) drawing.settings.tapered_lines = false;
+            if (seed % 5 < 2) drawing.model.arithmetic = Arithmetic::cpfg;
             const Outcome whole = walked(drawing, 0);
             for (const std::size_t chunk : {1, 7, 50}) {
                 CHECK(walked(drawing, chunk) == whole);

@@ -13,6 +13,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 
@@ -60,13 +61,13 @@ struct MatrixTurtle {
 
 TEST_CASE("?P ?H ?L ?U equal an independent replay on 100 random strings", "[turtle]") {
     for (std::uint64_t trial = 0; trial < 100; ++trial) {
-        RandomDraws draws(RandomKey(3, 0, Stream::placement), trial, 0);
+        RandomSamples samples(RandomKey(3, 0, Stream::placement), trial, 0);
         std::string text;
         std::vector<MatrixTurtle> stack;
         std::vector<std::array<glm::dvec3, 4>> expected;
         MatrixTurtle turtle;
         for (int i = 0; i < 200; ++i) {
-            const double pick = draws.uniform();
+            const double pick = samples.uniform();
             if (pick < 0.1) {
                 text += '[';
                 stack.push_back(turtle);
@@ -78,8 +79,8 @@ TEST_CASE("?P ?H ?L ?U equal an independent replay on 100 random strings", "[tur
                 text += "?P(0,0,0)?H(0,0,0)?L(0,0,0)?U(0,0,0)";
                 expected.push_back({turtle.position, turtle.frame[0], turtle.frame[1], turtle.frame[2]});
             } else {
-                const char command = "+-&^/\\FfGg"[int(draws.uniform() * 10)];
-                const int value = int(draws.uniform() * 180);
+                const char command = "+-&^/\\FfGg"[int(samples.uniform() * 10)];
+                const int value = int(samples.uniform() * 180);
                 text += fmt::format("{}({})", command, value);
                 turtle.obey(command, value);
             }

@@ -4,6 +4,7 @@
 #include <memory>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 

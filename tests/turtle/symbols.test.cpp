@@ -9,6 +9,7 @@
 #include <string>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 
@@ -68,13 +69,13 @@ TEST_CASE("a turn and its opposite leave the frame as it was", "[turtle]") {
 }
 
 TEST_CASE("a million random commands keep the frame orthonormal", "[turtle]") {
-    RandomDraws draws(RandomKey(1, 0, Stream::placement), 0, 0);
+    RandomSamples samples(RandomKey(1, 0, Stream::placement), 0, 0);
     TurtleState state;
     const std::vector<Tropism> tropisms{{{0, -1, 0}, 0.3, 0.2, 0, false}, {{1, 0, 0}, 0, 0.1, 0, true}};
     const std::vector<double> elasticities{0.2, 0.1};
     for (int i = 0; i < 1'000'000; ++i) {
-        const double angle = 2 * std::numbers::pi * draws.uniform();
-        switch (int(draws.uniform() * 5)) {
+        const double angle = 2 * std::numbers::pi * samples.uniform();
+        switch (int(samples.uniform() * 5)) {
             case 0:
                 turn_left(state.pose, angle);
                 break;
@@ -95,7 +96,7 @@ TEST_CASE("a million random commands keep the frame orthonormal", "[turtle]") {
 
     Pose rotated_only;
     for (int i = 0; i < 1'000'000; ++i) {
-        const double angle = 2 * std::numbers::pi * draws.uniform();
+        const double angle = 2 * std::numbers::pi * samples.uniform();
         i % 3 == 0   ? turn_left(rotated_only, angle)
         : i % 3 == 1 ? pitch_down(rotated_only, angle)
                      : roll_left(rotated_only, angle);
@@ -154,6 +155,36 @@ TEST_CASE("without elasticity a tropism changes nothing, bit for bit", "[turtle]
     still.settings.tropisms = {{{1, -1, 0.5}, 0.4, 0, 0.1, false}, {{1, 0, 0}, 0, 0, 0.1, true}};
     CHECK(plain.pose().position == still.pose().position);
     CHECK(plain.pose().up == still.pose().up);
+}
+
+TEST_CASE("as in cpfg, a tropism takes up from the frame at the last drawn segment", "[turtle]") {
+    const auto up = [](const std::string& text, bool as_cpfg) {
+        Drawing drawing(text);
+        drawing.settings.tropisms = {{{0, 0, 1}, 0, 0.3, 0, false}};
+        if (as_cpfg) drawing.model.arithmetic = Arithmetic::cpfg;
+        return drawing.pose().up;
+    };
+    CHECK(glm::length(up("/(40)F(1)", true) - glm::dvec3(0, 0.2955, -0.9553)) < 1e-4);
+    CHECK(glm::length(up("/(40)F(1)", false) - glm::dvec3(0.6428, 0.2264, -0.7318)) < 1e-4);
+    CHECK(up("/(40)F(1)/(50)F(1)", true) == up("F(1)F(1)", true));
+    CHECK(glm::length(up("/(40)[/(50)F(1)]F(1)", true) - up("F(1)", true)) < 1e-12);  // branches keep their frames
+    // @Tf keeps the roll, as a drawn segment does where nothing bends.
+    CHECK(glm::length(up("/(40)@TfF(1)", true) - up("/(40)F(1)", false)) < 1e-12);
+}
+
+TEST_CASE("as in cpfg, @R and @Tp lose what was rolled since the last drawn segment", "[turtle]") {
+    const auto pose = [](const std::string& text, bool as_cpfg) {
+        Drawing drawing(text);
+        if (as_cpfg) drawing.model.arithmetic = Arithmetic::cpfg;
+        return drawing.pose();
+    };
+    const Pose turned = pose("+(30)/(20)@R(.6,.2,.5)", true);
+    CHECK(turned.up == pose("@R(.6,.2,.5)", false).up);
+    CHECK(turned.up != pose("+(30)/(20)@R(.6,.2,.5)", false).up);
+    CHECK(glm::length(pose("/(20)F/(30)@Tp", true).up - pose("/(20)", true).up) < 1e-12);
+    CHECK(glm::length(pose("/(20)F/(30)@Tp", false).up - pose("/(50)", false).up) < 1e-12);
+    CHECK(glm::length(pose("/(20)[F]/(30)@Tp", true).up - glm::dvec3(0, 0, -1)) < 1e-12);
+    CHECK(pose("/(20)F/(30)", true).up == pose("/(20)F/(30)", false).up);
 }
 
 TEST_CASE("many segments align the heading with the tropism", "[turtle]") {

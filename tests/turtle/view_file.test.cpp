@@ -8,6 +8,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::turtle;
 
 namespace {
 
@@ -298,7 +299,7 @@ TEST_CASE("lights, the camera and render modes are kept for whoever shows the pl
     CHECK(view.resources->z_min == 0.1);
     CHECK(view.resources->z_max == 50);
     CHECK(view.render_mode == "shaded");
-    CHECK(view.unused == Messages{"light", "projection", "viewing angle", "twist", "shade mode"});
+    CHECK(view.unused == Messages{"shade mode"});
 }
 
 TEST_CASE("settings of a window alone are read and named", "[turtle]") {
@@ -310,8 +311,10 @@ TEST_CASE("settings of a window alone are read and named", "[turtle]") {
     CHECK(view.diagnostics.empty());
     CHECK(view.turtle.angle == Approx(60 * degree));
     CHECK(view.unused == Messages{"z buffer", "cue range", "font", "winfont", "PS linecap", "shadow map",
-                                  "rayshade objects", "background color", "ambient light", "min zoom",
-                                  "light direction", "diffuse reflection"});
+                                  "rayshade objects", "ambient light", "min zoom", "diffuse reflection"});
+    CHECK(view.background_colour == glm::dvec3(0, 0, 1));
+    CHECK(glm::length(*view.light_direction - glm::normalize(glm::dvec3(1))) < 1e-12);
+    CHECK(view_of("background color: 255,0,51").background_colour == glm::dvec3(1, 0, 0.2));
 }
 
 TEST_CASE("where eye and reference point agree, the view is from behind", "[turtle]") {

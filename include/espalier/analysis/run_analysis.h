@@ -15,7 +15,10 @@ namespace espalier::analysis {
 
 struct AnalysisOptions {
     std::set<std::string> leaf_symbols;  ///< whose surfaces are leaves; empty: everything with a surface
-    double layer = 0, voxel = 0;         ///< m; 0: chosen for each plant
+    double layer = 0;                    ///< thickness, m; 0: chosen for the run
+    double low = 0, high = 0;            ///< heights that the layers cover at least, m
+    double ground = 0;                   ///< area of the ground, m2; 0: that of the run's domain
+    double voxel = 0;                    ///< m; 0: chosen for each plant
 };
 
 /// A column of the table of measures.
@@ -33,11 +36,11 @@ public:
     RunAnalysis(const RunAnalysis&) = delete;
     RunAnalysis& operator=(const RunAnalysis&) = delete;
 
-    /// A row per step and plant: step, plant, then the measures. NaN where a plant has none.
+    /// A row per step and plant: step, time, plant, then the measures. NaN where a plant has none.
     RecordedTable table() const;
 
     /// The layers of the last frame's plants: step, plant, height (of the layer's middle), length, surface, leaf_area,
-    /// density.
+    /// density, ground_density. All plants of all frames have the same layers.
     RecordedTable last_layers() const;
 
     /// analysis.csv (the table), orders.csv, ramification.csv, layers.csv and internodes.csv, each complete or not at
@@ -48,7 +51,11 @@ public:
 
 private:
     struct Frame;
+    void align_layers(const AnalysisOptions& options);
+    const std::string& name_of(std::uint32_t plant) const;
+
     std::string scene_;
+    double ground_ = 0;
     std::vector<RecordedPlant> plants_;
     std::vector<Frame> frames_;
 };

@@ -50,6 +50,7 @@ struct RecordedGeometry {
     Column<glm::vec3> points, normals;
     Column<glm::vec2> uvs;
     Column<float> radii;
+    Column<float> pixels;  ///< widths of the lines without radius; empty where no view file gives such widths
     RecordedCells vertices, lines, polygons;
     RecordedAttributes of_points, of_cells;
     Column<std::uint16_t> textures, back_colours;      ///< of cells; textures index `texture_files`
@@ -120,7 +121,8 @@ struct RecordedTable {
     /// Those of the last step, a row a plant.
     std::vector<std::vector<double>> last_rows() const;
 };
-/// Throws UserError naming the file if it is missing or damaged; a row that is being written is none yet.
+/// The column `name`, which holds texts, is left out. Throws UserError naming the file if it is missing or damaged; a
+/// row that is being written is none yet.
 RecordedTable read_table(const std::filesystem::path& file);
 
 struct RecordedPlant {
@@ -136,14 +138,36 @@ struct RecordedFrame {
     std::map<std::string, std::filesystem::path> fields;  ///< .vti, or .vdb where only that was recorded
 };
 
+/// How the author of a model looked at it, as its view file says.
+struct RecordedView {
+    glm::dvec3 towards_eye{0, 0, 1};  ///< from what is looked at; not 0
+    double twist = 0;                 ///< degrees
+    bool perspective = false;
+    double angle = 45;                        ///< degrees, perspective only
+    std::optional<glm::dvec3> towards_light;  ///< not 0
+    std::optional<std::array<std::uint8_t, 3>> background;
+};
+
+/// background.vtp: the triangles of what stands around the plants.
+struct RecordedBackground {
+    Column<glm::vec3> points, normals;
+    RecordedCells triangles;
+    Column<std::array<std::uint8_t, 3>> rgb;  ///< of the triangles, as the opacities
+    Column<float> opacities;
+};
+
 /// How the run in a folder ended, as `RecordedRun::exit` says it. Throws UserError if there is none.
 std::string exit_of_run(const std::filesystem::path& folder);
 
-/// Opens a run's folder, also of a run that is still going. Everything that is missing or damaged, at once or when it
-/// is loaded, throws UserError naming the file.
+/// The folder of the run that a path names: itself, or the folder whose run a file of a timeline belongs to (run.json,
+/// plants.pvd, plants/0012.vtp, fields/light/0012.vti, statistics.csv). A path to something else stays.
+std::filesystem::path folder_of_run(const std::filesystem::path& path);
+
+/// Opens a run's folder, or one of its files; also of a run that is still going. Everything that is missing or damaged,
+/// at once or when it is loaded, throws UserError naming the file.
 class RecordedRun {
 public:
-    explicit RecordedRun(std::filesystem::path folder);
+    explicit RecordedRun(const std::filesystem::path& path);
 
     const std::filesystem::path& folder() const { return folder_; }
     const std::string& scene() const { return scene_; }  ///< its name
@@ -151,6 +175,10 @@ public:
     const std::string& exit() const { return exit_; }
     const std::string& time_unit() const { return time_unit_; }
     double dt() const { return dt_; }  ///< of a step, in time units
+    /// Units of the processes' quantities in `statistics`, by column; of those that have one.
+    const std::map<std::string, std::string>& units() const { return units_; }
+    /// Extent along x times extent along z of the domain of the scene or of a process, m2, if there is one.
+    std::optional<double> ground_area() const { return ground_area_; }
     const std::vector<RecordedPlant>& plants() const { return plants_; }
     /// The number of the plant of that name. Throws UserError naming the nearest.
     std::uint32_t plant(const std::string& name) const;
@@ -162,6 +190,10 @@ public:
 
     RecordedGeometry geometry(const RecordedFrame& frame) const;
     RecordedField field(const RecordedFrame& frame, const std::string& name) const;
+    /// None if no plant has a view file.
+    const std::optional<RecordedView>& view() const { return view_; }
+    /// None if the view files name no background scene.
+    std::optional<RecordedBackground> background() const;
     RecordedTable statistics() const;
     RecordedLives lifespans() const;
 
@@ -169,8 +201,11 @@ private:
     std::filesystem::path folder_;
     std::string scene_, exit_, time_unit_ = "step";
     double dt_ = 1;
+    std::map<std::string, std::string> units_;
+    std::optional<double> ground_area_;
     std::vector<RecordedPlant> plants_;
     std::vector<RecordedFrame> frames_;
+    std::optional<RecordedView> view_;
 };
 
 }  // namespace espalier::archive
@@ -178,9 +213,11 @@ private:
 namespace espalier {
 
 using archive::exit_of_run;
+using archive::folder_of_run;
 using archive::internodes_of;
 using archive::read_table;
 using archive::RecordedAttributes;
+using archive::RecordedBackground;
 using archive::RecordedCells;
 using archive::RecordedField;
 using archive::RecordedFrame;
@@ -191,5 +228,6 @@ using archive::RecordedLives;
 using archive::RecordedPlant;
 using archive::RecordedRun;
 using archive::RecordedTable;
+using archive::RecordedView;
 
 }  // namespace espalier

@@ -34,10 +34,10 @@ private:
 };
 
 /// Samples for one owner (a module's identity, say) in one step, numbered from 0 as they are taken.
-class RandomDraws {
+class RandomSamples {
 public:
-    RandomDraws(RandomKey key, std::uint64_t drawer, std::uint32_t step, std::uint32_t first_draw = 0)
-        : key_(key), drawer_(drawer), step_(step), draw_(first_draw) {}
+    RandomSamples(RandomKey key, std::uint64_t owner, std::uint32_t step, std::uint32_t first = 0)
+        : key_(key), owner_(owner), step_(step), next_(first) {}
 
     /// Uniform in [0, 1), 53 bits.
     double uniform();
@@ -48,19 +48,19 @@ public:
     /// Number of successes in n tosses of probability p.
     double binomial(double n, double p);
 
-    std::uint32_t drawn() const { return draw_; }
+    std::uint32_t taken() const { return next_; }
 
 private:
     double log_gamma(double shape);
 
     RandomKey key_;
-    std::uint64_t drawer_;
+    std::uint64_t owner_;
     std::uint32_t step_;
-    std::uint32_t draw_;
+    std::uint32_t next_;
 };
 
 /// The first samples of many owners in one step, several at a time: samples[i] is 2^53 times what
-/// RandomDraws(key, drawers[i], step).uniform() gives.
-void first_draws(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> drawers, std::uint64_t* draws);
+/// RandomSamples(key, owners[i], step).uniform() gives.
+void first_samples(RandomKey key, std::uint32_t step, std::span<const std::uint64_t> owners, std::uint64_t* samples);
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 class Communication;
 
@@ -89,5 +89,12 @@ private:
     std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name that `last_model_` declares
     const Model* last_model_ = nullptr;
 };
+
+}  // namespace espalier::environment
+
+namespace espalier {
+
+using environment::asks_processes;
+using environment::Environment;
 
 }  // namespace espalier

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// A plant as processes see it. `string` is the one that asked.
 struct PlantView {
@@ -41,7 +41,7 @@ struct EnvironmentContext {
     std::uint64_t seed = 0;
     std::uint32_t plants = 0;              ///< how many plants the world has
     std::size_t memory = std::size_t(-1);  ///< bytes a process's fields may take; more is an error before allocating
-    std::vector<Diagnostic>* warnings = nullptr;  ///< for ignored lines of a parameter file
+    std::vector<Diagnostic>* warnings = nullptr;  ///< lasts as long as the process, and may grow in any step
 };
 
 /// One quantity of statistics.csv, "light.mean" being quantity "mean" of process "light".
@@ -49,6 +49,7 @@ struct EnvironmentContext {
 struct Quantity {
     std::string name;
     double value = 0;
+    std::string unit = {};  ///< "": a number without one
 };
 
 /// Constructors take (Settings&, const EnvironmentContext&, Fields&), read their parameters (the scene rejects unread
@@ -82,6 +83,19 @@ struct ProcessType {
     std::string summary;  ///< a line
     std::string help;     ///< what a query is answered; parameters with units and defaults
     std::function<std::unique_ptr<EnvironmentProcess>(Settings&, const EnvironmentContext&, Fields&)> make;
+    /// It reads the key `numbers`: "cpfg" makes it answer what cpfg's program of the same name answers.
+    bool has_numbers_of_cpfg = false;
 };
+
+}  // namespace espalier::environment
+
+namespace espalier {
+
+using environment::EnvironmentContext;
+using environment::EnvironmentProcess;
+using environment::PlantView;
+using environment::ProcessType;
+using environment::Quantity;
+using environment::WorldView;
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// Thread safe. Simple solids, unions seen from outside and intersections seen from inside are exact everywhere. In the
 /// other cases (deep in a union, outside a difference) `distance` is a lower bound of the distance with the right
@@ -42,5 +42,14 @@ std::shared_ptr<const Shape> grown_and_moved(std::shared_ptr<const Shape> shape,
 
 /// The text that documents shapes in `espalier list`.
 const char* shape_help();
+
+}  // namespace espalier::environment
+
+namespace espalier {
+
+using environment::grown_and_moved;
+using environment::read_shape;
+using environment::Shape;
+using environment::shape_help;
 
 }  // namespace espalier

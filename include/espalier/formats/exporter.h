@@ -20,6 +20,7 @@ struct ExportedFile {
     std::size_t vertices = 0, triangles = 0;
     std::size_t elements = 0;  ///< internodes, organs, roots, voxels: what `noun` says
     std::string noun;
+    std::string hint{};  ///< what would be better, if anything
 };
 
 struct ExportJob {
@@ -29,6 +30,12 @@ struct ExportJob {
     std::filesystem::path folder;  ///< is made if need be
     std::function<void(const ExportedFile&)> report;
     std::string name{};  ///< of the files; empty: the scene's, and the step of a frame that has a file of its own
+
+    // Of formats that know of such things.
+    double steps_per_second = 24;  ///< of growth as an animation
+    bool grouped = false;          ///< growth: organs that are born and die together are one object
+    bool instances = false;        ///< organs that look alike are one shape in many places
+    bool mesh_axes = false;        ///< axes are meshes where the format has curves
 
     /// A file of the whole job, or of a frame.
     std::filesystem::path path(const std::string& extension) const;

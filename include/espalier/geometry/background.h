@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// Triangles in the world's coordinates; pieces of one material follow each other.
 struct Background {
@@ -32,5 +32,13 @@ void read_background(const std::filesystem::path& path, const Material& material
                      std::vector<Diagnostic>& diagnostics);
 void read_background_text(std::string_view text, const std::string& name, const Material& material,
                           Background& background, std::vector<Diagnostic>& diagnostics);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Background;
+using geometry::read_background;
+using geometry::read_background_text;
 
 }  // namespace espalier

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// Units are half widths of the turtle's line: a circle of radius 1 has the line's width as diameter.
 class Contour {
@@ -32,5 +32,11 @@ private:
     std::vector<glm::dvec3> points_;  // none: the circle
     bool closed_ = true;
 };
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Contour;
 
 }  // namespace espalier

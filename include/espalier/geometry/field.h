@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// Holds an OpenVDB grid; defined in espalier/environment/openvdb_grid.h, the one public header that includes OpenVDB.
 struct FieldGrid;
@@ -39,5 +39,13 @@ public:
 private:
     mutable std::map<std::string, Field> fields_;
 };
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Field;
+using geometry::FieldGrid;
+using geometry::Fields;
 
 }  // namespace espalier

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// The slopes of the radius on both sides of a control point, as angle (radians) and length of tangents.
 struct RadiusTangents {
@@ -61,5 +61,16 @@ std::vector<CylinderRing> rings_of(const GeneralizedCylinder& cylinder);
 /// cylinder's last stretch belongs to its last point. Tubes with ends are capped, so that they are watertight.
 /// Does nothing for fewer than two points.
 void draw(const GeneralizedCylinder& cylinder, PlantGeometry& geometry);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::CylinderPoint;
+using geometry::CylinderRing;
+using geometry::draw;
+using geometry::GeneralizedCylinder;
+using geometry::RadiusTangents;
+using geometry::rings_of;
 
 }  // namespace espalier

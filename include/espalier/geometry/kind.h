@@ -3,8 +3,14 @@
 
 #include <cstdint>
 
-namespace espalier {
+namespace espalier::geometry {
 
 enum class Kind : std::uint8_t { query = 0, axis = 1, polygon = 2, organ = 3, cylinder = 4, patch = 5, label = 6 };
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Kind;
 
 }  // namespace espalier

@@ -5,7 +5,7 @@
 
 #include <openvdb/openvdb.h>
 
-namespace espalier {
+namespace espalier::geometry {
 
 struct FieldGrid {
     openvdb::FloatGrid::Ptr grid;  ///< index space to metres by its transform; voxel centres are at integer indices
@@ -18,5 +18,13 @@ void initialize_openvdb();
 
 /// A uniform-voxel grid whose voxel (0,0,0) has its centre at `origin` + voxel/2.
 openvdb::math::Transform::Ptr cell_centred_transform(double voxel, const glm::dvec3& origin);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::cell_centred_transform;
+using geometry::FieldGrid;
+using geometry::initialize_openvdb;
 
 }  // namespace espalier

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// Red, green, blue and opacity in [0, 1].
 struct Material {
@@ -17,6 +17,7 @@ struct Material {
 /// Index 256 * set + value; the turtle's indices are those of set 1, written without it.
 struct Palette {
     std::map<int, Material> entries;
+    bool of_materials = false;  ///< not of colour maps: colours of patches do not count then, as in cpfg
 
     /// The entry a turtle's colour index stands for; grey if its set was not given, white if only the entry was not.
     Material material(int colour) const;
@@ -26,5 +27,14 @@ struct Palette {
 /// Throws UserError if the file is missing or is neither.
 void read_colour_map(const std::filesystem::path& path, int set, Palette& palette);
 void read_materials(const std::filesystem::path& path, int set, Palette& palette);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Material;
+using geometry::Palette;
+using geometry::read_colour_map;
+using geometry::read_materials;
 
 }  // namespace espalier

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// A place and an orthonormal frame. up = left x heading, as in cpfg: heading (0,1,0), left (-1,0,0), up (0,0,-1).
 struct Pose {
@@ -39,12 +39,13 @@ struct Look {
 };
 
 /// One drawn segment. Internodes of one axis follow each other: `axis` counts the axes of the plant.
-/// Lines whose width is in pixels have radius 0.
+/// Lines whose width is in pixels, or that nobody gave a width, have radius 0.
 struct Internode {
     std::uint32_t module;  ///< index of the module in the plant's string
     std::uint32_t axis;
     std::uint16_t order;  ///< depth of branching, 0 = main axis
     std::uint16_t colour;
+    float pixels;  ///< the width of lines without radius; 0: none
     glm::dvec3 base, tip;
     double base_radius, tip_radius;
 };
@@ -108,6 +109,7 @@ struct PlantGeometry {
     std::vector<Label> labels;
     std::vector<std::uint16_t> textures;   ///< of the internodes; shorter where the last ones have none
     std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: unknown
+    bool in_pixels = false;                ///< widths of lines are given in pixels
     std::uint32_t axes = 0;
     Box bounds;  ///< of everything drawn, thickness included
 
@@ -117,5 +119,22 @@ struct PlantGeometry {
 /// Sums over the internodes: lengths, and volumes of the truncated cones they are.
 double total_length(const PlantGeometry& geometry);
 double total_volume(const PlantGeometry& geometry);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Box;
+using geometry::DrawnMesh;
+using geometry::Internode;
+using geometry::Label;
+using geometry::Look;
+using geometry::MeshPiece;
+using geometry::Organ;
+using geometry::PlantGeometry;
+using geometry::Polygon;
+using geometry::Pose;
+using geometry::total_length;
+using geometry::total_volume;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// A picture to be laid over surfaces and cylinders; Espalier passes it on and does not draw it.
 struct Texture {
@@ -25,5 +25,12 @@ struct Shapes {
     std::map<int, Contour> contours;            ///< by number; 0, the circle, need not be among them
     std::vector<Texture> textures;              ///< texture 1 is textures[0]
 };
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::Shapes;
+using geometry::Texture;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 /// Sixteen control points. s runs from row to row, t from column to column, both in [0, 1].
 struct BicubicPatch {
@@ -53,5 +53,16 @@ struct SurfaceMesh {
     std::vector<std::uint32_t> patches;  ///< the patch each face belongs to; none of a surface of triangles
 };
 SurfaceMesh mesh_of(const Surface& surface);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::BicubicPatch;
+using geometry::evaluate;
+using geometry::mesh_of;
+using geometry::Surface;
+using geometry::SurfaceMesh;
+using geometry::SurfaceVertex;
 
 }  // namespace espalier

@@ -11,14 +11,14 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::language {
 
 /// #define overrides: NAME -> text. They win over the file's own #define of the same name.
 using Defines = std::map<std::string, std::string>;
 
 struct ReadOptions {
     Defines defines;
-    bool quirks = false;  ///< --cpfg-quirks
+    Arithmetic arithmetic = Arithmetic::double_precision;
     /// Names defined before the file is read, whether it mentions them or not (the functions of a function set).
     Defines predefined = {};
     /// What func(), curveX() and their like ask; null if there is nothing.
@@ -38,5 +38,15 @@ std::shared_ptr<const Model> read_model_text(std::string_view text, const std::s
 /// brackets, `consider` lists without brackets together with right contexts, homomorphism cycles, queries without a
 /// process. `turtle_symbols` are the symbols the turtle knows (multi-character ones included, such as "@o").
 std::vector<Diagnostic> review(const Model& model, const std::vector<std::string>& turtle_symbols);
+
+}  // namespace espalier::language
+
+namespace espalier {
+
+using language::Defines;
+using language::read_model;
+using language::read_model_text;
+using language::ReadOptions;
+using language::review;
 
 }  // namespace espalier

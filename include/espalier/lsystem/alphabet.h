@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 using LetterId = std::uint16_t;
 using SymbolId = std::uint16_t;
@@ -50,5 +50,14 @@ private:
     std::vector<SymbolId> symbol_of_;
     std::unordered_map<std::uint32_t, LetterId> letter_ids_;  // symbol * 65536 + arity
 };
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::Alphabet;
+using lsystem::LetterId;
+using lsystem::no_letter;
+using lsystem::SymbolId;
 
 }  // namespace espalier

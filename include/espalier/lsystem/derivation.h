@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct DerivationSettings {
     std::uint64_t seed = 0;
@@ -44,7 +44,7 @@ const Model& source_of(const CompiledModel& compiled);
 
 /// True if the model's productions assign globals, print or read files, so that it is derived in order.
 bool has_order(const CompiledModel& compiled);
-bool draws_random_numbers(const CompiledModel& compiled);
+bool uses_random_numbers(const CompiledModel& compiled);
 
 /// The growth of one plant: the model's globals, arrays and step counter, and the rule that turns a string into the
 /// next. Random numbers depend on seed, plant, module identity, step and their own number only.
@@ -100,5 +100,17 @@ public:
 private:
     std::unique_ptr<State> state_;
 };
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::compile;
+using lsystem::CompiledModel;
+using lsystem::Derivation;
+using lsystem::DerivationSettings;
+using lsystem::has_order;
+using lsystem::source_of;
+using lsystem::uses_random_numbers;
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Functions of the language. Angles in degrees.
 // clang-format off
@@ -72,5 +72,15 @@ struct Statement {
 };
 
 using Block = std::vector<Statement>;
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::Block;
+using lsystem::Expression;
+using lsystem::Function;
+using lsystem::Operator;
+using lsystem::Statement;
 
 }  // namespace espalier

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// A module's name for life: a hash of its parent's identity, the step of its birth and its place among its siblings.
 using Identity = std::uint64_t;
@@ -64,5 +64,14 @@ private:
     std::shared_ptr<Memory> memory_;
     std::size_t size_ = 0;
 };
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::Birth;
+using lsystem::Identity;
+using lsystem::Siblings;
+using lsystem::SiblingTable;
 
 }  // namespace espalier

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "espalier/lsystem/alphabet.h"
+#include "espalier/lsystem/arithmetic.h"
 #include "espalier/lsystem/expression.h"
 #include "espalier/lsystem/resources.h"
 
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// A module to be written: a letter and one expression per parameter.
 struct ModuleTemplate {
@@ -94,9 +95,22 @@ struct Model {
     std::vector<std::string> texts;
     /// What side files provide; null if there are none.
     std::shared_ptr<const Resources> resources;
-    bool quirks = false;  ///< --cpfg-quirks: trunc rounds, x/0 = x, subscripts are clamped
+    Arithmetic arithmetic = Arithmetic::double_precision;
 
     const LSystem& main() const { return systems.front(); }
 };
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::ArrayDeclaration;
+using lsystem::LSystem;
+using lsystem::Model;
+using lsystem::ModuleDeclaration;
+using lsystem::ModulePattern;
+using lsystem::ModuleTemplate;
+using lsystem::Production;
+using lsystem::RuleSet;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Columns: one letter a module; the parameters of all modules, each owning as many as its letter's arity; and, where
 /// the lineage is kept, one birth a module with the table of siblings that births point to.
@@ -60,5 +60,15 @@ struct BranchLinks {
 
 /// Computes links in one pass, reusing `links`' memory. An unmatched bracket has partner `none`.
 void link_branches(const ModuleString& string, BranchLinks& links);
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::BranchLinks;
+using lsystem::link_branches;
+using lsystem::ModuleString;
+using lsystem::parameter_offsets;
+using lsystem::to_text;
 
 }  // namespace espalier

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// func(id, x): a plane cubic B-spline through whose ends the curve goes, drawn so that it is a function on [0, 1].
 class FunctionCurve {
@@ -59,5 +59,13 @@ struct Resources {
     double z_min = -100000, z_max = 100000;
     double view_scale = 1;
 };
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::FunctionCurve;
+using lsystem::Resources;
+using lsystem::SpaceCurve;
 
 }  // namespace espalier

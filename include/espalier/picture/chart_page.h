@@ -29,6 +29,7 @@ struct Chart {
     std::vector<Series> series;
     std::vector<std::string> x_names{};  ///< what x = 0, 1, 2, ... are called; empty: x is a number
     std::optional<HeatMap> map{};        ///< instead of series
+    bool upright = false;                ///< what is measured lies along x, over heights or depths
 };
 
 /// How lines of a key look: one of `colour_count` colours that colour-blind readers tell apart, one of

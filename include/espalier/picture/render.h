@@ -23,6 +23,9 @@ struct RenderJob {
     PictureSize size{1200, 900};
     /// Told after each frame that was drawn.
     std::function<void(std::size_t drawn, std::size_t all)> progress;
+    /// Instead of the style's background that of the author, else a dark one where most colours are hardly seen on
+    /// white.
+    bool chooses_background = false;
 };
 
 // Files appear complete or not at all; the same job gives the same pictures. All throw UserError for arrays and fields

@@ -17,7 +17,8 @@ struct ObjectFiles {
     std::map<int, std::filesystem::path> colour_maps, materials;  ///< by set; 1 is the turtle's
     std::filesystem::path folder;  ///< where files are looked for that are not beside the one that names them
     Defines defines;
-    bool quirks = false;              ///< --cpfg-quirks
+    std::vector<std::string> insertions;  ///< --insert: "X(1)@5:F.3"
+    Arithmetic arithmetic = Arithmetic::double_precision;
     bool warns_of_unanswered = true;  ///< warns if no process answers ?E
     bool keeps_unanswered = true;     ///< queries without a process keep their parameters
     std::vector<std::string> listed;  ///< what the folder's own list says belongs to it
@@ -25,8 +26,8 @@ struct ObjectFiles {
 };
 
 /// Reads a folder as the virtual laboratory keeps them: the first command `cpfg ...` of its file `specifications` says
-/// which files to take and how. Without that file, extensions decide. Throws UserError for files that
-/// are missing or lead out of the folder, for a choice that is not clear, and for objects of lpfg.
+/// which files to take and how. Without that file, extensions decide. Its arithmetic is cpfg's. Throws UserError for
+/// files that are missing or lead out of the folder, for a choice that is not clear, and for objects of lpfg.
 ObjectFiles read_object_folder(const std::filesystem::path& folder);
 
 /// The scene of an object: one plant at the origin and its environment.

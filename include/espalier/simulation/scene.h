@@ -17,6 +17,16 @@
 
 namespace espalier::simulation {
 
+/// Modules that somebody puts into the string of a step, as a mouse did in a window: they are there when the step is
+/// interpreted, and the next derivation sees them.
+struct Insertion {
+    std::string modules = {};  ///< as strings are printed: "X(1)[Y]"
+    int step = 0;
+    std::string before = {};  ///< the symbol they stand before; empty: they begin the string
+    int number = 1;           ///< which of these
+    Place place = {};         ///< where somebody says so
+};
+
 /// One plant of a scene: a model growing at a place with a seed. The world makes a GrowingPlant of it.
 struct Plant {
     std::string name = {};                            ///< default: the model's
@@ -25,6 +35,7 @@ struct Plant {
     std::optional<std::uint32_t> stream = {};     ///< which random numbers it draws; default: its number in the scene
     std::shared_ptr<const Palette> palette = {};  ///< what colour indices look like; null if unknown
     std::shared_ptr<const View> view = {};        ///< its view file; null if it has none
+    std::vector<Insertion> insertions = {};       ///< in the order in which those of one step are made
 };
 
 /// The model of a file, or of a text in the same language, ready to grow. Throws UserError with every mistake found.
@@ -51,6 +62,9 @@ struct SceneNotes {
 
 /// Fill it in, or read it from a file. `World` grows it, `run` grows and records it.
 struct Scene {
+    /// Animations with a later last frame were made for a window that somebody closes.
+    static constexpr int most_frames_unasked = 10000;
+
     std::string name;
     std::vector<Plant> plants;
     SceneEnvironment environment;
@@ -95,6 +109,7 @@ const char* scene_help();
 
 namespace espalier {
 
+using simulation::Insertion;
 using simulation::Plant;
 using simulation::plant_of_file;
 using simulation::plant_of_text;

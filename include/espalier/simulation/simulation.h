@@ -25,9 +25,10 @@ struct RunOptions {
     int checkpoint_every = 0;
     bool resume = false;                           ///< goes on from the checkpoint in `output`
     std::size_t memory = 0;                        ///< bytes; 0: half of the machine
+    std::size_t disk = 0;                          ///< bytes that may be written; 0: default_disk
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
     /// The arguments of `espalier run` that change the timeline; for run.json.
-    std::vector<std::string> arguments;
+    std::vector<std::string> arguments = {};
     /// What has been read so far and during the run; goes to run.json. Null: unknown.
     const ReadLog* inputs = nullptr;
     std::function<void(const Progress&)> progress = nullptr;
@@ -47,6 +48,8 @@ struct RunResult {
 
 /// The default of --memory: half of the machine, or of what its container may use, in bytes.
 std::size_t default_memory();
+/// The default of --disk, in bytes.
+inline constexpr std::size_t default_disk = std::size_t{20} << 30;
 /// The most memory this process ever held in the machine at once, in bytes.
 std::size_t peak_memory();
 
@@ -54,7 +57,8 @@ std::size_t peak_memory();
 std::filesystem::path checkpoint_of(const std::filesystem::path& output);
 
 /// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
-/// run.json saying how it ended. Throws UserError, RunError.
+/// run.json saying how it ended. One that has written as much as it may leaves a checkpoint, too. Throws UserError,
+/// RunError.
 RunResult run(const Scene& scene, const RunOptions& options = {});
 
 }  // namespace espalier::simulation
@@ -62,6 +66,7 @@ RunResult run(const Scene& scene, const RunOptions& options = {});
 namespace espalier {
 
 using simulation::checkpoint_of;
+using simulation::default_disk;
 using simulation::default_memory;
 using simulation::peak_memory;
 using simulation::Progress;

@@ -72,7 +72,7 @@ public:
     const Environment& environment() const;
     /// The scene with what it left open decided: names, random streams, the values that processes use.
     const Scene& scene() const;
-    /// What the processes ignored in their parameter files.
+    /// What the processes ignored in their parameter files, and what they found in steps. It only grows.
     const std::vector<Diagnostic>& warnings() const;
     std::size_t size() const;  ///< number of plants
 

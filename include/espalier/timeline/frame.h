@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/environment/environment.h"
+#include "espalier/geometry/background.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/lsystem/module_string.h"
 #include "espalier/turtle/interpretation.h"
@@ -21,8 +22,9 @@ struct PlantFrame {
     const Model* model = nullptr;
     std::shared_ptr<const ModuleString> string;
     std::shared_ptr<const Interpretation> interpretation;
-    std::vector<Quantity> quantities;  ///< "light.mean", ... of this plant, the same names in every frame
-    const Palette* palette = nullptr;  ///< what colour indices look like; null: unknown
+    std::vector<Quantity> quantities;        ///< "light.mean", ... of this plant, the same names in every frame
+    const Palette* palette = nullptr;        ///< what colour indices look like; null: unknown
+    const Background* background = nullptr;  ///< what stands around it in pictures; null: nothing
 };
 
 struct Frame {

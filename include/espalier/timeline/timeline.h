@@ -33,7 +33,7 @@ public:
     /// Exactly these steps become frames, instead of those that the table's `first` and `every` choose.
     void choose(FrameSelection frames);
     /// Frames come in the order of their steps. Recorders see those chosen; by `first` and `every` the run's last one
-    /// too, by `choose` only if it would be the only one.
+    /// too, by `choose` only if it would be the only one, or if the run ends before its time.
     /// The first frame chosen is on disk when this returns, so that a mistake in the table is reported at once. What
     /// goes wrong with a later one is thrown by the next call, of this or of another; nothing is recorded after it.
     void record(const Frame& frame) override;

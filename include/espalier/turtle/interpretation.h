@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// What one interpretation of one plant yields: the value that processes and recorders all read.
 struct Interpretation {
@@ -50,5 +50,16 @@ void write_turtle_answers(const Interpretation& interpretation, ModuleString& st
 /// The same of some of them, all of which have parameters of their own.
 void write_turtle_answers(std::span<const TurtleAnswer> answers, std::span<const TurtleDirection> directions,
                           ModuleString& string);
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::interpret;
+using turtle::Interpretation;
+using turtle::InterpretOptions;
+using turtle::symbol_table;
+using turtle::SymbolTable;
+using turtle::write_turtle_answers;
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// One communication module of one plant, ?E or a named one, which a process of the scene answers. Parameters point
 /// into the plant's string.
@@ -62,5 +62,16 @@ struct TurtleDirection {
 
 /// An answer is written over a copy of the query's own parameters; what a process leaves alone keeps its value.
 using Answer = std::span<double>;
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::Answer;
+using turtle::Query;
+using turtle::QueryColumn;
+using turtle::TurtleAnswer;
+using turtle::TurtleDirection;
+using turtle::UnwrittenAllocator;
 
 }  // namespace espalier

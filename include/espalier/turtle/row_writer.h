@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// What a walk throws that meets more rows than were counted for it: its plan was wrong.
 struct WrongPlan {};
@@ -56,5 +56,12 @@ private:
     Rows* rows_ = nullptr;
     Row *begin_ = nullptr, *next_ = nullptr, *end_ = nullptr;
 };
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::RowWriter;
+using turtle::WrongPlan;
 
 }  // namespace espalier

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 using SymbolAction = void (*)(Walk& walk, std::span<const double> parameters);
 
@@ -29,5 +29,12 @@ struct Symbol {
     SymbolAction action;
     Effect effect = Effect::other;
 };
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::Symbol;
+using turtle::SymbolAction;
 
 }  // namespace espalier

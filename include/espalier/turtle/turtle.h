@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// A directional influence on growth: before every segment the heading turns towards `direction`
 /// (at `angle` from it), by the elasticity times the sine of what separates them.
@@ -30,7 +30,7 @@ enum class LineStyle : std::uint8_t { pixel, polygon, cylinder };
 struct TurtleSettings {
     Pose pose;
     double angle = 0.78539816339744831;  ///< radians (45 degrees)
-    double line_width = 1;
+    std::optional<double> line_width;    ///< none: nobody said; lines are thin until a symbol sets a width
     double line_width_increment = 0;
     int colour = 128;
     int colour_increment = 1;
@@ -63,7 +63,7 @@ struct Brush {
 /// What `[` saves and `]` restores, but for the elasticities, which the walk keeps on a stack of their own.
 struct TurtleState {
     Pose pose;
-    double width = 1;
+    double width = 1;  ///< 1 where nobody gave one
     double scale = 1;
     int colour = 128;
     int back_colour = -1;  ///< -1: the front's
@@ -71,11 +71,12 @@ struct TurtleState {
     std::uint16_t order = 0;     ///< depth of branching, at most 65535
     bool on_axis = false;        ///< the axis has an internode that ends here
     bool branches_off = false;   ///< the open cylinder is that of the axis this one branches off
+    bool has_width = false;      ///< somebody gave it
     std::uint16_t texture = 0;   ///< 0: none
     std::uint32_t brush = 0;     ///< which of the walk's brushes
     std::uint32_t systems = 0;   ///< sub-L-systems entered
     std::int32_t cylinder = -1;  ///< which of the walk's generalized cylinders is open; -1: none
-    double node_width = 1;       ///< width at the end of that internode
+    double node_radius = 0;      ///< at the end of that internode
     double elasticity = 0;       ///< of the older tropism
 };
 
@@ -116,7 +117,33 @@ void level(Pose& pose);  ///< @v: left horizontal
 void head_towards(Pose& pose, const glm::dvec3& heading);
 /// Bends and rolls as before every segment; one elasticity per tropism.
 void apply_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities);
+/// The first half of it: false if the heading stays.
+bool bend_by_tropisms(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities);
+/// The second.
+void roll_by_torques(Pose& pose, std::span<const Tropism> tropisms, std::span<const double> elasticities);
 /// Bends after a step, by the older scheme; `direction` is a unit vector.
 void apply_older_tropism(Pose& pose, const glm::dvec3& direction, double elasticity);
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::apply_older_tropism;
+using turtle::apply_tropisms;
+using turtle::bend_by_tropisms;
+using turtle::Brush;
+using turtle::head_towards;
+using turtle::level;
+using turtle::LineStyle;
+using turtle::pitch_down;
+using turtle::roll_by_torques;
+using turtle::roll_left;
+using turtle::rotate_pair;
+using turtle::Rotation;
+using turtle::rotation_of_degrees;
+using turtle::Tropism;
+using turtle::turn_left;
+using turtle::TurtleSettings;
+using turtle::TurtleState;
 
 }  // namespace espalier

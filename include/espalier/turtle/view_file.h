@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// A light as the view file gives it: at a point, or from a direction.
 struct Light {
@@ -46,6 +46,8 @@ struct View {
     bool exchanges_first = false;
     Camera camera;
     std::vector<Light> lights;
+    std::optional<glm::dvec3> light_direction;    ///< to the light, of views without lights
+    std::optional<glm::dvec3> background_colour;  ///< red, green, blue in [0, 1]
     std::string render_mode = "filled";
     std::vector<std::filesystem::path> backgrounds;
     std::shared_ptr<const Background> background;  ///< what those files show; null if there are none
@@ -62,5 +64,15 @@ View read_view_file(const std::filesystem::path& path, const Defines& defines = 
 /// The same from text; `name` is the file's: it stands in messages, and beside it files are looked for.
 View read_view_text(std::string_view text, const std::string& name, const Defines& defines = {},
                     const std::filesystem::path& folder = {});
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::Camera;
+using turtle::Light;
+using turtle::read_view_file;
+using turtle::read_view_text;
+using turtle::View;
 
 }  // namespace espalier

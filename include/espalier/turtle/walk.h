@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// Turtles at the open branches and, last, the one that walks: `[` copies it, `]` goes back to the one below.
 class TurtleStack {
@@ -72,6 +72,9 @@ struct WalkState {
         std::size_t first;
         std::uint32_t module;
         bool filled;
+        bool after_step;       ///< its last vertex was marked by a step, which may have been none
+        std::uint16_t colour;  ///< of the first vertex, as the look
+        Look look;
     };
     struct OpenCylinder {
         GeneralizedCylinder cylinder;
@@ -85,12 +88,18 @@ struct WalkState {
     };
     struct SystemScale {
         double scale, width;
+        bool has_width;
+    };
+    struct DrawnFrame {
+        glm::dvec3 heading{0, 1, 0}, left{-1, 0, 0};
     };
 
     TurtleStack turtles;
     std::vector<double> elasticities;  ///< one per tropism
     bool stopped = false;              ///< nothing that follows is drawn
     std::vector<double> elasticity_stack;
+    DrawnFrame drawn_frame;  ///< at the last drawn segment or @Tf, in a model with cpfg's arithmetic
+    std::vector<DrawnFrame> frame_stack;
     std::vector<SystemScale> systems;  ///< entered sub-L-systems
     std::vector<Brush> brushes;
     std::vector<OpenPolygon> open_polygons;
@@ -136,6 +145,15 @@ public:
     void move(double distance, bool draws, bool records_vertex);
     /// Moves elsewhere; the next internode begins a new axis.
     void jump(const glm::dvec3& position);
+    /// Turns the heading there with the least twist; a zero vector means straight up.
+    void set_heading(glm::dvec3 heading);
+    /// In cpfg up follows, where a tropism, @R or @Tp turns the heading, from the frame at the last drawn segment or
+    /// @Tf: rolls since then are lost. Such a frame is this one.
+    void keep_frame() { drawn_frame = {turtle().pose.heading, turtle().pose.left}; }
+    /// Loses them, in a model with cpfg's arithmetic.
+    void lose_rolls() {
+        if (is_as_cpfg_) set_heading(turtle().pose.heading);
+    }
     /// The first parameter as an angle in degrees, or the model's angle if there is none.
     Rotation rotation(std::span<const double> parameters);
 
@@ -151,7 +169,7 @@ public:
     void open_polygon(bool filled);
     void close_polygon();
     void record_vertex() {
-        if (!open_polygons.empty()) open_vertices.push_back(turtle().pose.position);
+        if (!open_polygons.empty()) add_vertex(false);
     }
 
     /// Puts a disc, sphere or circle at `pose`; `diameter` in metres, the scale already in it.
@@ -213,8 +231,9 @@ private:
         Rotation rotation;
     };
 
-    void push_elasticities();
-    void pop_elasticities();
+    void add_vertex(bool by_step);
+    void push_more();
+    void pop_more();
     static const Rotation& learn(KnownRotation& known, double degrees);
     /// move() with all that a tropism, an open polygon or cylinder and a texture ask for.
     void move_and_mark(double distance, bool draws, bool records_vertex);
@@ -226,7 +245,6 @@ private:
     void require_number(const glm::dvec3& position) const;
     const Contour* contour() const;
     Look look() const;
-    double radius(double width) const { return radius_of_width_ * width; }
     void add_ball(const glm::dvec3& centre, double radius) {
         geometry_->bounds.lower = glm::min(geometry_->bounds.lower, centre - radius);
         geometry_->bounds.upper = glm::max(geometry_->bounds.upper, centre + radius);
@@ -249,6 +267,8 @@ private:
     bool in_picture_ = false;
 
     double radius_of_width_ = 0.5;
+    bool is_as_cpfg_ = false;
+    bool pushes_more_ = false;  // than turtles
     // Kept from walk to walk: angles repeat, and sines are dear.
     double default_angle_ = 0;  // radians
     Rotation default_rotation_;
@@ -259,18 +279,20 @@ private:
 
 inline void Walk::draw_segment(TurtleState& turtle, const glm::dvec3& base, const glm::dvec3& tip) {
     const bool continues = turtle.on_axis && settings_->tapered_lines;
-    const double width = turtle.width;
-    const double base_radius = radius(continues ? turtle.node_width : width), tip_radius = radius(width);
+    const double tip_radius = turtle.has_width ? radius_of_width_ * turtle.width : 0;
+    const double base_radius = continues ? turtle.node_radius : tip_radius;
     if (!turtle.on_axis) {
         turtle.axis = geometry_->axes++;
         turtle.on_axis = true;
     }
-    turtle.node_width = width;
+    turtle.node_radius = tip_radius;
+    if (is_as_cpfg_) keep_frame();
     Internode& row = internodes_.add();  // unwritten: every member is set
     row.module = module_;
     row.axis = turtle.axis;
     row.order = turtle.order;
     row.colour = std::uint16_t(turtle.colour);
+    row.pixels = tip_radius > 0 ? 0 : float(turtle.width);
     row.base = base;
     row.tip = tip;
     row.base_radius = base_radius;
@@ -331,13 +353,14 @@ inline void TurtleStack::branch(const TurtleState& from, TurtleState& to) {
     to.brush = from.brush;
     to.systems = from.systems;
     to.cylinder = from.cylinder;
-    to.node_width = from.width;  // the next axis begins with it
+    to.has_width = from.has_width;
+    to.node_radius = 0;
     copy_bits(from.elasticity, to.elasticity);
 }
 
 inline void Walk::push() {
     turtles.push();
-    if (!elasticities.empty()) push_elasticities();
+    if (pushes_more_) push_more();
 }
 
 inline void Walk::pop() {
@@ -345,7 +368,7 @@ inline void Walk::pop() {
     if (turtles.depth() == 0) return;
     turtles.pop();
     if (systems.size() > turtle().systems) systems.resize(turtle().systems);
-    if (!elasticities.empty()) pop_elasticities();
+    if (pushes_more_) pop_more();
 }
 
 inline void Walk::answer(std::size_t count) {
@@ -362,6 +385,17 @@ inline void Walk::set_width(double width) {
     constexpr double thinnest = 1e-7;  // cpfg's
     if (!std::isfinite(width)) fail("the line width is not a number");
     turtle().width = std::max(width, thinnest);
+    turtle().has_width = true;
 }
+
+}  // namespace espalier::turtle
+
+namespace espalier {
+
+using turtle::copy_bits;
+using turtle::copy_vector;
+using turtle::TurtleStack;
+using turtle::Walk;
+using turtle::WalkState;
 
 }  // namespace espalier

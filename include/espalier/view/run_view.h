@@ -21,10 +21,11 @@ struct SimulationState {
 struct ViewOptions {
     PictureSize size{1280, 800};
     PictureStyle style;
-    CameraPlace camera;
-    std::optional<int> step;           ///< the frame to begin with; none: the last, and the newest while the run grows
-    std::filesystem::path screenshot;  ///< draws this picture of the window and ends
-    std::string script;                ///< what to do, line by line, and end; docs/view.md
+    std::optional<CameraPlace> camera;  ///< none: as the view file of the run's plants says, if there is one
+    bool chooses_background = false;    ///< as RenderJob's
+    std::optional<int> step;            ///< the frame to begin with; none: the last, and the newest while the run grows
+    std::filesystem::path screenshot;   ///< draws this picture of the window and ends
+    std::string script;                 ///< what to do, line by line, and end; docs/view.md
     std::function<void(const std::string&)> print;  ///< where `print` of a script goes
     std::function<SimulationState()> simulation;    ///< asked twice a second; none: the run's own word counts
     std::function<bool()> interrupted;              ///< true: the window closes

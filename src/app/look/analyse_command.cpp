@@ -1,16 +1,20 @@
 #include "espalier/analysis/run_analysis.h"
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
-#include "espalier/picture/table_charts.h"
+#include "espalier/base/file.h"
 
 #include "app/command.h"
 #include "app/options.h"
+#include "base/text.h"
+#include "field_profile.h"
 #include "frame_option.h"
+#include "picture/charts/quantity.h"
+#include "picture/charts/table_charts.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <span>
 
@@ -23,21 +27,23 @@ namespace fs = std::filesystem;
 constexpr const char* over_steps[] = {"tips",        "strahler",          "branching_ratio", "pipe_exponent",
                                       "area_ratio",  "fractal_dimension", "leaf_area_index", "crown_volume",
                                       "asymmetry_x", "asymmetry_z",       "length",          "depth_in_ground"};
-constexpr const char* over_heights[] = {"length", "density", "leaf_area"};
+constexpr const char* over_heights[] = {"length", "density", "ground_density", "leaf_area"};
 
 /// "crown volume (convex hull) (m³)"
 std::string title_of(const MeasureDescription& measure) {
     if (measure.unit.empty()) return measure.meaning;
-    std::string unit = measure.unit;
-    if (unit.ends_with('2')) unit.replace(unit.size() - 1, 1, "²");
-    if (unit.ends_with('3')) unit.replace(unit.size() - 1, 1, "³");
-    return fmt::format("{} ({})", measure.meaning, unit);
+    return fmt::format("{} ({})", measure.meaning, picture::with_powers(measure.unit));
 }
 
 bool has_values(const RecordedTable& table, const std::string& name) {
     const std::size_t column = table.column(name);
     return std::any_of(table.rows.begin(), table.rows.end(),
                        [&](const auto& row) { return std::isfinite(row[column]) && row[column] != 0; });
+}
+
+/// "time (day)"
+std::string time_title(const RecordedRun& run) {
+    return fmt::format("time ({})", run.time_unit());
 }
 
 /// Those of `names` that the plants have, drawn over `x`.
@@ -50,8 +56,11 @@ ChartPage page_of(const RecordedRun& run, RecordedTable table, std::span<const c
         if (options.quantities.size() < 9 && has_values(table, name)) options.quantities.emplace_back(name);
     }
     for (const MeasureDescription& measure : measure_descriptions()) options.titles[measure.name] = title_of(measure);
-    options.titles["density"] = "length density (m/m³)";
+    options.titles["time"] = time_title(run);
+    options.titles["density"] = "length per volume below the hull (m/m³)";
+    options.titles["ground_density"] = "length per volume of soil (m/m³)";
     if (x == "height") {
+        options.upright = true;
         options.titles["height"] = "height (m)";
         options.titles["length"] = "length in the layer (m)";
         options.titles["leaf_area"] = "leaf area in the layer (m²)";
@@ -70,15 +79,17 @@ void print_last(const RecordedRun& run, const RecordedTable& table) {
     const std::size_t shown = std::min(rows.size(), most_plants);
     std::string line = fmt::format("{:22}", fmt::format("step {}", table.rows.back()[0]));
     for (std::size_t i = 0; i < shown; ++i) {
-        std::string name = fmt::format("plant {}", (*rows[i])[1]);
+        const double number = (*rows[i])[table.column("plant")];
+        std::string name = fmt::format("plant {}", number);
         for (const RecordedPlant& plant : run.plants()) {
-            if (plant.number == (*rows[i])[1] && !plant.name.empty()) name = plant.name;
+            if (plant.number == number && !plant.name.empty()) name = plant.name;
         }
         line += fmt::format(" {:>12}", name);
     }
     fmt::print("{}\n", line);
-    for (std::size_t column = 2; column < table.columns.size(); ++column) {
-        const MeasureDescription& measure = measure_descriptions()[column - 2];
+    const std::size_t first = table.columns.size() - measure_descriptions().size();
+    for (std::size_t column = first; column < table.columns.size(); ++column) {
+        const MeasureDescription& measure = measure_descriptions()[column - first];
         line = fmt::format("{:22}", measure.name + (measure.unit.empty() ? "" : " " + measure.unit));
         for (std::size_t i = 0; i < shown; ++i) {
             const double value = (*rows[i])[column];
@@ -92,7 +103,10 @@ void print_last(const RecordedRun& run, const RecordedTable& table) {
 class Analyse final : public Command {
 public:
     explicit Analyse(CLI::App& program)
-        : Command(program, "analyse", "measure the form of plants: branching, widths, crowns, roots"), picture_(app()) {
+        : Command(program, "analyse",
+                  "measure the form of plants: branching, widths, crowns, roots; and fields over depth"),
+          picture_(app()),
+          profile_(app()) {
         app().add_option("run", run_, "the folder of a run")->required();
         app().add_option("--step", step_, std::string(frame_option_help) + "; default: all");
         app().add_option("--plant", plant_, "name of one plant; default: all plants");
@@ -106,25 +120,39 @@ public:
             ->allow_extra_args(false);
         app()
             .add_option("--layer", layer_,
-                        "thickness of the layers of height and depth, m; default: about 20 layers per plant")
+                        "thickness of the layers of height and depth, m; default: about 20 layers in all")
+            ->check(above_zero());
+        app().add_option(
+            "--range", range_,
+            "heights that the layers cover at least, LOW:HIGH, m, as in -1.2:0; so that runs have the same");
+        app()
+            .add_option("--area", area_,
+                        "area of the ground for length densities, m2; default: that of the scene's domain")
             ->check(above_zero());
         app()
             .add_option("--voxel", voxel_, "edge of the voxels of the crown, m; default: 1/32 of its largest extent")
             ->check(above_zero());
         app().add_flag("--no-picture", no_picture_, "draw no pictures");
+        profile_.exclude({"--plant", "--format", "--leaf", "--layer", "--range", "--area", "--voxel"});
         app().footer(
             R"(Writes analysis.csv with one row per step and plant, orders.csv (streams of each Strahler order), ramification.csv,
 layers.csv (lengths and leaf areas by height or depth) and internodes.csv (lengths of internodes), or analysis.json with all
 of these. Also draws analysis.png, the main measures over the steps, and layers.png, the layers of the last step.
+With --field, writes water-y.csv with mean, deviation, minimum and maximum of each layer of voxels, and draws water-y.png.
 Examples:
   espalier analyse output/two-trees
   espalier analyse output/two-roots --step last --layer 0.02 --format json
+  espalier analyse output/two-roots --field water --profile y
   espalier analyse output/two-trees --plant left --step 0:184:8 --leaf N --output tables)");
     }
 
     int run() override {
         const RecordedRun run(run_);
         std::vector<const RecordedFrame*> frames = chosen_frames(run, step_);
+        if (profile_.is_asked()) {
+            write_profile(run, profile_.table(run, frames));
+            return exit_code::done;
+        }
         std::erase_if(frames, [](const RecordedFrame* frame) { return frame->plants.empty(); });
         if (frames.empty()) throw UserError(fmt::format("{} has no plants at these steps", run_.string()));
         std::vector<std::uint32_t> plants;
@@ -133,45 +161,76 @@ Examples:
         } else {
             plants.push_back(run.plant(plant_));
         }
-        AnalysisOptions options{{leaves_.begin(), leaves_.end()}, layer_, voxel_};
+        const auto [low, high] = range();
+        const AnalysisOptions options{{leaves_.begin(), leaves_.end()}, layer_, low, high, area_, voxel_};
         const RunAnalysis analysis(run, frames, plants, options);
         write(run, analysis);
         return exit_code::done;
     }
 
 private:
-    void write(const RecordedRun& run, const RunAnalysis& analysis) {
+    std::pair<double, double> range() const {
+        if (range_.empty()) return {0, 0};
+        double low = 0, high = 0;
+        const char* const end = range_.data() + range_.size();
+        const auto first = std::from_chars(range_.data(), end, low);
+        const bool has_both = first.ec == std::errc() && first.ptr != end && *first.ptr == ':';
+        const auto second = has_both ? std::from_chars(first.ptr + 1, end, high) : first;
+        const bool is_range = has_both && second.ec == std::errc() && second.ptr == end && low < high;
+        if (is_range && std::isfinite(low) && std::isfinite(high)) return {low, high};
+        throw UserError(fmt::format("--range {}: expected two heights such as -1.2:0, the lower first", range_));
+    }
+
+    fs::path made_folder() const {
         const fs::path folder = output_.empty() ? run_ / "analysis" : output_;
         std::error_code error;
         fs::create_directories(folder, error);
         if (error) throw RunError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+        return folder;
+    }
+
+    void write_profile(const RecordedRun& run, const RecordedTable& table) const {
+        const fs::path stem = made_folder() / profile_.name();
+        write_text(stem.string() + ".csv", csv_of(table));
+        fmt::print("{}.csv\n", stem.string());
+        draw(profile_.page(run, table, picture_.dark()), stem.string() + ".png");
+    }
+
+    void write(const RecordedRun& run, const RunAnalysis& analysis) {
+        const fs::path folder = made_folder();
         format_ == "json" ? analysis.write_json(folder) : analysis.write_csv(folder);
         const RecordedTable table = analysis.table();
         if (!table.rows.empty()) print_last(run, table);
         fmt::print("{}\n", (folder / "").string());
-        if (no_picture_) return;
+        const bool several_steps = !table.rows.empty() && table.rows.front()[0] != table.rows.back()[0];
+        if (several_steps) {
+            draw(page_of(run, table, over_steps, run.time_unit() == "step" ? "step" : "time", picture_.dark()),
+                 folder / "analysis.png");
+        }
+        draw(page_of(run, analysis.last_layers(), over_heights, "height", picture_.dark()), folder / "layers.png");
+    }
+
+    // The tables are what was asked for; they are complete.
+    void draw(const ChartPage& page, const fs::path& path) const {
+        if (no_picture_ || page.charts.empty()) return;
         try {
-            const bool several_steps = !table.rows.empty() && table.rows.front()[0] != table.rows.back()[0];
-            if (several_steps) draw(page_of(run, table, over_steps, "step", picture_.dark()), folder / "analysis.png");
-            draw(page_of(run, analysis.last_layers(), over_heights, "height", picture_.dark()), folder / "layers.png");
+            write_picture(page, picture_.size(fitting_size(page)), path);
         } catch (const RunError& no_picture) {
-            // The tables are what was asked for; they are complete.
             fmt::print(stderr, "no picture: {}\n", no_picture.what());
         }
     }
-    void draw(const ChartPage& page, const fs::path& path) const {
-        if (!page.charts.empty()) write_picture(page, picture_.size(fitting_size(page)), path);
-    }
 
     PictureOptions picture_;
+    FieldProfile profile_;
     fs::path run_, output_;
     std::string step_ = "all", plant_, format_ = "csv";
     std::vector<std::string> leaves_;
-    double layer_ = 0, voxel_ = 0;
+    double layer_ = 0, area_ = 0, voxel_ = 0;
+    std::string range_;
     bool no_picture_ = false;
 };
 
-const RegisteredCommand<Analyse> entry{38};
+const RegisteredCommand<Analyse> analyse_entry{38};
 
 }  // namespace
 }  // namespace espalier::app

@@ -1,8 +1,8 @@
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
 #include "espalier/formats/exporter.h"
 
 #include "app/command.h"
+#include "base/text.h"
 #include "frame_option.h"
 
 #include <fmt/format.h>
@@ -27,6 +27,7 @@ void print_file(const ExportedFile& file) {
     if (file.vertices > 0) line += fmt::format(": {} vertices, {} triangles", file.vertices, file.triangles);
     if (!file.noun.empty()) line += fmt::format("{} {} {}", file.vertices > 0 ? "," : ":", file.elements, file.noun);
     fmt::print("{}\n", line);
+    if (!file.hint.empty()) fmt::print(stderr, "{}\n", file.hint);
 }
 
 Json json_of(const ExportedFile& file) {
@@ -61,6 +62,14 @@ public:
             .add_option("--up", up_, "the vertical axis: y or z")
             ->check(CLI::IsMember({"y", "z"}))
             ->capture_default_str();
+        app()
+            .add_option("--rate", rate_, "gltf, usd: steps per second of growth as an animation")
+            ->check(CLI::Range(0.01, 1000.0))
+            ->capture_default_str();
+        app().add_flag("--grouped", grouped_,
+                       "gltf: in animations, what is born and dies at the same steps is one object");
+        app().add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
+        app().add_flag("--mesh-axes", mesh_axes_, "usd: axes as meshes, with --sides and textures, and not as curves");
         app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the names of the files as JSON");
         app().footer(R"(The run is not grown again. Lengths are in metres. Files appear complete or not at all.
@@ -89,7 +98,9 @@ Examples:
                 print_file(file);
             }
         };
-        export_run({recorded, frames, options_, target.folder, report, target.name}, target.formats);
+        export_run(
+            {recorded, frames, options_, target.folder, report, target.name, rate_, grouped_, instances_, mesh_axes_},
+            target.formats);
         if (wants_json()) {
             fmt::print("{}\n", Json{{"files", files}}.dump(2, ' ', false, Json::error_handler_t::replace));
         }
@@ -119,11 +130,12 @@ private:
     std::filesystem::path folder_, output_;
     std::vector<std::string> formats_;
     std::string step_ = "last", plant_, up_ = "y";
-    bool quiet_ = false;
+    double rate_ = 24;
+    bool grouped_ = false, instances_ = false, mesh_axes_ = false, quiet_ = false;
     MeshOptions options_;
 };
 
-const RegisteredCommand<ExportCommand> entry{42};
+const RegisteredCommand<ExportCommand> export_entry{42};
 
 }  // namespace
 }  // namespace espalier::app

@@ -1,10 +1,10 @@
 #include "espalier/archive/recorded_run.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
 #include "app/command.h"
 #include "app/progress.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -154,7 +154,7 @@ void print_statistics(const LastStep& last, const Json& plants) {
     for (const auto& column : columns) fmt::print(" {:>12}", column.first);
     fmt::print("\n");
     for (std::size_t i = 0; i < last.columns.size(); ++i) {
-        if (last.columns[i] == "step" || last.columns[i] == "plant") continue;
+        if (last.columns[i] == "step" || last.columns[i] == "time" || last.columns[i] == "plant") continue;
         fmt::print("  {:24}", last.columns[i]);
         for (const auto& column : columns) {
             fmt::print(" {:>12}", std::isfinite(column.second[i]) ? format_general(column.second[i]) : "");
@@ -212,7 +212,7 @@ private:
     std::filesystem::path folder_;
 };
 
-const RegisteredCommand<Info> entry{40};
+const RegisteredCommand<Info> info_entry{40};
 
 }  // namespace
 }  // namespace espalier::app

@@ -1,7 +1,8 @@
 #include "picture_options.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
+
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,15 @@ namespace espalier::app {
 PictureOptions::PictureOptions(CLI::App& command) {
     command.add_option("--size", size_, "WIDTHxHEIGHT in pixels; default: depends on the content");
     command.add_flag("--dark", dark_, "use a dark background");
+}
+
+CameraOption::CameraOption(CLI::App& command) {
+    command
+        .add_option("--camera", camera_,
+                    "author: place of the camera and light as in the view file of the model, if there is one; auto: "
+                    "from azimuth 30 and elevation 12")
+        ->check(CLI::IsMember({"author", "auto"}))
+        ->capture_default_str();
 }
 
 PictureSize PictureOptions::size(const PictureSize& otherwise) const {

@@ -25,6 +25,18 @@ private:
     bool dark_ = false;
 };
 
+/// --camera.
+class CameraOption {
+public:
+    explicit CameraOption(CLI::App& command);
+
+    /// False where the author's place of the camera is wanted.
+    bool is_ours() const { return camera_ == "auto"; }
+
+private:
+    std::string camera_ = "author";
+};
+
 // What these words mean; each throws UserError saying what is expected.
 
 /// "1200x800", of an option.

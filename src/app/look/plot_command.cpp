@@ -1,11 +1,14 @@
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
-#include "espalier/picture/table_charts.h"
 
 #include "app/command.h"
+#include "base/text.h"
+#include "picture/charts/quantity.h"
+#include "picture/charts/table_charts.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace espalier::app {
 namespace {
@@ -27,6 +30,37 @@ std::vector<PlottedTable> read_tables(const std::vector<fs::path>& folders) {
         tables[i].run = (folder.filename().empty() ? folder.parent_path() : folder).filename().string();
     }
     return tables;
+}
+
+bool has_column(const RecordedTable& table, const std::string& name) {
+    return std::find(table.columns.begin(), table.columns.end(), name) != table.columns.end();
+}
+
+// Time, where all runs measure it in one unit other than their steps.
+std::string unit_of_time(const std::vector<fs::path>& folders, const std::vector<PlottedTable>& tables) {
+    std::string unit;
+    for (std::size_t i = 0; i < folders.size(); ++i) {
+        const std::string of_run = RecordedRun(folders[i]).time_unit();
+        if (of_run == "step" || (i > 0 && of_run != unit) || !has_column(tables[i].table, "time")) return "";
+        unit = of_run;
+    }
+    return unit;
+}
+
+// "water.uptake (m³)", where all runs that have a unit have this one.
+std::map<std::string, std::string> titles_of(const std::vector<fs::path>& folders) {
+    std::map<std::string, std::string> units, titles;
+    for (const fs::path& folder : folders) {
+        const RecordedRun run(folder);
+        for (const auto& [column, unit] : run.units()) {
+            const auto known = units.emplace(column, unit).first;
+            if (known->second != unit) known->second.clear();
+        }
+    }
+    for (const auto& [column, unit] : units) {
+        if (!unit.empty()) titles[column] = fmt::format("{} ({})", column, picture::with_powers(unit));
+    }
+    return titles;
 }
 
 class Plot final : public Command {
@@ -59,7 +93,13 @@ volumes, the greatest of heights and maxima, and the mean of everything else.)")
         if (per_ == "plant") options.lines = Lines::per_plant;
         if (per_ == "species") options.lines = Lines::per_species;
         if (per_ == "total") options.lines = Lines::total;
-        const ChartPage page = chart_page(read_tables(runs_), options);
+        options.titles = titles_of(runs_);
+        const std::vector<PlottedTable> tables = read_tables(runs_);
+        if (const std::string unit = unit_of_time(runs_, tables); !unit.empty()) {
+            options.x = "time";
+            options.titles["time"] = fmt::format("time ({})", unit);
+        }
+        const ChartPage page = chart_page(tables, options);
         const fs::path output = output_.empty() ? runs_.front() / "plot.png" : output_;
         write_picture(page, picture_.size(fitting_size(page)), output);
         fmt::print("{}\n", output.string());
@@ -74,7 +114,7 @@ private:
     fs::path output_;
 };
 
-const RegisteredCommand<Plot> entry{34};
+const RegisteredCommand<Plot> plot_entry{34};
 
 }  // namespace
 }  // namespace espalier::app

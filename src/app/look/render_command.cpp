@@ -1,6 +1,6 @@
 // render: pictures, films and contact sheets of a run, or of a scene that is grown first.
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
+#include "espalier/picture/author_view.h"
 #include "espalier/picture/render.h"
 #include "espalier/simulation/scene.h"
 
@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_command.h"
+#include "base/text.h"
 #include "frame_option.h"
 #include "picture_options.h"
 
@@ -58,6 +59,13 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// A large picture takes a while, and nothing can be said in between.
+void announce(const PictureSize& size) {
+    constexpr std::int64_t large = 16'000'000;
+    if (std::int64_t{size.width} * size.height < large) return;
+    fmt::print(stderr, "drawing {}x{} pixels; this may take a minute\n", size.width, size.height);
+}
+
 class Render final : public Command {
 public:
     explicit Render(CLI::App& program)
@@ -66,7 +74,8 @@ public:
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
-          picture_(app()) {
+          picture_(app()),
+          place_of_camera_(app()) {
         add_output_options();
         add_look_options();
         add_camera_options();
@@ -93,6 +102,7 @@ a run. docs/render.md shows examples.)");
 
     int run() override {
         run_.model = model_.arguments();
+        run_.model.file = folder_of_run(run_.model.file);
         const bool is_run = fs::exists(run_.model.file / "run.json");
         if (!is_run) {
             check_before_growing();
@@ -101,8 +111,8 @@ a run. docs/render.md shows examples.)");
         }
         const RecordedRun recorded(is_run ? run_.model.file : run_.output);
         RenderJob job{recorded, {}, style_of(recorded), camera_, orbit_, ground(), follow_, {}, {}};
-        job.camera.front_if_flat = app().count("--azimuth") == 0 && app().count("--elevation") == 0;
-        job.style.sun_azimuth = camera_.azimuth - 50;
+        place_camera(job);
+        job.chooses_background = background_.empty() && !picture_.dark();
         PictureProgress progress(run_.quiet || wants_json());
         job.progress = [&](std::size_t done, std::size_t all) {
             progress(done, all);
@@ -145,7 +155,10 @@ private:
             .add_option("--field", fields_, "NAME:volume, NAME:slice[=AXIS[METRES]], NAME:iso[=VALUE]; may be repeated")
             ->allow_extra_args(false);
         app().add_option("--plant", plant_, "draw or write only this plant, by its name in the scene");
-        app().add_option("--background", background_, "light, dark, transparent or #rrggbb; default: light");
+        app().add_option(
+            "--background", background_,
+            "light, dark, transparent or #rrggbb; default: that of the view file; else light, or dark where most "
+            "colours are hardly seen on white");
         ground_option_ = app().add_flag("--ground,!--no-ground", ground_,
                                         "with or without a ground; default: with, if nothing grows below it");
         app().add_flag("--no-shade", no_shade_, "draw no shadows; faster");
@@ -211,12 +224,24 @@ private:
                                     run_.model.file.string(), did_you_mean(name, known), hint));
     }
 
+    void place_camera(RenderJob& job) {
+        const bool is_turned = app().count("--azimuth") > 0 || app().count("--elevation") > 0;
+        job.camera.front_if_flat = !is_turned;
+        job.style.sun_azimuth = camera_.azimuth - 50;
+        const auto& view = job.run.view();
+        if (!view || is_turned || orbit_ != 0 || place_of_camera_.is_ours()) return;
+        job.camera = camera_of(*view);
+        job.camera.zoom = camera_.zoom;
+        light_as(*view, job.style);
+    }
+
     int grow() {
         run_.overrides = sets_.overrides();
         run_.steps = growth_.steps();
         run_.seed = growth_.seed();
         run_.memory = growth_.memory();
-        if (run_.output.empty()) run_.output = default_output(run_.model.file.stem().string());
+        std::optional<DefaultOutput> unnamed;
+        if (run_.output.empty()) run_.output = unnamed.emplace(run_.model.file.stem().string()).path();
         RunArguments silent = run_;
         silent.quiet = silent.quiet || wants_json();
         return run_command(silent);
@@ -273,6 +298,7 @@ private:
         }
         if (!is_film(output)) {
             job.size = picture_.size({1200, 900});
+            if (!run_.quiet && !wants_json()) announce(job.size);
             return render_pictures(job, output);
         }
         job.size = picture_.size({800, 600});
@@ -299,6 +325,7 @@ private:
     SetOptions sets_;
     GrowthOptions growth_;
     PictureOptions picture_;
+    CameraOption place_of_camera_;
     RunArguments run_;
     CameraPlace camera_;
     fs::path output_;
@@ -311,7 +338,7 @@ private:
     bool follow_ = false, no_shade_ = false, no_legend_ = false, scale_bar_ = false, time_ = false;
 };
 
-const RegisteredCommand<Render> entry{32};
+const RegisteredCommand<Render> render_entry{32};
 
 }  // namespace
 }  // namespace espalier::app

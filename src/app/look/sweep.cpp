@@ -1,14 +1,16 @@
 #include "sweep.h"
 
 #include "espalier/archive/recorded_run.h"
-#include "espalier/base/csv_file.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/simulation/recorded_command.h"
+#include "espalier/simulation/simulation.h"
 
 #include "app/child.h"
 #include "app/command.h"
+#include "app/temporary_folder.h"
 #include "base/child_program.h"
+#include "base/csv_file.h"
+#include "simulation/recorded_command.h"
 
 #include <fmt/format.h>
 
@@ -118,15 +120,36 @@ std::string cells(const RecordedTable& table, const std::vector<double>& row, co
 
 Sweep::Sweep(const RunArguments& base, const std::vector<Variation>& variations, const fs::path& folder)
     : base_(base), variations_(variations), folder_(folder) {
-    const bool alone = base.model.file.extension() != ".toml";
     for (Variant& variant : combine(variations)) {
-        RunArguments arguments = base;
-        for (const auto& pair : variant.values) {
-            const bool defines = alone && pair.first.find('.') == std::string::npos;
-            (defines ? arguments.model.defines : arguments.overrides).push_back(pair);
-        }
+        const RunArguments arguments = arguments_of(variant);
         const fs::path place = folder_ / (variant.name.empty() ? "run" : variant.name);
         runs_.push_back({std::move(variant), place, words_of(arguments)});
+    }
+}
+
+RunArguments Sweep::arguments_of(const Variant& variant) const {
+    RunArguments arguments = base_;
+    const bool alone = !is_scene(base_.model.file);
+    for (const auto& pair : variant.values) {
+        const bool defines = alone && pair.first.find('.') == std::string::npos;
+        (defines ? arguments.model.defines : arguments.overrides).push_back(pair);
+    }
+    return arguments;
+}
+
+RecordedTable Sweep::first_statistics() const {
+    RunArguments arguments = arguments_of(runs_.front().variant);
+    arguments.steps = 0;
+    arguments.quiet = true;
+    const TemporaryFolder folder("sweep");
+    RunOptions options;
+    options.output = folder.path() / "run";
+    options.memory = base_.memory;
+    try {
+        espalier::run(scene_of(arguments), options);
+        return RecordedRun(options.output).statistics();
+    } catch (const std::exception&) {
+        return {};  // the runs themselves will say what is wrong
     }
 }
 
@@ -144,6 +167,7 @@ std::vector<std::string> Sweep::command(const SweepRun& run) const {
     words.insert(words.end(), {"--output", run.folder.string(), "--overwrite", "--quiet"});
     if (base_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(base_.threads)});
     if (base_.memory > 0) words.insert(words.end(), {"--memory", std::to_string(base_.memory)});
+    if (base_.disk > 0) words.insert(words.end(), {"--disk", std::to_string(base_.disk)});
     return words;
 }
 
@@ -174,9 +198,10 @@ std::vector<SweepResult> Sweep::results() const {
     std::vector<SweepResult> results;
     for (const SweepRun& run : runs_) {
         if (!is_done(run)) continue;  // its last step is not the one asked for, or an older run's
-        RecordedTable table = RecordedRun(run.folder).statistics();
+        const RecordedRun recorded(run.folder);
+        RecordedTable table = recorded.statistics();
         table.rows = table.last_rows();
-        results.push_back({&run, std::move(table)});
+        results.push_back({&run, std::move(table), recorded.plants()});
     }
     return results;
 }
@@ -190,12 +215,16 @@ fs::path Sweep::write_table(const std::vector<SweepResult>& results) const {
     }
     std::string text = "run";
     for (const Variation& variation : variations_) text += "," + csv_text(variation.key);
+    text += ",name";
     for (const std::string& column : columns) text += "," + csv_text(column);
     text += "\n";
-    for (const auto& [run, table] : results) {
+    for (const auto& [run, table, plants] : results) {
         std::string values = csv_text(run->variant.name);
-        for (const auto& pair : run->variant.values) values += "," + csv_text(pair.second);
-        for (const std::vector<double>& row : table.rows) text += values + cells(table, row, columns) + "\n";
+        for (const auto& pair : run->variant.values) values.append(",").append(csv_text(pair.second));
+        for (const std::vector<double>& row : table.rows) {
+            const auto plant = static_cast<std::size_t>(row[table.column("plant")]);
+            text += values + "," + csv_text(plants.at(plant).name) + cells(table, row, columns) + "\n";
+        }
     }
     const fs::path path = folder_ / "sweep.csv";
     write_text(path, text);

@@ -1,10 +1,9 @@
 // A sweep: one run for every combination of values, each in a folder of its own, several at a time.
 #pragma once
 
-#include "espalier/picture/sweep_charts.h"
-#include "espalier/simulation/variation.h"
-
 #include "app/run_command.h"
+#include "picture/charts/sweep_charts.h"
+#include "simulation/variation.h"
 
 #include <filesystem>
 #include <string>
@@ -21,6 +20,7 @@ struct SweepRun {
 struct SweepResult {
     const SweepRun* run;
     RecordedTable table;
+    std::vector<RecordedPlant> plants;
 };
 
 class Sweep {
@@ -29,6 +29,8 @@ public:
     Sweep(const RunArguments& base, const std::vector<Variation>& variations, const std::filesystem::path& folder);
 
     const std::vector<SweepRun>& runs() const { return runs_; }
+    /// Of statistics.csv, as the first run has them at step 0; none if it cannot be grown.
+    RecordedTable first_statistics() const;
     /// Those that have not ended yet, or whose inputs or values have changed since.
     std::vector<const SweepRun*> to_do() const;
     /// The whole command line of one, to be started in the current folder.
@@ -51,6 +53,8 @@ public:
     SweptRuns drawn(const std::vector<SweepResult>& results) const;
 
 private:
+    RunArguments arguments_of(const Variant& variant) const;
+
     RunArguments base_;
     std::vector<Variation> variations_;
     std::filesystem::path folder_;

@@ -4,6 +4,7 @@
 #include "app/child.h"
 #include "app/command.h"
 #include "app/options.h"
+#include "picture/charts/quantity.h"
 #include "picture_options.h"
 #include "sweep.h"
 
@@ -26,6 +27,7 @@ public:
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
+          disk_(app()),
           picture_(app()) {
         app()
             .add_option("--vary", vary_, "KEY=FIRST:LAST:COUNT, KEY=FIRST..LAST or KEY=VALUE,VALUE...; may be repeated")
@@ -70,6 +72,7 @@ Examples:
             for (const SweepRun* run : sweep.to_do()) print(sweep.command(*run));
             return exit_code::done;
         }
+        require_statistics(sweep);
         const Sweep::Outcome outcome = sweep.run(jobs(), quiet_);
         if (outcome.interrupted) return exit_code::interrupted;
         const std::vector<SweepResult> results = sweep.results();
@@ -82,6 +85,13 @@ Examples:
 private:
     void tell(const fs::path& file) const {
         if (!quiet_) fmt::print("{}\n", file.string());
+    }
+    // A name misspelt is told before the runs, which may take hours.
+    void require_statistics(const Sweep& sweep) const {
+        if (statistics_.empty()) return;
+        const PlottedTable table{"", sweep.first_statistics(), {}};
+        if (table.table.columns.empty()) return;
+        for (const std::string& name : statistics_) picture::require_quantity({&table, 1}, name);
     }
     bool wants_plot() const { return !plot_.empty() || !statistics_.empty(); }
     void draw(const SweptRuns& runs) const {
@@ -101,6 +111,7 @@ private:
         arguments.steps = growth_.steps();
         arguments.seed = growth_.seed();
         arguments.memory = growth_.memory();
+        arguments.disk = disk_.bytes();
         arguments.threads = threads_ > 0 ? threads_ : list_ ? 0 : std::max(1, cores() / jobs());
         return arguments;
     }
@@ -127,6 +138,7 @@ private:
     ModelOptions model_;
     SetOptions sets_;
     GrowthOptions growth_;
+    DiskOption disk_;
     PictureOptions picture_;
     std::vector<std::string> vary_;
     fs::path output_, plot_;
@@ -135,7 +147,7 @@ private:
     bool list_ = false, quiet_ = false;
 };
 
-const RegisteredCommand<SweepCommand> entry{16};
+const RegisteredCommand<SweepCommand> sweep_entry{16};
 
 }  // namespace
 }  // namespace espalier::app

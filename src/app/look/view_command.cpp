@@ -87,7 +87,8 @@ public:
                  ModelOptions::Files::reading_and_drawing),
           sets_(app()),
           growth_(app()),
-          picture_(app()) {
+          picture_(app()),
+          camera_(app()) {
         app().add_option("--step", step_, "the first frame to show: N, first or last; default: last, and live");
         app()
             .add_option("--colour-by", options_.style.colour_by,
@@ -114,8 +115,11 @@ A screenshot and a script need no display.)");
 
     int run() override {
         arguments_.model = model_.arguments();
+        arguments_.model.file = folder_of_run(arguments_.model.file);
         options_.size = picture_.size(options_.size);
         if (picture_.dark()) options_.style.background = dark_background;
+        options_.chooses_background = !picture_.dark();
+        if (camera_.is_ours()) options_.camera.emplace();
         if (!field_.empty()) options_.style.fields.push_back(field_look(field_));
         if (!script_.empty()) options_.script = read_text(script_);
         options_.print = [](const std::string& line) { fmt::print("{}\n", line); };
@@ -151,7 +155,10 @@ private:
         arguments_.steps = growth_.steps();
         arguments_.seed = growth_.seed();
         arguments_.memory = growth_.memory();
-        if (arguments_.output.empty()) arguments_.output = default_output(arguments_.model.file.stem().string());
+        std::optional<DefaultOutput> unnamed;
+        if (arguments_.output.empty()) {
+            arguments_.output = unnamed.emplace(arguments_.model.file.stem().string()).path();
+        }
         const TemporaryFolder log_folder("view");
         const SignalCounter signals;
         Simulation simulation(arguments_, log_folder.path() / "log");
@@ -177,6 +184,7 @@ private:
     SetOptions sets_;
     GrowthOptions growth_;
     PictureOptions picture_;
+    CameraOption camera_;
     RunArguments arguments_;
     ViewOptions options_;
     std::string step_, field_;
@@ -184,7 +192,7 @@ private:
     bool keep_running_ = false;
 };
 
-const RegisteredCommand<View> entry{36};
+const RegisteredCommand<View> view_entry{36};
 
 }  // namespace
 }  // namespace espalier::app

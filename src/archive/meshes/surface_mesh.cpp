@@ -30,11 +30,13 @@ public:
 
     void add_tubes() {
         for (const AxisPath& path : axis_paths(geometry_, options_)) {
-            const TubeLine tube = tube_line(geometry_, path.points, options_.simplify, thinnest_);
+            TubeLine tube = tube_line(geometry_, path.points, options_.simplify, thinnest_);
+            const std::uint16_t texture = geometry_.textures[path.row];
+            tube.wears_texture = texture != 0;
             if (tube.nodes.size() < 2) continue;
             require_room(tube.nodes.size() * static_cast<std::size_t>(options_.sides + 1));
             begin_part(path.row);
-            add_tube(tube);
+            add_tube(tube, texture);
             end_part();
         }
     }
@@ -100,12 +102,18 @@ private:
         return at->second;
     }
 
-    void add_tube(const TubeLine& line) {
+    MeshMaterial worn(const Rgb& rgb, std::uint16_t texture) const {
+        if (texture == 0) return {rgb, ""};
+        // Where nobody gave a colour the picture has it.
+        return {geometry_.of_cells.rgb.empty() ? Rgb{255, 255, 255} : rgb, geometry_.texture_files[texture]};
+    }
+
+    void add_tube(const TubeLine& line, std::uint16_t texture) {
         std::vector<std::uint32_t> materials;
         std::vector<Rgb> colours;
         for (const TubeNode& node : line.nodes) {
             colours.push_back(colour_of(geometry_.of_points, static_cast<std::size_t>(node.row)));
-            materials.push_back(material({colours.back(), ""}));
+            materials.push_back(material(worn(colours.back(), texture)));
         }
         const Tube tube = sweep(line, options_.sides);
         const auto origin = static_cast<std::uint32_t>(mesh_.points.size());
@@ -127,11 +135,7 @@ private:
         if (corners.size() < 3) return;
         require_room(corners.size());
         const std::uint16_t texture = geometry_.textures[row];
-        MeshMaterial worn{colour_of(geometry_.of_cells, row), ""};
-        if (texture != 0) worn.texture = geometry_.texture_files[texture];
-        // Where nobody gave a colour the picture has it.
-        if (texture != 0 && geometry_.of_cells.rgb.empty()) worn.rgb = {255, 255, 255};
-        const std::uint32_t look = material(worn);
+        const std::uint32_t look = material(worn(colour_of(geometry_.of_cells, row), texture));
         const std::uint32_t first = vertex(corners[0]);
         for (std::size_t i = 2; i < corners.size(); ++i) {
             const std::array<std::uint32_t, 3> triangle{first, vertex(corners[i - 1]), vertex(corners[i])};
@@ -202,6 +206,12 @@ FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) 
     MeshBuilder builder(geometry, options);
     builder.add_tubes();
     builder.add_surfaces();
+    return builder.take();
+}
+
+FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options) {
+    MeshBuilder builder(geometry, options);
+    builder.add_tubes();
     return builder.take();
 }
 

@@ -51,13 +51,16 @@ Rgb colour_of(const RecordedAttributes& attributes, std::size_t row);
 
 /// Tubes and surfaces of the plants asked for. Throws RunError beyond 2^31 vertices.
 FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options);
+/// The tubes alone.
+FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options);
 /// The surfaces alone.
 FrameMesh surfaces_of(const RecordedGeometry& geometry, const MeshOptions& options);
 
 /// Each plant's parts with vertices of their own; materials keep their numbers.
 std::map<std::uint32_t, FrameMesh> by_plant(const FrameMesh& mesh);
 
-/// The radius given to lines that have none: a thousandth of the diagonal of the frame.
+/// The radius given to lines that have none, and half a pixel of those whose widths are given so: a thousandth of the
+/// diagonal of the frame.
 float thinnest_radius(const RecordedGeometry& geometry);
 
 /// "left_axis_12": the plant's name, what it is and a number; letters that formats take for something else become '_'.
@@ -77,6 +80,7 @@ using archive::part_name;
 using archive::Rgb;
 using archive::surfaces_of;
 using archive::thinnest_radius;
+using archive::tubes_of;
 using archive::upright;
 
 }  // namespace espalier

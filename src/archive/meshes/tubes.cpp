@@ -86,7 +86,8 @@ std::vector<glm::dvec3> tangents_of(const std::vector<TubeNode>& nodes) {
 
 class Sweeper {
 public:
-    Sweeper(const TubeLine& line, int sides) : nodes_(line.nodes), sides_(static_cast<std::uint32_t>(sides)) {}
+    Sweeper(const TubeLine& line, int sides)
+        : nodes_(line.nodes), wears_texture_(line.wears_texture), sides_(static_cast<std::uint32_t>(sides)) {}
 
     Tube tube() {
         const std::vector<glm::dvec3> tangents = tangents_of(nodes_);
@@ -95,7 +96,7 @@ public:
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
             across -= tangents[i] * glm::dot(across, tangents[i]);
             across = glm::length(across) > 1e-6 ? glm::normalize(across) : any_across(tangents[i]);
-            if (i > 0) along += glm::distance(nodes_[i].position, nodes_[i - 1].position);
+            if (i > 0) along += length(nodes_[i - 1], nodes_[i]);
             add_ring(static_cast<std::uint32_t>(i), tangents[i], across, along);
             if (i > 0) join(static_cast<std::uint32_t>(i));
         }
@@ -106,6 +107,11 @@ public:
 
 private:
     std::uint32_t ring(std::uint32_t node) const { return node * (sides_ + 1); }
+
+    double length(const TubeNode& from, const TubeNode& to) const {
+        const double metres = glm::distance(from.position, to.position);
+        return wears_texture_ ? metres / (std::numbers::pi * (double(from.radius) + to.radius)) : metres;
+    }
 
     /// How fast the radius shrinks along the axis there.
     double taper(std::size_t node) const {
@@ -156,9 +162,17 @@ private:
     }
 
     const std::vector<TubeNode>& nodes_;
+    bool wears_texture_;
     std::uint32_t sides_;
     Tube tube_;
 };
+
+float radius_of(const RecordedGeometry& geometry, std::size_t row, float thinnest) {
+    const float radius = geometry.radii[row];
+    if (std::isfinite(radius) && radius > 0) return radius;
+    const float pixels = geometry.pixels.empty() ? 0 : geometry.pixels[row];
+    return std::isfinite(pixels) && pixels > 0 ? pixels * thinnest : 0;
+}
 
 }  // namespace
 
@@ -168,7 +182,7 @@ TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_
     float thickest = 0;
     for (const std::int32_t point : points) {
         const auto row = static_cast<std::size_t>(point);
-        const float radius = std::isfinite(geometry.radii[row]) ? std::max(0.0f, geometry.radii[row]) : 0;
+        const float radius = radius_of(geometry, row, thinnest);
         thickest = std::max(thickest, radius);
         const bool moved = nodes.empty() || nodes.back().position != geometry.points[row];
         if (moved) {

@@ -18,17 +18,18 @@ struct TubeNode {
 
 struct TubeLine {
     std::vector<TubeNode> nodes;
+    bool wears_texture = false;  ///< a picture that keeps its proportions as it goes round and along
 };
 
 /// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
 /// `tolerance` from them and no colour changes (Douglas and Peucker 1973). Radii of 0 become `thinnest`, tips that
-/// taper to nothing a thousandth of the axis's thickest.
+/// taper to nothing a thousandth of the axis's thickest; widths in pixels count in widths of the thinnest.
 TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
                    float thinnest);
 
 struct TubeVertex {
     glm::vec3 position, normal;
-    glm::vec2 uv;        ///< once round, and metres along the axis
+    glm::vec2 uv;        ///< once round, and metres along the axis; circumferences if it wears a texture
     std::uint32_t node;  ///< of the line
 };
 

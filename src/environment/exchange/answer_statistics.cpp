@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::environment {
 
 void AnswerStatistics::clear() {
     std::fill(totals_.begin(), totals_.end(), Totals());
@@ -38,4 +38,4 @@ std::vector<Quantity> AnswerStatistics::counts(std::uint32_t plant, const char* 
     return {{ones, totals.ones}, {zeros, totals.count - totals.ones}};
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 class AnswerStatistics {
 public:
@@ -31,4 +31,4 @@ private:
     std::vector<Totals> totals_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

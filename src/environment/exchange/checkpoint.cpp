@@ -8,7 +8,7 @@
 #include <ostream>
 #include <sstream>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 void write_block(std::ostream& out, const std::string& bytes) {
@@ -57,4 +57,4 @@ void Environment::restore(std::istream& in) {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr int widest = 99;
@@ -100,10 +100,10 @@ bool Communication::changes_queries() const {
 }
 
 void Communication::send(Query& query) const {
-    espalier::round(position_, query.pose.position);
-    espalier::round(heading_, query.pose.heading);
-    espalier::round(left_, query.pose.left);
-    espalier::round(up_, query.pose.up);
+    environment::round(position_, query.pose.position);
+    environment::round(heading_, query.pose.heading);
+    environment::round(left_, query.pose.left);
+    environment::round(up_, query.pose.up);
     if (line_width_) line_width_->round({&query.width, 1});
     if (scale_factor_) scale_factor_->round({&query.scale, 1});
     if (following_module_) return;
@@ -112,4 +112,4 @@ void Communication::send(Query& query) const {
     query.following_identity = 0;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// A printf format of up to three numbers. "%.4f %.0f %.4f" rounds the first and third coordinate to four decimals and
 /// the second to whole numbers.
@@ -43,5 +43,11 @@ private:
     bool following_module_ = true;
     std::optional<TurtleFormat> position_, heading_, left_, up_, line_width_, scale_factor_;
 };
+
+}  // namespace espalier::environment
+
+namespace espalier {
+
+using environment::TurtleFormat;
 
 }  // namespace espalier

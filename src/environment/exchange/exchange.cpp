@@ -12,7 +12,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr std::size_t block = 4096;  // queries: less is not worth a second thread
@@ -263,4 +263,4 @@ void Environment::require_finite(std::size_t process, const WorldView& world) co
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

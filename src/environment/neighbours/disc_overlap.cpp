@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace espalier {
+namespace espalier::environment {
 
 DiscOverlap::DiscOverlap(std::span<const glm::dvec3> centres, std::span<const double> radii)
     : centres_(centres), radii_(radii) {
@@ -24,4 +24,4 @@ DiscOverlap::DiscOverlap(std::span<const glm::dvec3> centres, std::span<const do
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

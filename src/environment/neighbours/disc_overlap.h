@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// One point grid per size, doubling from each to the next, so that one large disc does not make all cells large.
 class DiscOverlap {
@@ -41,4 +41,4 @@ private:
     std::vector<Level> levels_;  ///< the smallest discs first
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -7,14 +7,15 @@
 #include <istream>
 #include <ostream>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr double most_cells = 1 << 28;
+constexpr std::uint32_t most_discs = 255;  // where discs cover what they touch
 
 }  // namespace
 
-GroundGrid::GroundGrid(ParameterFile& file, const EnvironmentContext& context) {
+GroundGrid::GroundGrid(ParameterFile& file, const EnvironmentContext& context, Rule rule) : rule_(rule) {
     const std::vector<double> size = file.numbers("grid size", {512, 512}, Range::between(1, 1e9));
     const std::vector<double> range = file.numbers("grid range", {1, 1}, Range::positive());
     const std::vector<double> lower = file.numbers("grid position", {0, 0}, Range::between(-1e100, 1e100));
@@ -44,8 +45,12 @@ std::optional<std::size_t> GroundGrid::cell(const glm::dvec2& place) const {
     return static_cast<std::size_t>(index(1) * size_[0] + index(0));
 }
 
-double GroundGrid::coordinate(int axis, std::int64_t index) const {
-    return lower_[axis] + range_[axis] * (static_cast<double>(index) + 0.5) / static_cast<double>(size_[axis]);
+// Of a place from what must be inside a disc: the centre of the cell, or any point of it.
+double GroundGrid::distance(int axis, std::int64_t index, double place) const {
+    const double edge = range_[axis] / static_cast<double>(size_[axis]);
+    const double centre = lower_[axis] + edge * (static_cast<double>(index) + 0.5);
+    const double away = std::abs(centre - place);
+    return rule_ == Rule::centres ? away : std::max(away - edge / 2, 0.0);
 }
 
 template <class Change>
@@ -55,15 +60,15 @@ void GroundGrid::visit_disc(const glm::dvec2& centre, double radius, const Chang
     for (int axis = 0; axis < 2; ++axis) {
         const auto cells = static_cast<double>(size_[axis]);
         const double scale = cells / range_[axis];
-        const double from = (centre[axis] - radius - lower_[axis]) * scale - 0.5;
-        const double to = (centre[axis] + radius - lower_[axis]) * scale - 0.5;
+        const double from = (centre[axis] - radius - lower_[axis]) * scale - 1;
+        const double to = (centre[axis] + radius - lower_[axis]) * scale;
         begin[axis] = static_cast<std::int64_t>(std::clamp(std::floor(from), 0.0, cells));
         end[axis] = static_cast<std::int64_t>(std::clamp(std::ceil(to) + 1, 0.0, cells));
     }
     for (std::int64_t j = begin[1]; j < end[1]; ++j) {
-        const double aside = coordinate(1, j) - centre.y;
+        const double aside = distance(1, j, centre.y);
         for (std::int64_t i = begin[0]; i < end[0]; ++i) {
-            const double along = coordinate(0, i) - centre.x;
+            const double along = distance(0, i, centre.x);
             if (along * along + aside * aside <= radius * radius) {
                 change(counts_[static_cast<std::size_t>(j * size_[0] + i)]);
             }
@@ -72,7 +77,8 @@ void GroundGrid::visit_disc(const glm::dvec2& centre, double radius, const Chang
 }
 
 void GroundGrid::add_disc(const glm::dvec2& centre, double radius) {
-    visit_disc(centre, radius, [](std::uint32_t& count) { ++count; });
+    const std::uint32_t most = rule_ == Rule::touched ? most_discs : std::uint32_t(-1);
+    visit_disc(centre, radius, [most](std::uint32_t& count) { count += count < most; });
 }
 
 void GroundGrid::remove_disc(const glm::dvec2& centre, double radius) {
@@ -81,7 +87,14 @@ void GroundGrid::remove_disc(const glm::dvec2& centre, double radius) {
 
 Picture::Colour GroundGrid::colour(std::size_t cell) const {
     if (image_.empty()) return {255, 255, 255};
-    const auto width = static_cast<std::size_t>(size_[0]);
+    const auto width = static_cast<std::size_t>(size_[0]), height = static_cast<std::size_t>(size_[1]);
+    if (rule_ == Rule::touched) {
+        const auto stretched = [](std::size_t index, std::size_t cells, std::size_t pixels) {
+            return cells > 1 ? index * (pixels - 1) / (cells - 1) : 0;
+        };
+        return image_.pixels[stretched(cell / width, height, image_.height) * image_.width +
+                             stretched(cell % width, width, image_.width)];
+    }
     return image_.at((static_cast<double>(cell % width) + 0.5) / static_cast<double>(size_[0]),
                      (static_cast<double>(cell / width) + 0.5) / static_cast<double>(size_[1]));
 }
@@ -97,4 +110,4 @@ void GroundGrid::restore(std::istream& in) {
     if (!in) throw UserError("the checkpoint is of another ground grid");
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

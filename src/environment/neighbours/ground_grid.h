@@ -11,17 +11,22 @@
 #include <optional>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 class GroundGrid {
 public:
+    enum class Rule {
+        centres,  ///< discs cover the cells whose centres they contain, and a cell has the pixel over its centre
+        touched,  ///< discs cover all cells that they touch; corner cells have the corner pixels; counts end at 255
+    };
+
     /// Reads `grid size`, `grid position`, `grid range` and `input image`. Throws UserError if the grid is larger than
     /// memory allows.
-    GroundGrid(ParameterFile& file, const EnvironmentContext& context);
+    GroundGrid(ParameterFile& file, const EnvironmentContext& context, Rule rule = Rule::centres);
 
     /// The cell over a place; nothing beside the grid.
     std::optional<std::size_t> cell(const glm::dvec2& place) const;
-    /// Discs over the cells are counted by their centres. Taking away more than there is leaves 0.
+    /// Taking away more than there is leaves 0.
     void add_disc(const glm::dvec2& centre, double radius);
     void remove_disc(const glm::dvec2& centre, double radius);
     void clear() { counts_.assign(counts_.size(), 0); }
@@ -36,12 +41,13 @@ public:
 private:
     template <class Change>
     void visit_disc(const glm::dvec2& centre, double radius, const Change& change);
-    double coordinate(int axis, std::int64_t index) const;
+    double distance(int axis, std::int64_t index, double place) const;
 
+    Rule rule_;
     std::int64_t size_[2];
     glm::dvec2 lower_, range_;
     Picture image_;
     std::vector<std::uint32_t> counts_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -1,16 +1,8 @@
 #include "environment/neighbours/point_grid.h"
 
-#include "espalier/base/random.h"
+#include <bit>
 
-#include <algorithm>
-#include <numeric>
-
-namespace espalier {
-
-std::size_t PointGrid::Hash::operator()(const Cell& cell) const {
-    const auto bits = [](std::int64_t value) { return static_cast<std::uint64_t>(value); };
-    return mix(mix(bits(cell.x), bits(cell.y)), bits(cell.z));
-}
+namespace espalier::environment {
 
 PointGrid::PointGrid(std::span<const glm::dvec3> points, std::span<const std::uint32_t> members, double edge) {
     if (members.empty()) return;
@@ -20,25 +12,28 @@ PointGrid::PointGrid(std::span<const glm::dvec3> points, std::span<const std::ui
         most_ = glm::max(most_, points[member]);
     }
     const glm::dvec3 far = glm::max(glm::abs(least_), glm::abs(most_));
-    edge_ = std::max(edge, 1e-14 * std::max({far.x, far.y, far.z}));
-    if (!(edge_ > 0)) edge_ = 1;
+    edge = std::max(edge, 1e-14 * std::max({far.x, far.y, far.z}));
+    per_edge_ = edge > 0 ? 1 / edge : 1;
 
-    std::vector<Cell> cells(members.size());
-    for (std::size_t i = 0; i < members.size(); ++i) cells[i] = cell_of(points[members[i]]);
-    std::vector<std::uint32_t> order(members.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return cells[a] < cells[b]; });
-
-    members_.reserve(members.size());
-    for (const std::uint32_t i : order) {
-        if (cells_.empty() || cells_.back().cell != cells[i]) {
-            by_cell_.emplace(cells[i], static_cast<std::uint32_t>(cells_.size()));
-            const auto begin = static_cast<std::uint32_t>(members_.size());
-            cells_.push_back({cells[i], begin, begin});
+    const std::size_t slots = std::bit_ceil(2 * members.size() + 2);
+    shift_ = 64 - std::countr_zero(slots);
+    table_.assign(slots, none);
+    std::vector<std::uint32_t> cell_of_member(members.size()), counts;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const Cell cell = cell_of(points[members[i]]);
+        std::uint32_t& number = table_[slot_of(cell)];
+        if (number == none) {
+            number = static_cast<std::uint32_t>(cells_.size());
+            cells_.push_back(cell);
+            counts.push_back(0);
         }
-        members_.push_back(members[i]);
-        cells_.back().end = static_cast<std::uint32_t>(members_.size());
+        ++counts[cell_of_member[i] = number];
     }
+    ends_.assign(1, 0);
+    for (const std::uint32_t count : counts) ends_.push_back(ends_.back() + count);
+    members_.resize(members.size());
+    std::vector<std::uint32_t> next(ends_.begin(), ends_.end() - 1);
+    for (std::size_t i = 0; i < members.size(); ++i) members_[next[cell_of_member[i]]++] = members[i];
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -6,22 +6,34 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// A hash grid of cubic cells. Only cells that hold points exist, so that neither the size of the world nor that of a
-/// cell costs memory.
+/// cell costs memory. Cells are numbered as their first members come; their table is probed linearly.
 class PointGrid {
 public:
     /// Of the points whose numbers `members` lists; within a cell they keep its order. Copies the positions.
     /// Cells are made larger than `edge` where that is too fine for the precision of the coordinates.
     PointGrid(std::span<const glm::dvec3> points, std::span<const std::uint32_t> members, double edge);
 
-    double edge() const { return edge_; }
+    /// Orders the members of every cell; equals stay as they are.
+    template <class Less>
+    void sort_cells(const Less& less) {
+        for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+            const auto begin = members_.begin() + ends_[cell], end = members_.begin() + ends_[cell + 1];
+            if (!std::is_sorted(begin, end, less)) std::stable_sort(begin, end, less);  // which takes memory
+        }
+    }
+
+    std::size_t size() const { return cells_.size(); }
+    std::span<const std::uint32_t> members(std::size_t cell) const {
+        return {members_.data() + ends_[cell], members_.data() + ends_[cell + 1]};
+    }
 
     /// Calls visit(point) for the points in the cell of the point at `place` until it returns false. False if it did.
     template <class Visit>
@@ -50,20 +62,18 @@ public:
 private:
     struct Cell {
         std::int64_t x, y, z;
-        auto operator<=>(const Cell&) const = default;
-    };
-    struct Hash {
-        std::size_t operator()(const Cell& cell) const;
-    };
-    struct Range {
-        Cell cell;
-        std::uint32_t begin, end;
+        bool operator==(const Cell&) const = default;
     };
 
+    static constexpr std::uint32_t none = -1;
+
+    static std::int64_t floor(double value) {
+        const auto whole = static_cast<std::int64_t>(value);
+        return whole - (value < static_cast<double>(whole));
+    }
+
     Cell cell_of(const glm::dvec3& place) const {
-        const glm::dvec3 cell = glm::floor(place / edge_);
-        return {static_cast<std::int64_t>(cell.x), static_cast<std::int64_t>(cell.y),
-                static_cast<std::int64_t>(cell.z)};
+        return {floor(place.x * per_edge_), floor(place.y * per_edge_), floor(place.z * per_edge_)};
     }
 
     static double count(const Cell& lower, const Cell& upper) {
@@ -71,9 +81,19 @@ private:
                static_cast<double>(upper.z - lower.z + 1);
     }
 
+    /// Where the table holds the number of the cell, or an empty place for it.
+    std::size_t slot_of(const Cell& cell) const {
+        const auto bits = [](std::int64_t value) { return static_cast<std::uint64_t>(value); };
+        const std::uint64_t sum = bits(cell.x) * 0x9E3779B97F4A7C15U + bits(cell.y) * 0xC2B2AE3D27D4EB4FU +
+                                  bits(cell.z) * 0x165667B19E3779F9U;
+        std::size_t slot = ((sum ^ (sum >> 32)) * 0xD6E8FEB86659FD93U) >> shift_;
+        while (table_[slot] != none && cells_[table_[slot]] != cell) slot = (slot + 1) & (table_.size() - 1);
+        return slot;
+    }
+
     template <class Visit>
-    bool visit_range(const Range& range, const Visit& visit) const {
-        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    bool visit_members(std::size_t cell, const Visit& visit) const {
+        for (std::uint32_t i = ends_[cell]; i < ends_[cell + 1]; ++i) {
             if (!visit(members_[i])) return false;
         }
         return true;
@@ -81,26 +101,29 @@ private:
 
     template <class Visit>
     bool visit_one(const Cell& cell, const Visit& visit) const {
-        const auto found = by_cell_.find(cell);
-        return found == by_cell_.end() || visit_range(cells_[found->second], visit);
+        if (table_.empty()) return true;
+        const std::uint32_t number = table_[slot_of(cell)];
+        return number == none || visit_members(number, visit);
     }
 
     template <class Visit>
     bool visit_all_in(const Cell& lower, const Cell& upper, const Visit& visit) const {
-        for (const Range& range : cells_) {
-            const Cell& cell = range.cell;
+        for (std::size_t number = 0; number < cells_.size(); ++number) {
+            const Cell& cell = cells_[number];
             const bool inside = cell.x >= lower.x && cell.x <= upper.x && cell.y >= lower.y && cell.y <= upper.y &&
                                 cell.z >= lower.z && cell.z <= upper.z;
-            if (inside && !visit_range(range, visit)) return false;
+            if (inside && !visit_members(number, visit)) return false;
         }
         return true;
     }
 
-    double edge_ = 1;
+    double per_edge_ = 1;
     glm::dvec3 least_{0}, most_{0};  ///< the corners of all points
-    std::vector<std::uint32_t> members_;
-    std::vector<Range> cells_;  ///< in lexicographic order
-    std::unordered_map<Cell, std::uint32_t, Hash> by_cell_;
+    std::vector<Cell> cells_;
+    std::vector<std::uint32_t> ends_;     ///< of each cell's members, behind a zero
+    std::vector<std::uint32_t> members_;  ///< cell by cell
+    std::vector<std::uint32_t> table_;    ///< numbers of cells
+    int shift_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

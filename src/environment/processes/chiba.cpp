@@ -5,33 +5,22 @@
 
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
+#include "environment/shade/ball_shadows.h"
+#include "environment/shade/balls_along.h"
 #include "environment/shade/sky_directions.h"
-#include "environment/shade/sphere_tree.h"
 
+#include <glm/geometric.hpp>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <tuple>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr std::int64_t most_samples = 8 << 14;
-
-/// The area that two discs share whose centres are `apart` (a lens, or the smaller disc, or nothing).
-double shared_area(double a, double b, double apart) {
-    const double smaller = std::min(a, b);
-    if (apart >= a + b) return 0;
-    if (apart <= std::abs(a - b)) return std::numbers::pi * smaller * smaller;
-    // The chord both circles share stands at `from_a` from the centre of the first.
-    const double from_a = (apart * apart + a * a - b * b) / (2 * apart);
-    const auto segment = [](double radius, double distance) {
-        const double cosine = std::clamp(distance / radius, -1.0, 1.0);
-        return radius * radius * (std::acos(cosine) - cosine * std::sqrt(1 - cosine * cosine));
-    };
-    return segment(a, from_a) + segment(b, apart - from_a);
-}
 
 std::vector<SkyDirection> read_sky(ParameterFile& file) {
     const std::int64_t samples =
@@ -60,6 +49,7 @@ public:
             {"grid size", "number of samples", "lower to upper ratio", "use CIE formula", "source direction",
              "transmittance", "radius", "beam radius", "estimate intersection area"});
         file.numbers("grid size", {1, 1, 1}, Range::between(1, 1e9));  // rays are exact without one
+        chords_ = file.has_numbers_of_cpfg() ? Chords::whole : Chords::in_front;
         sky_ = read_sky(file);
         std::erase_if(sky_, [](const SkyDirection& direction) { return direction.weight == 0; });
         transmittance_ = file.number("transmittance", 0.6, Range::between(0, 1));
@@ -69,16 +59,24 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        std::vector<SphereTree::Sphere> clusters;
+        std::vector<std::uint32_t> asking;
         for (std::uint32_t i = 0; i < queries.size(); ++i) {
-            if (asks(queries[i])) clusters.push_back({queries[i].pose.position, radius_of(queries[i]), i});
+            if (asks(queries[i])) asking.push_back(i);
         }
-        const SphereTree tree(clusters);
-        tbb::parallel_for(std::size_t{0}, clusters.size(),
-                          [&](std::size_t i) { answer_one(tree, clusters[i], answers[clusters[i].number]); });
+        // Products in an order of their own do not depend on the order of the queries.
+        const auto rank = [&](std::uint32_t i) {
+            const glm::dvec3& place = queries[i].pose.position;
+            return std::tuple(place.x, place.y, place.z, radius_of(queries[i]));
+        };
+        std::sort(asking.begin(), asking.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+        std::vector<Ball> clusters;
+        for (const std::uint32_t i : asking) clusters.push_back({queries[i].pose.position, radius_of(queries[i])});
+
+        const std::vector<Light> lights = lights_of(clusters);
         statistics_.clear();
-        for (const auto& cluster : clusters) {
-            statistics_.add(queries[cluster.number].plant, answers[cluster.number][0]);
+        for (std::size_t i = 0; i < asking.size(); ++i) write(lights[i], answers[asking[i]]);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (asks(queries[i])) statistics_.add(queries[i].plant, answers[i][0]);
         }
     }
 
@@ -91,45 +89,49 @@ private:
 
     double radius_of(const Query& query) const { return query.parameters[0] > 0 ? query.parameters[0] : radius_; }
 
-    void answer_one(const SphereTree& tree, const SphereTree::Sphere& own, Answer answer) const {
-        double light = 0;
-        glm::dvec3 brightest(0);
+    struct Light {
+        double sum = 0;
+        glm::dvec3 brightest{0};
+    };
+
+    std::vector<Light> lights_of(std::span<const Ball> clusters) const {
+        std::vector<Light> lights(clusters.size());
+        BallsAlong balls(clusters);
+        tbb::enumerable_thread_specific<BallsMet> met_by_thread;
         for (const SkyDirection& direction : sky_) {
-            const double share = direction.weight * passed(tree, own, direction.towards);
-            light += share;
-            brightest += share * direction.towards;
+            balls.turn_to(direction.towards);
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, clusters.size(), 64), [&](const auto& some) {
+                BallsMet& met = met_by_thread.local();
+                for (std::size_t i = some.begin(); i < some.end(); ++i) {
+                    const double margin = (by_area_ ? 1 : beam_) * clusters[i].radius;
+                    balls.meet(i, margin, met);
+                    const double share = direction.weight * passed(met, clusters[i].radius, margin);
+                    lights[i].sum += share;
+                    lights[i].brightest += share * direction.towards;
+                }
+            });
         }
-        answer[0] = light;
-        if (answer.size() < 4) return;
-        const double length = glm::length(brightest);
-        if (length > 0) brightest /= length;
-        for (int axis = 0; axis < 3; ++axis) answer[static_cast<std::size_t>(axis) + 1] = brightest[axis];
+        return lights;
     }
 
-    /// The part of the light from a direction that reaches a cluster through all others.
-    double passed(const SphereTree& tree, const SphereTree::Sphere& own, const glm::dvec3& towards) const {
-        double part = 1;
-        const double beam = by_area_ ? own.radius : beam_ * own.radius;
-        tree.visit_along({.origin = own.centre, .direction = towards, .margin = beam}, [&](const auto& other) {
-            if (other.number == own.number) return;
-            const glm::dvec3 between = other.centre - own.centre;
-            const double ahead = glm::dot(between, towards);
-            const double reach = other.radius + beam;
-            const double aside2 = std::max(glm::dot(between, between) - ahead * ahead, 0.0);
-            if (ahead <= 0 || aside2 >= reach * reach) return;
-            if (by_area_) {
-                const double disc = std::numbers::pi * own.radius * own.radius;
-                part *= 1 - (1 - transmittance_) * shared_area(own.radius, other.radius, std::sqrt(aside2)) / disc;
-            } else {
-                part *= std::pow(transmittance_, std::sqrt(reach * reach - aside2) / reach);
-            }
-        });
-        return part;
+    /// The part of the light from a direction that the balls in its way leave.
+    double passed(BallsMet& met, double radius, double margin) const {
+        if (by_area_) return passed_by_areas(met, radius, transmittance_);
+        return std::pow(transmittance_, sum_of_chords(met, margin, chords_));
+    }
+
+    static void write(const Light& light, Answer answer) {
+        answer[0] = light.sum;
+        if (answer.size() < 4) return;
+        const double length = glm::length(light.brightest);
+        const glm::dvec3 brightest = length > 0 ? light.brightest / length : light.brightest;
+        for (int axis = 0; axis < 3; ++axis) answer[static_cast<std::size_t>(axis) + 1] = brightest[axis];
     }
 
     std::vector<SkyDirection> sky_;
     double transmittance_, radius_, beam_;
     bool by_area_;
+    Chords chords_;
     AnswerStatistics statistics_;
 };
 
@@ -153,11 +155,13 @@ use_cie_formula        false; true: more light from above, by (1 + c)/3 (8.6 c +
 source_direction       ["x y z intensity", ...]: directions towards lights in place of the samples; intensity 1
 grid_size              [1, 1, 1]; accepted and ignored: all clusters are tested
 parameters             a file with these keys in words, as cpfg's program chiba reads it
+numbers                "exact", or "cpfg" (default with `parameters` and in .e files): of a ball around the query's
+                       centre the whole chord counts, not only its part in front
 
-Only clusters whose centres are in front reduce the light. Answers do not depend on the order of the queries.
+By areas, only clusters whose centres are in front reduce the light. Answers do not depend on the order of the queries.
 Statistics of a plant: mean, min, max of the light, queries.
 )",
-     construct<Chiba>}};
+     construct<Chiba>, true}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class Clover final : public EnvironmentProcess {
@@ -22,6 +22,7 @@ public:
 
     void advance(const WorldView&, std::span<const Query> queries, Fields&) override {
         if (forgets_) ground_.clear();
+        if (as_cpfg_) return change_in_string_order(queries);
         // First all leaves that come, then all that go: the order of the queries does not matter.
         for (const Query& query : queries) {
             if (action(query) == 1) ground_.add_disc(place(query), radius(query));
@@ -33,11 +34,15 @@ public:
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (as_cpfg_ && action(queries[i]) != 0) continue;
             const std::optional<std::size_t> cell = ground_.cell(place(queries[i]));
             answers[i][0] = cell ? light(*cell) : 0;
             if (answers[i].size() > 1) answers[i][1] = cell ? ground_.colour(*cell)[0] / 128.0 : 0;
         }
-        statistics_.sum_up(queries, answers);
+        statistics_.clear();
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (!as_cpfg_ || action(queries[i]) == 0) statistics_.add(queries[i].plant, answers[i][0]);
+        }
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
@@ -49,11 +54,22 @@ public:
 
 private:
     Clover(ParameterFile file, const EnvironmentContext& context)
-        : transmittance_(std::max(file.number("transmittance", 0.6, Range::between(0, 1)), 1e-4)),
+        : as_cpfg_(file.has_numbers_of_cpfg()),
+          transmittance_(std::max(file.number("transmittance", 0.6, Range::between(0, 1)), 1e-4)),
           forgets_(file.flag("remove old leaves", false, {"on", "yes"}, {"off", "no"})),
           z_is_up_(file.flag("z is up", true, {"on", "yes"}, {"no", "off"})),
-          ground_(file, context),
+          ground_(file, context, as_cpfg_ ? GroundGrid::Rule::touched : GroundGrid::Rule::centres),
           statistics_(context.plants) {}
+
+    void change_in_string_order(std::span<const Query> queries) {
+        for (const Query& query : queries) {
+            if (action(query) == 1) {
+                ground_.add_disc(place(query), radius(query));
+            } else if (action(query) != 0) {
+                ground_.remove_disc(place(query), radius(query));
+            }
+        }
+    }
 
     glm::dvec2 place(const Query& query) const {
         const glm::dvec3& position = query.pose.position;
@@ -72,6 +88,7 @@ private:
         return ground_.colour(cell)[1] / 255.0 * std::pow(transmittance_, leaves);
     }
 
+    bool as_cpfg_;
     double transmittance_;
     bool forgets_, z_is_up_;
     GroundGrid ground_;
@@ -93,10 +110,13 @@ grid_range     [1, 1] m; from corner to corner
 remove_old_leaves  false: leaves remain until they are removed; true: each step begins without leaves
 z_is_up        true: the ground is x and y; false: x and z
 parameters     a file with these keys in words, as cpfg's program clover reads it
+numbers        "exact", or "cpfg" (default with `parameters` and in .e files): a leaf covers every cell that its disc
+               touches, at most 255 lie over each other, the picture is stretched from corner cell to corner cell, and
+               leaves are added and removed in string order by queries that get no answer
 
 A leaf covers the cells whose centres are inside its disc. Statistics of a plant: mean, min, max of the light, queries.
 )",
-     construct<Clover>}};
+     construct<Clover>, true}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

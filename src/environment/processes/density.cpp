@@ -14,7 +14,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Something that makes its surroundings dense.
@@ -30,6 +30,7 @@ public:
         ParameterFile file(settings, context,
                            {"range", "position", "output image", "frame intervals", "quantization step", "gamma",
                             "one point value", "return vector"});
+        as_cpfg_ = file.has_numbers_of_cpfg();
         at_the_point_ = file.flag("one point value", false);
         as_vector_ = file.flag("return vector", false, {"yes", "on"}, {"no", "off"});
         // Of the picture that cpfg's program writes, and we record in other ways.
@@ -65,6 +66,13 @@ public:
 private:
     static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
 
+    // What the asker itself adds: as an occupant at its place, or 1 wherever it looks.
+    double density_for(const glm::dvec2& asker, const glm::dvec2& at) const {
+        if (!as_cpfg_) return density(at);
+        const glm::dvec2 away = at - asker;
+        return density(at) - 1 / (1 + glm::dot(away, away)) + 1;
+    }
+
     double density(const glm::dvec2& at) const {
         double sum = 0;
         for (const Occupant& other : occupants_) {
@@ -76,9 +84,9 @@ private:
 
     // 6 x 6 places in the unit square around it.
     double least_around(const glm::dvec2& at) const {
-        double least = density(at + glm::dvec2(-0.5));
+        double least = density_for(at, at + glm::dvec2(-0.5));
         for (int i = 0; i < 36; ++i) {
-            least = std::min(least, density(at + glm::dvec2(-0.5 + 0.2 * (i % 6), -0.5 + 0.2 * (i / 6))));
+            least = std::min(least, density_for(at, at + glm::dvec2(-0.5 + 0.2 * (i % 6), -0.5 + 0.2 * (i / 6))));
         }
         return least;
     }
@@ -87,11 +95,16 @@ private:
         const glm::dvec2 right(0.5, 0), above(0, 0.5);
         const glm::dvec2 downhill(density(at - right) - density(at + right), density(at - above) - density(at + above));
         answer[0] = at_the_point_ ? density(at) : least_around(at);
-        answer[1] = as_vector_ ? downhill.x : std::atan2(downhill.y, downhill.x) * 180 / std::numbers::pi;
+        answer[1] = as_vector_ ? downhill.x : angle(downhill);
         answer[2] = as_vector_ ? downhill.y : glm::length(downhill);
     }
 
-    bool at_the_point_, as_vector_;
+    double angle(const glm::dvec2& direction) const {
+        const double degrees = std::atan2(direction.y, direction.x) * 180 / std::numbers::pi;
+        return as_cpfg_ && degrees < 0 ? degrees + 360 : degrees;
+    }
+
+    bool as_cpfg_, at_the_point_, as_vector_;
     std::vector<Occupant> occupants_;
     AnswerStatistics statistics_;
 };
@@ -111,10 +124,12 @@ return_vector    false; true: a and m are the x and y of the fall
 range, position, output_image, frame_intervals, quantization_step, gamma
                  accepted and ignored: they concern the picture that cpfg's program writes
 parameters       a file with these keys in words, as cpfg's program density reads it
+numbers          "exact": a is from -180 to 180; or "cpfg" (default with `parameters` and in .e files): a is from 0 to
+                 360, and the query itself adds 1 at all 36 places, not 1 / (1 + d^2)
 
 Time grows with the square of the number of queries. Statistics of a plant: mean, min, max of r, queries.
 )",
-     construct<Density>}};
+     construct<Density>, true}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -15,7 +15,7 @@
 #include <optional>
 #include <ostream>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class Density3d final : public EnvironmentProcess {
@@ -23,6 +23,7 @@ public:
     Density3d(Settings& settings, const EnvironmentContext& context, Fields&)
         : memory_(context.memory), statistics_(context.plants) {
         ParameterFile file(settings, context, {"range", "position", "grid size", "octree level"});
+        whole_ = file.has_numbers_of_cpfg();
         const std::vector<double> range = file.numbers("range", {1, 1, 1}, Range::positive());
         const std::vector<double> lower = file.numbers("position", {0, 0, 0}, Range::between(-1e100, 1e100));
         const auto level = static_cast<int>(file.whole("octree level", 0, Range::between(0, 20)));
@@ -40,7 +41,7 @@ public:
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const std::optional<std::uint64_t> voxel = voxel_of(queries[i].pose.position);
-            answers[i][0] = voxel ? amounts_[*voxel] += queries[i].parameters[0] : 0;
+            answers[i][0] = voxel ? add(*voxel, queries[i].parameters[0]) : 0;
         }
         total_ = 0;
         for (const auto& voxel : amounts_) total_ += voxel.second;
@@ -76,6 +77,13 @@ public:
     }
 
 private:
+    double add(std::uint64_t voxel, double value) {
+        double& amount = amounts_[voxel];
+        amount += value;
+        if (whole_) amount = std::trunc(amount);
+        return amount;
+    }
+
     std::optional<std::uint64_t> voxel_of(const glm::dvec3& place) const {
         std::uint64_t number = 0;
         for (int axis = 2; axis >= 0; --axis) {
@@ -88,6 +96,7 @@ private:
     }
 
     glm::dvec3 lower_{0}, range_{1}, size_{1};
+    bool whole_;  ///< sums have no fractions
     std::size_t memory_;
     std::map<std::uint64_t, double> amounts_;  ///< of the voxels that were ever asked
     double total_ = 0;                         ///< of all of them
@@ -107,10 +116,12 @@ position      [0, 0, 0] m; its lower corner
 grid_size     [1, 1, 1]; voxels
 octree_level  0; 2^level voxels along each side, where no grid_size is given
 parameters    a file with these keys in words, as cpfg's program density3d reads it
+numbers       "exact", or "cpfg" (default with `parameters` and in .e files): after each query, the fraction of the
+              voxel's sum is cut off
 
 Statistics of a plant: mean, min, max of the answers, queries; total, the sum over the box.
 )",
-     construct<Density3d>}};
+     construct<Density3d>, true}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -14,7 +14,7 @@
 #include <numeric>
 #include <optional>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class Ecosystem final : public EnvironmentProcess {
@@ -134,4 +134,4 @@ Statistics of a plant: winners and losers, the number of answers 1 and 0.
      construct<Ecosystem>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

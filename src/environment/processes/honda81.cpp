@@ -14,7 +14,7 @@
 #include <cmath>
 #include <map>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class Honda81 final : public EnvironmentProcess {
@@ -33,7 +33,7 @@ public:
             points_.emplace_back(place.x, flat_ ? 0 : place.y, place.z);
             groups[queries[i].parameters.size() > 1 ? queries[i].parameters[1] : 0].push_back(i);
         }
-        for (auto& group : groups) answer_group(queries, group.second, answers);
+        for (const auto& group : groups) answer_group(queries, group.second, answers);
         statistics_.sum_up(queries, answers);
     }
 
@@ -44,26 +44,35 @@ public:
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
 private:
-    // A cell's diagonal is the radius, and within a cell the most vigorous come first. So all but the very first of a
-    // cell are dominated at their first look, and the time is linear however the points crowd.
-    void answer_group(std::span<const Query> queries, std::vector<std::uint32_t>& members, std::span<Answer> answers) {
-        const auto vigour = [&](std::uint32_t i) { return queries[i].parameters[0]; };
-        std::stable_sort(members.begin(), members.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return vigour(a) > vigour(b); });
-        const PointGrid grid(points_, members, radius_ * (flat_ ? std::sqrt(0.5) : std::sqrt(1.0 / 3)));
-        const auto answer_one = [&](std::size_t k) {
-            const std::uint32_t i = members[k];
-            bool dominated = false;
-            const auto visit = [&](std::uint32_t other) {
-                if (vigour(other) < vigour(i)) return true;
-                dominated = other != i && glm::distance(points_[other], points_[i]) <= radius_;
-                return !dominated;
-            };
-            if (grid.visit_cell(points_[i], visit)) grid.visit_around(points_[i], radius_, visit);
-            answers[i][0] = dominated ? 0 : 1;
-        };
-        tbb::parallel_for(std::size_t{0}, members.size(), answer_one);
+    // Within a cell the most vigorous come first. Who is near one of them is dominated; the others keep a radius
+    // between each other, so that they are few, and only they look around. The time is linear however the points crowd.
+    void answer_group(std::span<const Query> queries, std::span<const std::uint32_t> group, std::span<Answer> answers) {
+        PointGrid grid(points_, group, 2 * radius_);
+        grid.sort_cells([&](std::uint32_t a, std::uint32_t b) { return vigour(queries[a]) > vigour(queries[b]); });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.size(), 256), [&](const auto& cells) {
+            std::vector<std::uint32_t> apart;
+            for (std::size_t cell = cells.begin(); cell < cells.end(); ++cell) {
+                apart.clear();
+                for (const std::uint32_t i : grid.members(cell)) {
+                    answers[i][0] = 0;
+                    if (std::none_of(apart.begin(), apart.end(), [&](auto other) { return is_near(i, other); })) {
+                        apart.push_back(i);
+                    }
+                }
+                for (const std::uint32_t i : apart) answers[i][0] = is_free(grid, queries, i) ? 1 : 0;
+            }
+        });
     }
+
+    bool is_free(const PointGrid& grid, std::span<const Query> queries, std::uint32_t i) const {
+        return grid.visit_around(points_[i], radius_, [&](std::uint32_t other) {
+            return other == i || vigour(queries[other]) < vigour(queries[i]) || !is_near(i, other);
+        });
+    }
+
+    bool is_near(std::uint32_t a, std::uint32_t b) const { return glm::distance(points_[a], points_[b]) <= radius_; }
+
+    static double vigour(const Query& query) { return query.parameters[0]; }
 
     double radius_;
     bool flat_;
@@ -87,4 +96,4 @@ Statistics of a plant: free and dominated, the number of answers 1 and 0.
      construct<Honda81>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class Ornament final : public EnvironmentProcess {
@@ -64,4 +64,4 @@ Statistics of a plant: mean, min, max of the counts, queries.
      construct<Ornament>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

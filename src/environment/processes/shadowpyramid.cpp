@@ -17,7 +17,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using openvdb::Coord;
@@ -29,10 +29,13 @@ public:
         ParameterFile file(settings, context,
                            {"grid size", "grid span", "shadow spread", "shadow depth", "shadow weight",
                             "shadow dissipation", "light randomness", "light vertical bias", "sample radius"});
+        as_cpfg_ = file.has_numbers_of_cpfg();
         const double size = std::floor(file.number("grid size", 201, Range::between(2, 1e6)));
         const double span = file.number("grid span", 200, Range::positive());
         voxel_ = 2 * span / (size - 1);
         farthest_ = static_cast<int>((size - 1) / 2);
+        lowest_ = as_cpfg_ ? 0 : -farthest_;
+        highest_ = as_cpfg_ ? static_cast<int>(size) - 1 : farthest_;
         spread_ = file.number("shadow spread", 1, Range::between(0, 100));
         depth_ = static_cast<int>(file.whole("shadow depth", 6, Range::between(0, 1000)));
         weight_ = file.number("shadow weight", 0.58, Range::not_negative());
@@ -40,7 +43,7 @@ public:
         randomness_ = file.number("light randomness", 0, Range::between(0, 1e6));
         bias_ = file.number("light vertical bias", 0, Range::between(-1e6, 1e6));
         radius_ = file.number("sample radius", 1.6, Range::positive());
-        draws_ = RandomKey(context.seed, 0, Stream::process, 0x7368616479);
+        samples_ = RandomKey(context.seed, 0, Stream::process, 0x7368616479);
         initialize_openvdb();
         cast({}, fields);
     }
@@ -49,8 +52,11 @@ public:
         std::vector<Coord> casters;
         for (const Query& query : queries) {
             if (!(query.parameters[0] > 0)) continue;
-            const glm::dvec3 place = glm::round(query.pose.position / voxel_);
-            if (std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) > farthest_) continue;
+            const glm::dvec3 index = query.pose.position / voxel_;
+            glm::dvec3 place = glm::round(index);
+            if (as_cpfg_) place.y = std::trunc(index.y);
+            if (std::max(std::abs(place.x), std::abs(place.z)) > farthest_) continue;
+            if (place.y < lowest_ || place.y > highest_) continue;
             casters.emplace_back(static_cast<int>(place.x), static_cast<int>(place.y), static_cast<int>(place.z));
         }
         std::sort(casters.begin(), casters.end());  // the product of many shadows is the same in any order of queries
@@ -89,7 +95,7 @@ private:
         if (pyramid_.empty() && !casters.empty()) pyramid_ = pyramid();
         for (const Coord& caster : casters) {
             const float* left = pyramid_.data();
-            for (int layer = 0; layer < depth_ && caster.y() - layer >= -farthest_; ++layer) {
+            for (int layer = 0; layer < depth_ && caster.y() - layer >= lowest_; ++layer) {
                 cast_layer(accessor, caster, layer, left);
                 left += std::size_t(reach(layer) + 1) * std::size_t(reach(layer) + 1);
             }
@@ -137,7 +143,8 @@ private:
 
     double light_at(const Accessor& accessor, const glm::dvec3& place) const {
         const glm::dvec3 index = place / voxel_;
-        if (std::max({std::abs(index.x), std::abs(index.y), std::abs(index.z)}) > farthest_ + 1) return 1;
+        if (std::max(std::abs(index.x), std::abs(index.z)) > farthest_ + 1) return 1;
+        if (index.y < lowest_ - 1 || index.y > highest_ + 1) return 1;
         return openvdb::tools::BoxSampler::sample(accessor, openvdb::Vec3d(index.x, index.y, index.z));
     }
 
@@ -145,21 +152,24 @@ private:
         const glm::dvec3& place = query.pose.position;
         answer[0] = light_at(accessor, place);
         if (answer.size() < 4) return;
-        RandomDraws draws(draws_, mix(query.identity, query.plant), step);
+        RandomSamples samples(samples_, mix(query.identity, query.plant), step);
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 reach(0);
             reach[axis] = radius_;
             const double rise = light_at(accessor, place + reach) - light_at(accessor, place - reach);
-            const double chance = randomness_ > 0 ? randomness_ * (2 * draws.uniform() - 1) : 0;
-            answer[static_cast<std::size_t>(axis) + 1] = rise / (2 * radius_) + chance + (axis == 1 ? bias_ : 0);
+            const double chance = randomness_ > 0 ? randomness_ * (2 * samples.uniform() - 1) : 0;
+            answer[static_cast<std::size_t>(axis) + 1] =
+                (as_cpfg_ ? rise : rise / (2 * radius_)) + chance + (axis == 1 ? bias_ : 0);
         }
     }
 
     std::string name_;
     std::size_t memory_;
     double voxel_, spread_, weight_, dissipation_, randomness_, bias_, radius_;
-    int farthest_, depth_;
-    RandomKey draws_;
+    bool as_cpfg_;
+    int farthest_, lowest_, highest_;  ///< voxel in x and z from the middle, in y
+    int depth_;
+    RandomKey samples_;
     std::vector<float> pyramid_;
     openvdb::FloatGrid::Ptr light_;
     AnswerStatistics statistics_;
@@ -184,10 +194,13 @@ sample_radius       1.6 m
 light_vertical_bias 0; added to the y of the gradient
 light_randomness    0; each component of the gradient is changed at random by up to this
 parameters          a file with these keys in words, as cpfg's program shadowpyramid reads it
+numbers             "exact", or "cpfg" (default with `parameters` and in .e files): the grid reaches from 0 to 2 X in y,
+                    a caster's height in voxels is cut off instead of rounded, and the gradient is the difference of the
+                    light over the two sample radii, not per metre
 
 Outside the grid is full light. Field: name (the light). Statistics of a plant: mean, min, max of the light, queries.
 )",
-     construct<ShadowPyramid>}};
+     construct<ShadowPyramid>, true}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

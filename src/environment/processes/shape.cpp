@@ -24,7 +24,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Growth and movement of a shape by piecewise linear functions of the step, constant before the first and after the
@@ -185,4 +185,4 @@ const Registered<ProcessType> entry{
     {"shape", "signed distance to bounding shapes and meshes", help(), construct<ShapeProcess>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

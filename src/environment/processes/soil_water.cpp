@@ -1,8 +1,8 @@
 // Soil water: a content that diffuses between obstacles, layers and sides, and that roots drink.
 // Its parameters and queries are described in water_parameters.cpp, the numbers behind it in docs/water.md.
-#include "espalier/base/text.h"
 #include "espalier/environment/environment_process.h"
 
+#include "base/text.h"
 #include "environment/water/diffusion.h"
 #include "environment/water/direction.h"
 #include "environment/water/field.h"
@@ -21,7 +21,7 @@
 #include <istream>
 #include <ostream>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 WaterGrid affordable_grid(const WaterParameters& parameters, const EnvironmentContext& context) {
@@ -46,6 +46,8 @@ public:
           solids_(parameters_),
           diffusion_(grid_, parameters_),
           field_(context.name, parameters_.unit, grid_),
+          name_(context.name),
+          warnings_(context.warnings),
           uptake_(context.plants, 0),
           wish_(context.plants, 0) {
         solids_.look(fields);
@@ -75,6 +77,7 @@ public:
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
             for (std::size_t q = range.begin(); q != range.end(); ++q) wishes[q] = sense(queries[q], answers[q]);
         });
+        warn_of_wishes_beyond_voxels(queries);
         const std::vector<double> obtained = parameters_.depletion ? stock_->share(wishes) : stock_->lend(wishes);
         std::fill(uptake_.begin(), uptake_.end(), 0);
         std::fill(wish_.begin(), wish_.end(), 0);
@@ -92,16 +95,17 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
         const WaterBalance& balance = stock_->balance();
         const double amount = parameters_.amount;
-        return {{"uptake", plant < uptake_.size() ? uptake_[plant] : 0},
-                {"wish", plant < wish_.size() ? wish_[plant] : 0},
-                {"total", balance.total * amount},
-                {"added", balance.added * amount},
-                {"boundary", balance.boundary * amount},
-                {"drunk", balance.drunk * amount},
-                {"displaced", balance.displaced * amount},
+        const std::string unit = parameters_.amount == 1 ? "voxels" : "m3";
+        return {{"uptake", plant < uptake_.size() ? uptake_[plant] : 0, unit},
+                {"wish", plant < wish_.size() ? wish_[plant] : 0, unit},
+                {"total", balance.total * amount, unit},
+                {"added", balance.added * amount, unit},
+                {"boundary", balance.boundary * amount, unit},
+                {"drunk", balance.drunk * amount, unit},
+                {"displaced", balance.displaced * amount, unit},
                 {"balance", balance.relative_error()},
-                {"minimum", balance.minimum},
-                {"maximum", balance.maximum}};
+                {"minimum", balance.minimum, "m3/m3"},
+                {"maximum", balance.maximum, "m3/m3"}};
     }
 
     std::pair<int, int> query_arity() const override { return {1, 100}; }
@@ -129,6 +133,24 @@ private:
                 throw RunError(fmt::format("plant {} asks for water with parameter {} = {}", query.plant, p + 1,
                                            format_general(query.parameters[p])));
             }
+        }
+    }
+
+    // Once. Wishes in content times voxels are a million times too large where voxels of a centimetre count as volumes.
+    void warn_of_wishes_beyond_voxels(std::span<const Query> queries) {
+        const double most = 8 * parameters_.amount;  // of eight voxels of nothing but water
+        if (!warnings_ || parameters_.amount == 1) return;
+        for (const Query& query : queries) {
+            if (query.parameters[0] <= most) continue;
+            warnings_->push_back(
+                {Diagnostic::Severity::warning, parameters_.amount_place,
+                 fmt::format("plant {} requests {:g} of '{}', but a voxel holds at most {:.3g}: with "
+                             "amount = \"volume\", requests are content times m3. Request less, or use "
+                             "amount = \"content\"",
+                             query.plant, query.parameters[0], name_, parameters_.amount),
+                 ""});
+            warnings_ = nullptr;
+            return;
         }
     }
 
@@ -166,7 +188,9 @@ private:
     WaterDiffusion diffusion_;
     WaterField field_;
     std::optional<WaterStock> stock_;
-    bool restored_ = false;              ///< the solids looked at are older than the stock
+    bool restored_ = false;  ///< the solids looked at are older than the stock
+    std::string name_;
+    std::vector<Diagnostic>* warnings_;  ///< null as soon as there was one
     std::vector<double> uptake_, wish_;  ///< per plant, this step
 };
 
@@ -175,4 +199,4 @@ const Registered<ProcessType> entry{
      construct<SoilWater>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Photons in the open, mol cm^-2 in a year: 1000 umol m^-2 s^-1 for 12 h on 200 days.
@@ -62,6 +62,7 @@ public:
             settings, context,
             {"grid size", "parameter s", "transmittance", "efficiency", "source", "disk source", "beam radius"});
         file.numbers("grid size", {1, 1, 1}, Range::between(1, 1e9));  // rays are exact without one
+        around_counts_ = file.has_numbers_of_cpfg();
         s_ = file.number("parameter s", 1.5, Range::between(1, 1e6));
         transmittance_ = file.number("transmittance", 0.1, Range::between(0, 1));
         efficiency_ = file.number("efficiency", 0.015, Range::between(0, 1e9));
@@ -109,12 +110,14 @@ private:
             const glm::dvec3 between = other.centre - own.centre;
             const double ahead = glm::dot(between, ray.direction);
             const double reach = other.radius + beam;
-            const double aside2 = glm::dot(between, between) - ahead * ahead;
-            if (other.number != own.number && ahead > 0 && ahead < length && aside2 < reach * reach) ++count;
+            const double apart2 = glm::dot(between, between), aside2 = apart2 - ahead * ahead;
+            const bool in_front = ahead > 0 || (around_counts_ && apart2 < reach * reach);
+            if (other.number != own.number && in_front && ahead < length && aside2 < reach * reach) ++count;
         });
         return count;
     }
 
+    bool around_counts_;  ///< a ball around the asking centre shades it from all sides
     double s_, transmittance_, efficiency_, beam_;
     std::vector<Source> sources_;
     AnswerStatistics statistics_;
@@ -137,11 +140,13 @@ disk_source    ["radius x y z", ...]: horizontal discs of light, each as 100 poi
 beam_radius    b, 0; balls are larger by b times the radius of the querying ball
 grid_size      [1, 1, 1]; accepted and ignored: all clusters are tested
 parameters     a file with these keys in words, as cpfg's program takenaka reads it
+numbers        "exact": a ball counts if its centre is in front of the query's centre; or "cpfg" (default with
+               `parameters` and in .e files): a ball around the query's centre counts too
 
 All sources together give 8.64 mol cm-2 per year without shade (1000 umol m-2 s-1 for 12 h on 200 days).
 Statistics of a plant: mean, min, max of the answers, queries.
 )",
-                                     construct<Takenaka>}};
+                                     construct<Takenaka>, true}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

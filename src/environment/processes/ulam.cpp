@@ -11,8 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// A place where a cell lives or may be born. However many queries stand there, they are one cell.
@@ -20,7 +21,7 @@ struct Cell {
     glm::dvec3 place;
     bool alive = false;
     int edges = 0;         ///< living edge neighbours
-    glm::dvec3 parent{0};  ///< where the last one stands
+    glm::dvec3 parent{0};  ///< where one of them stands, that of the greatest coordinates
     int corners = 0;       ///< living corner neighbours that do not border the parent
 };
 
@@ -112,11 +113,14 @@ private:
         return touches && !(cell.edges > 0 && at_edge(cell.parent, other.place));
     }
 
+    static bool comes_later(const glm::dvec3& a, const glm::dvec3& b) {
+        return std::tie(a.x, a.y, a.z) > std::tie(b.x, b.y, b.z);
+    }
+
     void count_living(const PointGrid& grid, Cell& cell) const {
         grid.visit_around(cell.place, edge_ + tolerance_, [&](std::uint32_t i) {
             if (!cells_[i].alive || !at_edge(cells_[i].place, cell.place)) return true;
-            ++cell.edges;
-            cell.parent = cells_[i].place;
+            if (++cell.edges == 1 || comes_later(cells_[i].place, cell.parent)) cell.parent = cells_[i].place;
             return true;
         });
         grid.visit_around(cell.place, corner_ + tolerance_, [&](std::uint32_t i) {
@@ -175,4 +179,4 @@ Statistics of a plant: born and refused, the answers 1 and 0.
      construct<Ulam>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 // 2^35 voxels, half a terabyte when all of them are shaded.
@@ -253,4 +253,4 @@ Statistics of a plant: mean, min, max of its answers, queries, casts.
      construct<VoxelShade>}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::environment

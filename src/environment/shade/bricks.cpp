@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 // Directories up to this many places are given room to grow at every side.
@@ -167,4 +167,4 @@ void ShadeBricks::require_memory(std::size_t places, std::size_t bricks) const {
                                bytes >> 20, memory_ >> 20));
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

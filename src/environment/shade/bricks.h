@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// Has memory brought near that will be needed soon.
 inline void prefetch([[maybe_unused]] const void* at) {
@@ -106,4 +106,4 @@ private:
     std::vector<std::uint8_t> marks_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

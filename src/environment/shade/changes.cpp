@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using Casts = std::span<const ShadeCast>;
@@ -76,4 +76,4 @@ bool find_changes(Casts before, Casts now, std::size_t most, ShadeChanges& chang
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -3,7 +3,7 @@
 
 #include "environment/shade/pyramid.h"
 
-namespace espalier {
+namespace espalier::environment {
 
 struct ShadeChanges {
     std::vector<ShadeCast> gone, come;
@@ -14,4 +14,4 @@ struct ShadeChanges {
 bool find_changes(std::span<const ShadeCast> before, std::span<const ShadeCast> now, std::size_t most,
                   ShadeChanges& changes);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -11,7 +11,7 @@
 #include <array>
 #include <cstring>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 // 2^36 voxels: beyond it even an index of the bricks is too large to be meant.
@@ -209,4 +209,4 @@ void ShadeField::list(const ShadeCasts& casts, const ShadeCast& cast, const Shad
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

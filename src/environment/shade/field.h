@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// The part of a square that lies in a brick: rows from `left` to `right`, of each the voxels from `back` to `front`.
 struct ShadePart {
@@ -65,5 +65,11 @@ private:
     VoxelBox box_;
     std::size_t shown_ = 0;  ///< pyramids
 };
+
+}  // namespace espalier::environment
+
+namespace espalier {
+
+using environment::ShadeField;
 
 }  // namespace espalier

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <atomic>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using Tree = openvdb::FloatTree;
@@ -233,4 +233,4 @@ void ShadeGrids::note_changes(ShadeBricks& bricks) {
     bricks.forget_changes();
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace espalier {
+namespace espalier::environment {
 
 class ShadeGrids {
 public:
@@ -35,4 +35,4 @@ private:
     std::unique_ptr<Grids> grids_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -2,7 +2,7 @@
 
 #include "base/vector_clones.h"
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Which of a brick's voxels are shaded, and whether all of them are below `most_fast_shade`.
@@ -67,4 +67,4 @@ void write_shade(const Shade* sums, const ShadeLeaf& leaf) {
     write_one_by_one(sums, leaf.values, [](Shade sum) { return shade_value(sum); });
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "environment/shade/bricks.h"
+#include "environment/shade/eight_reals.h"
 
 #include <cstring>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// Whole numbers below 2^52 are the bits of a double above 2^52: every width of vectors can read them so.
 constexpr std::uint64_t most_fast_shade = std::uint64_t(1) << 52;
@@ -16,9 +17,7 @@ struct ShadeLeaf {
     std::uint64_t* shaded = nullptr;
 };
 
-// In as many parts as the machine's vectors need.
 using EightShades = std::uint64_t __attribute__((vector_size(64), may_alias));
-using EightReals = double __attribute__((vector_size(64)));
 using EightFloats = float __attribute__((vector_size(32)));
 
 /// shade_value of eight sums below `most_fast_shade`.
@@ -42,4 +41,4 @@ inline void read_lights(double full_light, const EightShades& sums, EightFloats&
 void write_light(const ShadeRule& rule, const Shade* sums, const ShadeLeaf& leaf);
 void write_shade(const Shade* sums, const ShadeLeaf& leaf);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 // Far enough from the ends of int that pyramids around a voxel can be numbered too.
@@ -134,4 +134,4 @@ void ShadeLight::fetch(const glm::dvec3& point) const {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

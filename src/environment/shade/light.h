@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// Where voxels lie in space. Voxel (0, 0, 0) has its centre at the origin, so that a plant there stands in its middle.
 struct ShadeLattice {
@@ -55,4 +55,4 @@ private:
     const ShadeField& field_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -8,7 +8,7 @@
 
 #include <bit>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr double most_shade = 134217728.0;  // 2^27: all pyramids in one voxel still fit into 63 bits
@@ -33,7 +33,7 @@ double VoxelBox::voxels() const {
 
 ShadeCasts::ShadeCasts(const ShadeRule& rule, const VoxelBox& clip) : rule_(rule), clip_(clip) {
     for (int q = 0; q <= rule.depth; ++q) {
-        half_widths_.push_back(espalier::half_width(rule, q));
+        half_widths_.push_back(environment::half_width(rule, q));
         fading_.push_back(std::pow(rule.dissipation, -q));
     }
     grow_table();
@@ -116,4 +116,4 @@ void ShadeCasts::grow_table() {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

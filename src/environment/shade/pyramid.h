@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// Shade in steps of 2^-36: added strength, or optical depth where shadows multiply.
 using Shade = std::int64_t;
@@ -131,4 +131,4 @@ private:
     double total_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using Triangle = std::array<glm::dvec3, 3>;
@@ -76,4 +76,4 @@ std::vector<SkyDirection> normalised_sky(std::vector<SkyDirection> directions) {
     return directions;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

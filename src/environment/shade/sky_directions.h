@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 struct SkyDirection {
     glm::dvec3 towards;  ///< where the light comes from, of unit length
@@ -24,4 +24,4 @@ std::vector<SkyDirection> chiba_overcast_sky(std::int64_t samples, double lower_
 /// Given directions, of any length, with weights of any sum.
 std::vector<SkyDirection> normalised_sky(std::vector<SkyDirection> directions);
 
-}  // namespace espalier
+}  // namespace espalier::environment

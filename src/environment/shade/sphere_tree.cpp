@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
@@ -61,4 +61,4 @@ bool SphereTree::may_meet(const Ray& ray, const Box& box) {
     return near <= far * (1 + 1e-12);
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 struct Ray {
     glm::dvec3 origin, direction;  ///< of unit length
@@ -65,4 +65,4 @@ private:
     std::vector<Node> nodes_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

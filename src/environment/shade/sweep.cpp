@@ -14,7 +14,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr int edge = ShadeBricks::edge;
@@ -419,4 +419,4 @@ void ShadeSweep::list_targets(ShadeBricks& bricks, const glm::ivec3& first, int 
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

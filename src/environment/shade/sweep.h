@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// A pyramid, once for every slice it reaches into.
 struct SlicedCast {
@@ -106,4 +106,4 @@ inline BrickSquare reached_bricks(const ShadeCasts& casts, const glm::ivec3& ape
             std::max(apex.z - deep, clip.lower.z) >> 3, std::min(apex.z + deep, clip.upper.z) >> 3};
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

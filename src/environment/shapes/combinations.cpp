@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 struct DistanceAndNormal {
@@ -269,4 +269,4 @@ std::shared_ptr<const Shape> grown_and_moved(std::shared_ptr<const Shape> shape,
     return std::make_shared<Placed>(std::move(shape), 1, glm::dquat(1, 0, 0, 0), movement);
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
@@ -111,4 +111,4 @@ std::shared_ptr<const FieldGrid> sample_level_set(const Shape& shape, const Box&
     return std::make_shared<const FieldGrid>(FieldGrid{grid, voxels});
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

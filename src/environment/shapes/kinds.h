@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 using ShapePointer = std::shared_ptr<const Shape>;
 
@@ -38,4 +38,4 @@ glm::dvec3 perpendicular(const glm::dvec3& unit);
 /// Two points that must differ, read as keys `first` and `second`. Throws UserError.
 void require_apart(const Settings& table, const char* key, const glm::dvec3& first, const glm::dvec3& second);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -12,7 +12,7 @@
 #include <optional>
 #include <unistd.h>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using DenseGrid = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
@@ -141,4 +141,4 @@ LevelSet::Reading LevelSet::read(const glm::dvec3& point) const {
     return {true, lerp(y0, y1, t.x), glm::dvec3(y1 - y0, dy, dz) / storage_->voxel};
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-namespace espalier {
+namespace espalier::environment {
 
 class LevelSet {
 public:
@@ -29,4 +29,4 @@ private:
     std::unique_ptr<const Storage> storage_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

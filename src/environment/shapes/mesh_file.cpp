@@ -16,7 +16,7 @@
 #include <unistd.h>
 #include <unordered_map>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 std::string lower_case_extension(const std::filesystem::path& file) {
@@ -212,4 +212,4 @@ HeightImage read_height_image(const std::filesystem::path& file, const Place& pl
                                 file.string()));
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

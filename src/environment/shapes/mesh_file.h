@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// A closed triangle mesh of OBJ, STL or PLY. `place` is where the file was asked for.
 /// Throws UserError: missing, not a mesh, empty, points that are NaN, open edges, no volume.
@@ -21,4 +21,4 @@ struct HeightImage {
 /// A PNG of 8 or 16 bits a channel, or an SGI (.rgb) or Targa (.tga) picture. Throws UserError if the file is none.
 HeightImage read_height_image(const std::filesystem::path& file, const Place& place);
 
-}  // namespace espalier
+}  // namespace espalier::environment

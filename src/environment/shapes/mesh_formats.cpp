@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 bool is_blank(char c) {
@@ -276,4 +276,4 @@ PolygonMesh parse_ply(std::string_view bytes) {
     return PlyBody(bytes, header.order).read(header.elements);
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

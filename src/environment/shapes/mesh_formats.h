@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 struct PolygonMesh {
     std::vector<glm::dvec3> points;
@@ -26,4 +26,4 @@ PolygonMesh parse_obj(std::string_view bytes);
 PolygonMesh parse_stl(std::string_view bytes);
 PolygonMesh parse_ply(std::string_view bytes);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class BoxShape final : public Shape {
@@ -173,4 +173,4 @@ ShapePointer read_tube(Settings& table) {
     return std::make_shared<Tube>(std::move(points), radius);
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

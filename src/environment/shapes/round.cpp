@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 class Sphere final : public Shape {
@@ -224,4 +224,4 @@ ShapePointer read_cone(Settings& table) {
     return std::make_shared<Frustum>(base, tip, base_radius, table.number_or("tip_radius", 0, Range::not_negative()));
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

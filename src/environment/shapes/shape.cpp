@@ -1,7 +1,6 @@
 #include "espalier/environment/shape.h"
 
-#include "espalier/base/text.h"
-
+#include "base/text.h"
 #include "environment/shapes/kinds.h"
 
 #include <fmt/format.h>
@@ -10,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 struct Kind {
@@ -92,4 +91,4 @@ Every shape may have, applied in this order:
   offset (0): expands by so many metres, shrinks if negative)";
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Near the surface the level set answers; farther away it knows the sign and the triangles the distance.
@@ -194,4 +194,4 @@ ShapePointer read_height_field(Settings& table) {
     return std::make_shared<HeightField>(std::move(heights));
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
@@ -114,4 +114,4 @@ TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& point) const {
     return best;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

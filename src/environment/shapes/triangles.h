@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 struct TriangleMesh {
     std::vector<glm::dvec3> points;
@@ -45,4 +45,4 @@ private:
     std::vector<Node> nodes_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

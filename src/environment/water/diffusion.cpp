@@ -1,6 +1,6 @@
 #include "environment/water/diffusion.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Of the stability limit (1: dt times the sum of a voxel's conductances; von Neumann's D dt / h^2 <= 1 / (2 dim)).
@@ -220,4 +220,4 @@ double relaxation_sweep(const WaterGrid& grid, const WaterFaces& faces, double w
     return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// Linear diffusion, dc/dt = div(D grad c), by explicit finite volumes: what leaves a voxel through a face enters its
 /// neighbour. D depends on the layer; across layers the harmonic mean counts (Patankar 1980, eq. 4.9).
@@ -52,4 +52,4 @@ private:
 /// spare cells; returns the largest change.
 double relaxation_sweep(const WaterGrid& grid, const WaterFaces& faces, double w, WaterBrick& from, WaterBrick& to);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
@@ -115,4 +115,4 @@ WaterHeading clear_heading(const WaterGrid& grid, const WaterSolids& solids, con
     return {};
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -4,7 +4,7 @@
 #include "environment/water/grid.h"
 #include "environment/water/solids.h"
 
-namespace espalier {
+namespace espalier::environment {
 
 struct WaterSample {
     WaterStencil stencil;  ///< over free voxels
@@ -27,4 +27,4 @@ struct WaterHeading {
 WaterHeading clear_heading(const WaterGrid& grid, const WaterSolids& solids, const Pose& pose,
                            const glm::dvec3& direction, double length);
 
-}  // namespace espalier
+}  // namespace espalier::environment

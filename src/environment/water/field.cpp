@@ -6,7 +6,7 @@
 
 #include <atomic>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
@@ -81,4 +81,4 @@ std::shared_ptr<const FieldGrid> WaterField::current() {
     return published_;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -8,7 +8,7 @@
 #include <functional>
 #include <memory>
 
-namespace espalier {
+namespace espalier::environment {
 
 class WaterField {
 public:
@@ -33,4 +33,4 @@ private:
     bool stale_ = true;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

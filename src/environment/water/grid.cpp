@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// Whole voxels that cover `extent`; a hair of rounding does not cost another one.
@@ -118,4 +118,4 @@ WaterFaces::WaterFaces(const WaterGrid& grid, const std::vector<std::uint8_t>& i
     for (const std::size_t free : free_in_row) free_voxels_ += free;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

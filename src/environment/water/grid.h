@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// The voxels around a point and their shares of it. Weights sum to 1, or are all 0 where no voxel is free.
 /// Entries come in mirror pairs along x, then y, then z: sums taken pairwise are the same for mirrored points.
@@ -95,4 +95,4 @@ private:
     std::size_t free_voxels_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -1,13 +1,13 @@
 #include "environment/water/parameters.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr double max_content = 1e30;  ///< keeps every sum finite
@@ -167,6 +167,7 @@ WaterParameters read_water_parameters(Settings& settings, const EnvironmentConte
     parameters.depletion = settings.flag_or("depletion", true);
     const double h = parameters.voxel;
     parameters.amount = settings.choice_or("amount", "content", {"content", "volume"}) == "volume" ? h * h * h : 1;
+    parameters.amount_place = settings.place("amount");
     parameters.range = settings.number_or("range", 1, Range::positive());
     parameters.gradient_length = settings.number_or("gradient_length", h, Range::positive());
     return parameters;
@@ -227,4 +228,4 @@ Field `name`: the content. Statistics: uptake and wish (this plant, this step); 
 added (by sources, so far), boundary (net inflow so far), drunk (so far), displaced (by moving obstacles, so far),
 balance = (start + added + boundary - drunk - displaced - total) / the largest of them; minimum and maximum content.)";
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 enum class WaterMode { diffusion, relaxation };
 
@@ -63,6 +63,7 @@ struct WaterParameters {
     std::string obstacle_field, container_field;  ///< distance fields of other processes; empty: none
     bool depletion = true;
     double amount = 1;  ///< amount of one voxel full of content 1
+    Place amount_place;
     double range = 1;
     double gradient_length = 0;
 
@@ -79,4 +80,4 @@ const WaterLayer* layer_at(const WaterParameters& parameters, double y);
 /// What `espalier list` prints for process soil-water.
 extern const char* const soil_water_help;
 
-}  // namespace espalier
+}  // namespace espalier::environment

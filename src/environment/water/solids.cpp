@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 double sample(const FieldGrid& field, const glm::dvec3& point) {
@@ -70,4 +70,4 @@ std::vector<std::uint8_t> WaterSolids::free_voxels(const WaterGrid& grid) const 
     return free;
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

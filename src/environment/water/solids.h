@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 class WaterSolids {
 public:
@@ -33,4 +33,4 @@ private:
     std::shared_ptr<const FieldGrid> obstacle_field_, container_field_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 constexpr std::size_t not_numbered = std::numeric_limits<std::size_t>::max();
@@ -156,4 +156,4 @@ void settle(const WaterGrid& grid, const WaterFaces& faces, const WaterDiffusion
     SteadyState(grid, faces, diffusion, forcing, contents).settle();
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// What does not change by diffusion, per cell: voxels held at their content, and what sources bring per time unit.
 struct WaterForcing {
@@ -23,4 +23,4 @@ inline constexpr double steady_bytes_per_voxel = 250;
 void settle(const WaterGrid& grid, const WaterFaces& faces, const WaterDiffusion& diffusion,
             const WaterForcing& forcing, WaterBrick& contents);
 
-}  // namespace espalier
+}  // namespace espalier::environment

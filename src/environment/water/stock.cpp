@@ -12,7 +12,7 @@
 #include <limits>
 #include <ostream>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 template <class Visit>
@@ -147,7 +147,7 @@ void WaterStock::settle(const WaterDiffusion& diffusion) {
             forcing.gain[cell] += source.source.rate;
         }
     }
-    espalier::settle(grid_, faces_, diffusion, forcing, contents_);
+    environment::settle(grid_, faces_, diffusion, forcing, contents_);
     balance_ = {};
     measure();
     balance_.start = balance_.total;
@@ -253,4 +253,4 @@ void read_doubles(std::istream& in, std::span<double> values) {
     if (!in) throw RunError("the checkpoint ends in the middle of the soil");
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

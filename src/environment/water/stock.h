@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// In content times voxels; all but `total` add up from the beginning.
 struct WaterBalance {
@@ -80,4 +80,4 @@ void write_doubles(std::ostream& out, std::span<const double> values);
 /// Throws RunError if the stream ends early.
 void read_doubles(std::istream& in, std::span<double> values);
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace espalier {
+namespace espalier::environment {
 namespace {
 
 /// A wish's demand on one voxel.
@@ -67,4 +67,4 @@ double obtain_alone(const WaterGrid& grid, const WaterWish& wish, const WaterBri
     return sum_in_pairs(shares);
 }
 
-}  // namespace espalier
+}  // namespace espalier::environment

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::environment {
 
 /// One wish, in content times voxels, spread over the voxels of a stencil.
 struct WaterWish {
@@ -26,4 +26,4 @@ ShareResult share_water(const WaterGrid& grid, std::span<const WaterWish> wishes
 /// What each wish would obtain alone; nothing is taken.
 double obtain_alone(const WaterGrid& grid, const WaterWish& wish, const WaterBrick& contents);
 
-}  // namespace espalier
+}  // namespace espalier::environment

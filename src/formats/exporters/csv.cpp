@@ -1,10 +1,10 @@
-// One table of all internodes and organs of all frames, for statistics programs.
-#include "espalier/base/csv_file.h"
+// One table of all internodes, organs and answered queries of all frames, for statistics programs.
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
+#include "base/csv_file.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -36,6 +36,7 @@ public:
             if (wanted(internode.plant)) add_internode(frame, geometry, internode);
         }
         add_organs(frame, geometry);
+        add_queries(frame, geometry);
     }
 
     std::size_t rows() const { return rows_; }
@@ -51,7 +52,7 @@ private:
 
     void add_header(const RecordedGeometry& geometry) {
         text_ =
-            "step,time,plant,kind,symbol,identity,parent,birth,order,colour,x,y,z,end_x,end_y,end_z,length,radius,"
+            "step,time,plant,name,kind,symbol,identity,parent,birth,order,colour,x,y,z,end_x,end_y,end_z,length,radius,"
             "area,volume";
         for (const auto& [name, values] : geometry.parameters) {
             parameters_.push_back(name);
@@ -61,7 +62,7 @@ private:
     }
 
     void begin_row(const RecordedFrame& frame, const RecordedGeometry& geometry, const Described& of) {
-        put("{},{},{},{},{},{},{},{},{},{}", frame.step, format_exact(frame.time),
+        put("{},{},{},{},{},{},{},{},{},{},{}", frame.step, format_exact(frame.time), of.plant,
             csv_text(job_.run.plants()[of.plant].name), of.kind, csv_text(geometry.symbol_names[of.symbol]),
             of.identity, of.parent, of.birth, of.order, of.colour);
         ++rows_;
@@ -146,6 +147,23 @@ private:
         end_row(geometry, point);
     }
 
+    // What they were answered is a chosen parameter.
+    void add_queries(const RecordedFrame& frame, const RecordedGeometry& geometry) {
+        const RecordedAttributes& of = geometry.of_cells;
+        for (std::size_t cell = 0; cell < geometry.vertices.size(); ++cell) {
+            const std::size_t row = geometry.vertices.first + cell;
+            const auto corners = geometry.vertices[cell];
+            if (of.kinds[row] != Kind::query || corners.empty() || !wanted(of.plants[row])) continue;
+            const auto point = static_cast<std::size_t>(corners[0]);
+            begin_row(frame, geometry,
+                      {"query", of.plants[row], of.symbols[row], of.orders[row], of.colours[row], of.identities[row],
+                       of.parents[row], of.births[row]});
+            put(geometry.points[point]);
+            text_ += ",,,,,,,";
+            end_row(geometry, point);
+        }
+    }
+
     const ExportJob& job_;
     std::vector<std::string> parameters_;  ///< of the first frame
     std::string text_;
@@ -166,8 +184,9 @@ public:
 };
 
 const Registered<ExporterType> entry{
-    {"csv", "a table with a row per frame and internode or organ: for R, pandas, spreadsheets",
-     "Columns: step, time, plant, kind, symbol, identity, parent, birth, order, colour, x, y, z, end_x, end_y, end_z,\n"
+    {"csv", "a table with a row per frame and internode, organ or answered query: for R, pandas, spreadsheets",
+     "Columns: step, time, plant (its number), name, kind (internode, organ, query), symbol, identity, parent, birth, "
+     "order, colour, x, y, z, end_x, end_y, end_z,\n"
      "length, radius, area (m2, of one side of an organ), volume, and the run's chosen parameters. All frames in one "
      "file.\n"
      "Lost: the shape of organs",

@@ -5,18 +5,23 @@
 #include "formats/glb.h"
 #include "formats/growth_nodes.h"
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <map>
 
 namespace espalier::formats {
 namespace {
 
-constexpr float steps_per_second = 24;
-
 // glTF's vertical is y.
 MeshOptions standing(MeshOptions options) {
     options.up = 'y';
     return options;
+}
+
+glm::vec4 quaternion(const glm::quat& q) {
+    return {q.x, q.y, q.z, q.w};
 }
 
 /// Every plant a node with a mesh.
@@ -63,41 +68,16 @@ private:
     std::vector<glm::vec4> values_;
 };
 
-glm::vec4 quaternion(const glm::quat& q) {
-    return {q.x, q.y, q.z, q.w};
-}
-
-class Growth {
+/// Meshes of shapes, each once.
+class ShapeMeshes {
 public:
-    explicit Growth(const ExportJob& job) : job_(job), nodes_(standing(job.options)), glb_(job.run.folder()) {}
+    explicit ShapeMeshes(Glb& glb) : glb_(glb) {}
 
-    ExportedFile write() {
-        for (const RecordedFrame* frame : job_.frames) {
-            nodes_.add(job_.run.geometry(*frame));
-            times_.push_back(static_cast<float>(frame->step - job_.frames.front()->step) / steps_per_second);
-        }
-        std::size_t number = 0;
-        for (const GrowthNode& node : nodes_.all()) {
-            if (!node.poses.empty()) add(node, number++);
-        }
-        std::vector<std::size_t> roots;
-        for (auto& [plant, children] : children_) {
-            roots.push_back(
-                glb_.add_node({{"name", job_.run.plants()[plant].name}, {"children", std::move(children)}}));
-        }
-        const auto path = job_.path("glb");
-        write_text(path, glb_.bytes(roots));
-        return {path, vertices_, triangles_, number, "moving internodes and organs"};
-    }
-
-private:
-    std::size_t shape_number(const NodeShape& shape) {
-        vertices_ += shape.points.size();
-        triangles_ += shape.triangles.size();
+    std::size_t number(const NodeShape& shape) {
         NodeShape rounded = shape;
         rounded.round();
-        const auto known = shapes_.find(rounded);
-        if (known != shapes_.end()) return known->second;
+        const auto known = numbers_.find(rounded);
+        if (known != numbers_.end()) return known->second;
         std::vector<MeshMaterial> materials;
         std::vector<std::uint32_t> material_of;
         for (const Rgb& rgb : shape.rgb) {
@@ -108,8 +88,184 @@ private:
         }
         const std::size_t mesh =
             glb_.add_mesh(shape.points, shape.normals, shape.uvs, shape.triangles, material_of, materials);
-        shapes_.emplace(std::move(rounded), mesh);
+        numbers_.emplace(std::move(rounded), mesh);
         return mesh;
+    }
+
+private:
+    struct ByKey {
+        bool operator()(const NodeShape& a, const NodeShape& b) const { return a.key() < b.key(); }
+    };
+
+    Glb& glb_;
+    std::map<NodeShape, std::size_t, ByKey> numbers_;
+};
+
+/// Every plant's wood as a mesh, and each of the shapes of its organs once, in all its places.
+class Instances {
+public:
+    Instances(const ExportJob& job, const RecordedFrame& frame)
+        : job_(job), frame_(frame), glb_(job.run.folder()), meshes_(glb_) {}
+
+    ExportedFile write() {
+        const RecordedGeometry geometry = job_.run.geometry(frame_);
+        add_wood(geometry);
+        add_organs(geometry);
+        std::vector<std::size_t> roots;
+        for (auto& [plant, children] : children_) {
+            roots.push_back(
+                glb_.add_node({{"name", job_.run.plants()[plant].name}, {"children", std::move(children)}}));
+        }
+        const auto path = job_.path(frame_, "glb");
+        write_text(path, glb_.bytes(roots));
+        return {path, vertices_, triangles_, organs_, "instances"};
+    }
+
+private:
+    struct Places {
+        std::string symbol;
+        std::vector<glm::vec3> translations, scales;
+        std::vector<glm::vec4> rotations;
+    };
+
+    void add_wood(const RecordedGeometry& geometry) {
+        const FrameMesh mesh = tubes_of(geometry, standing(job_.options));
+        for (const auto& [plant, own] : by_plant(mesh)) {
+            vertices_ += own.points.size();
+            triangles_ += own.triangles.size();
+            const std::size_t shape =
+                glb_.add_mesh(own.points, own.normals, own.uvs, own.triangles, own.material_of, mesh.materials);
+            children_[plant].push_back(glb_.add_node({{"name", "axes"}, {"mesh", shape}}));
+        }
+    }
+
+    void add_organs(const RecordedGeometry& geometry) {
+        GrowthNodes nodes(standing(job_.options));
+        nodes.add_organs(geometry);
+        std::map<std::pair<std::uint32_t, std::size_t>, Places> places;  // by plant and mesh
+        for (const GrowthNode& organ : nodes.all()) {
+            if (organ.poses.empty()) continue;
+            Places& here = places[{organ.part.plant, meshes_.number(organ.organ)}];
+            if (here.translations.empty()) {
+                vertices_ += organ.organ.points.size();
+                triangles_ += organ.organ.triangles.size();
+            }
+            const NodePose& pose = organ.poses.back().second;
+            here.symbol = organ.part.symbol;
+            here.translations.push_back(pose.translation);
+            here.rotations.push_back(quaternion(pose.rotation));
+            here.scales.push_back(pose.scale);
+            ++organs_;
+        }
+        for (const auto& [key, here] : places) {
+            children_[key.first].push_back(glb_.add_instances({{"name", here.symbol}, {"mesh", key.second}},
+                                                              here.translations, here.rotations, here.scales));
+        }
+    }
+
+    const ExportJob& job_;
+    const RecordedFrame& frame_;
+    Glb glb_;
+    ShapeMeshes meshes_;
+    std::map<std::uint32_t, std::vector<std::size_t>> children_;  ///< of each plant
+    std::size_t vertices_ = 0, triangles_ = 0, organs_ = 0;
+};
+
+class Growth {
+public:
+    explicit Growth(const ExportJob& job)
+        : job_(job), nodes_(standing(job.options)), glb_(job.run.folder()), meshes_(glb_) {}
+
+    ExportedFile write() {
+        for (const RecordedFrame* frame : job_.frames) {
+            nodes_.add(job_.run.geometry(*frame));
+            const double seconds = (frame->step - job_.frames.front()->step) / job_.steps_per_second;
+            times_.push_back(static_cast<float>(seconds));
+        }
+        const std::size_t number = job_.grouped ? add_groups() : add_nodes();
+        std::vector<std::size_t> roots;
+        for (auto& [plant, children] : children_) {
+            roots.push_back(
+                glb_.add_node({{"name", job_.run.plants()[plant].name}, {"children", std::move(children)}}));
+        }
+        const auto path = job_.path("glb");
+        write_text(path, glb_.bytes(roots));
+        if (job_.grouped) return {path, vertices_, triangles_, number, "groups that appear"};
+        ExportedFile file{path, vertices_, triangles_, number, "moving internodes and organs"};
+        constexpr std::size_t many = 2000;
+        if (number > many) {
+            file.hint = "many programs are slow with so many objects: --grouped makes one of what is born together";
+        }
+        return file;
+    }
+
+private:
+    std::size_t add_nodes() {
+        std::size_t number = 0;
+        for (const GrowthNode& node : nodes_.all()) {
+            if (!node.poses.empty()) add(node, number++);
+        }
+        return number;
+    }
+
+    std::size_t shape_number(const NodeShape& shape) {
+        vertices_ += shape.points.size();
+        triangles_ += shape.triangles.size();
+        return meshes_.number(shape);
+    }
+
+    /// What one plant has from one frame to another, each thing as it was last seen.
+    std::size_t add_groups() {
+        std::map<std::tuple<std::uint32_t, std::size_t, std::size_t>, FrameMesh> groups;
+        for (const GrowthNode& node : nodes_.all()) {
+            if (node.poses.empty()) continue;
+            const auto& [last, pose] = node.poses.back();
+            append(groups[{node.part.plant, node.poses.front().first, last}], shape_of(node, job_.options.sides), pose);
+        }
+        for (const auto& [key, mesh] : groups) {
+            const auto& [plant, first, last] = key;
+            const std::size_t shape =
+                glb_.add_mesh(mesh.points, mesh.normals, mesh.uvs, mesh.triangles, mesh.material_of, mesh.materials);
+            vertices_ += mesh.points.size();
+            triangles_ += mesh.triangles.size();
+            const std::size_t node = glb_.add_node(
+                {{"name", fmt::format("{}_born_{}", job_.run.plants()[plant].name, job_.frames[first]->step)},
+                 {"mesh", shape}});
+            children_[plant].push_back(node);
+            show(node, first, last);
+        }
+        return groups.size();
+    }
+
+    static void append(FrameMesh& mesh, const NodeShape& shape, const NodePose& pose) {
+        const auto origin = static_cast<std::uint32_t>(mesh.points.size());
+        for (std::size_t i = 0; i < shape.points.size(); ++i) {
+            mesh.points.push_back(pose.translation + pose.rotation * (pose.scale * shape.points[i]));
+            mesh.normals.push_back(glm::normalize(pose.rotation * (shape.normals[i] / pose.scale)));
+            mesh.uvs.push_back(shape.uvs[i]);
+        }
+        for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+            const auto [a, b, c] = shape.triangles[i];
+            mesh.triangles.push_back({origin + a, origin + b, origin + c});
+            const MeshMaterial look{shape.rgb[i], shape.texture};
+            auto at = std::find(mesh.materials.begin(), mesh.materials.end(), look);
+            if (at == mesh.materials.end()) at = mesh.materials.insert(at, look);
+            mesh.material_of.push_back(static_cast<std::uint32_t>(at - mesh.materials.begin()));
+        }
+    }
+
+    /// At the frames from `first` to `last` alone, at once and whole.
+    void show(std::size_t node, std::size_t first, std::size_t last) {
+        std::vector<float> times;
+        std::vector<glm::vec4> scales;
+        const auto add = [&](std::size_t frame, float scale) {
+            times.push_back(times_[frame]);
+            scales.emplace_back(scale, scale, scale, 0);
+        };
+        if (first > 0) add(0, 0);
+        add(first, 1);
+        if (last + 1 < times_.size()) add(last + 1, 0);
+        if (times.size() > 1) glb_.animate(node, "scale", times, scales, "STEP");
     }
 
     void add(const GrowthNode& thing, std::size_t number) {
@@ -144,15 +300,11 @@ private:
         scale.finish();
     }
 
-    struct ByKey {
-        bool operator()(const NodeShape& a, const NodeShape& b) const { return a.key() < b.key(); }
-    };
-
     const ExportJob& job_;
     GrowthNodes nodes_;
     std::vector<float> times_;
     Glb glb_;
-    std::map<NodeShape, std::size_t, ByKey> shapes_;
+    ShapeMeshes meshes_;
     std::map<std::uint32_t, std::vector<std::size_t>> children_;  ///< of each plant
     std::size_t vertices_ = 0, triangles_ = 0;
 };
@@ -162,7 +314,9 @@ public:
     std::string extension() const override { return "glb"; }
 
     void write(const ExportJob& job) const override {
-        job.report(job.frames.size() == 1 ? write_frame(job, *job.frames[0]) : Growth(job).write());
+        const RecordedFrame& frame = *job.frames[0];
+        if (job.frames.size() > 1) return job.report(Growth(job).write());
+        job.report(job.instances ? Instances(job, frame).write() : write_frame(job, frame));
     }
 };
 
@@ -170,9 +324,14 @@ const Registered<ExporterType> entry{
     {"gltf", "glTF 2.0 (.glb), one frame or the growth as an animation: for the web, Blender, engines",
      "One frame: a node per plant, smooth tubes, materials by colour and texture (embedded). Several (--step all): one "
      "file in which every\n"
-     "internode and organ is a node that appears at its birth, moves, grows and vanishes, 24 steps a second; it has\n"
-     "the shape and colour it was last seen in, an internode a taper to a sixteenth. The vertical is y, as glTF says.\n"
-     "Lost: parameters; in animations smooth joints, and --simplify means nothing",
+     "internode and organ is a node that appears at its birth, moves, grows and vanishes, --rate steps a second; it "
+     "has\n"
+     "the shape and colour it was last seen in, an internode a taper to a sixteenth. --grouped: what is born and dies "
+     "at\n"
+     "the same steps is one object that appears as it was last seen. --instances, of one frame: organs that look "
+     "alike\n"
+     "are one mesh in many places (EXT_mesh_gpu_instancing). The vertical is y, as glTF says.\n"
+     "Lost: parameters; in animations smooth joints and textures of axes, and --simplify means nothing",
      construct<Gltf>}};
 
 }  // namespace

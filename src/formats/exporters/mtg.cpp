@@ -1,10 +1,10 @@
 // Multiscale tree graphs (Godin and Caraglio 1998) as OpenAlea reads them: plants P, axes A, internodes I.
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/formats/exporter.h"
 
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

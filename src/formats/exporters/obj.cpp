@@ -12,11 +12,9 @@
 namespace espalier::formats {
 namespace {
 
-// Many groups share a material; its name says what it looks like.
-std::string material_name(const MeshMaterial& material, std::size_t number) {
-    const auto [red, green, blue] = material.rgb;
-    const std::string colour = fmt::format("rgb_{:02x}{:02x}{:02x}", red, green, blue);
-    return material.texture.empty() ? colour : fmt::format("{}_texture_{}", colour, number);
+// Two files may have one stem.
+std::string numbered_name(const MeshMaterial& material, std::size_t number) {
+    return material.texture.empty() ? material_name(material) : fmt::format("{}_{}", material_name(material), number);
 }
 
 std::string mtl(const FrameMesh& mesh, TextureCopies& textures) {
@@ -26,7 +24,7 @@ std::string mtl(const FrameMesh& mesh, TextureCopies& textures) {
         const auto [red, green, blue] = material.rgb;
         fmt::format_to(std::back_inserter(text),
                        "newmtl {}\nKa 0 0 0\nKd {:.6f} {:.6f} {:.6f}\nKs 0 0 0\nd 1\nillum 1\n",
-                       material_name(material, i), red / 255.0, green / 255.0, blue / 255.0);
+                       numbered_name(material, i), red / 255.0, green / 255.0, blue / 255.0);
         const std::string& copy = textures.name(material.texture);
         if (!copy.empty()) text += "map_Kd " + copy + "\n";
     }
@@ -62,7 +60,7 @@ private:
             const std::size_t triangle = part.first_triangle + i;
             const std::uint32_t material = mesh_.material_of[triangle];
             if (i == 0 || material != mesh_.material_of[triangle - 1]) {
-                add("usemtl {}\n", material_name(mesh_.materials[material], material));
+                add("usemtl {}\n", numbered_name(mesh_.materials[material], material));
             }
             text_ += 'f';
             for (const std::uint32_t corner : mesh_.triangles[triangle]) add(" {0}/{0}/{0}", corner + 1);

@@ -15,7 +15,7 @@ std::string header(const FrameMesh& mesh) {
         "ply\nformat binary_little_endian 1.0\ncomment made by espalier; metres\nelement vertex {}\n"
         "property float x\nproperty float y\nproperty float z\n"
         "property float nx\nproperty float ny\nproperty float nz\n"
-        "property float u\nproperty float v\n"
+        "property float s\nproperty float t\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
         "element face {}\nproperty list uchar int vertex_indices\nproperty int plant\nproperty int part\nend_header\n",
         mesh.points.size(), mesh.triangles.size());
@@ -57,7 +57,7 @@ public:
 
 const Registered<ExporterType> entry{
     {"ply", "binary PLY, a file per frame: for MeshLab, CloudCompare and scripts",
-     "Vertices with normal, texture coordinates u, v and colour; triangles with the numbers of their plant and part.\n"
+     "Vertices with normal, texture coordinates s, t and colour; triangles with the numbers of their plant and part.\n"
      "Lost: time, identities, parameters, textures",
      construct<Ply>}};
 

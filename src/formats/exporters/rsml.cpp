@@ -1,10 +1,10 @@
 // Root System Markup Language (Lobet et al. 2015): axes as polylines with diameters, laterals inside what bears them.
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 #include "espalier/formats/exporter.h"
 
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"
+#include "base/text.h"
 #include "base/xml_text.h"
 
 #include <fmt/format.h>

@@ -5,95 +5,20 @@
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"
 #include "archive/meshes/tubes.h"
-#include "formats/colour.h"
+#include "formats/usd_instances.h"
 #include "formats/usd_materials.h"
+#include "formats/usd_text.h"
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 
 #include <iterator>
 #include <map>
+#include <optional>
 
 namespace espalier::formats {
 namespace {
 
-/// An attribute's value at each frame, as text.
-class Samples {
-public:
-    /// `declaration` is as in "point3f[] points"; `metadata` may be "".
-    Samples(std::string declaration, std::string metadata)
-        : declaration_(std::move(declaration)), metadata_(std::move(metadata)) {}
-
-    void add(int step, std::string value) {
-        // Between three equal ones the middle one says nothing.
-        const std::size_t count = values_.size();
-        if (count >= 2 && values_[count - 1].second == value && values_[count - 2].second == value) values_.pop_back();
-        values_.emplace_back(step, std::move(value));
-    }
-
-    void append_to(std::string& text, std::size_t indent = 12) const {
-        const std::string margin(indent, ' ');
-        const auto add = [&](fmt::string_view format, const auto&... values) {
-            fmt::vformat_to(std::back_inserter(text), fmt::format("{}{}\n", margin, format),
-                            fmt::make_format_args(values...));
-        };
-        const std::string metadata =
-            metadata_.empty() ? "" : fmt::format(" (\n{0}    interpolation = \"{1}\"\n{0})", margin, metadata_);
-        if (values_.size() == 1) return add("{} = {}{}", declaration_, values_[0].second, metadata);
-        if (!metadata.empty()) add("{}{}", declaration_, metadata);
-        add("{}.timeSamples = {{", declaration_);
-        for (const auto& [step, value] : values_) add("    {}: {},", step, value);
-        text += margin + "}\n";
-    }
-
-private:
-    std::string declaration_, metadata_;
-    std::vector<std::pair<int, std::string>> values_;
-};
-
-template <class Range, class Format>
-std::string list(const Range& range, const Format& format) {
-    std::string text = "[";
-    for (const auto& value : range) {
-        if (text.size() > 1) text += ", ";
-        format(text, value);
-    }
-    return text + "]";
-}
-
-void put_number(std::string& text, auto number) {
-    fmt::format_to(std::back_inserter(text), "{}", number);
-}
-
-void put_vector(std::string& text, const glm::vec3& v) {
-    fmt::format_to(std::back_inserter(text), "({}, {}, {})", v.x, v.y, v.z);
-}
-
-std::string numbers(const auto& range) {
-    return list(range, [](std::string& text, const auto& value) { put_number(text, value); });
-}
-
-std::string vectors(const std::vector<glm::vec3>& range) {
-    return list(range, put_vector);
-}
-
-std::string colours(const std::vector<Rgb>& range) {
-    return list(range, [](std::string& text, const Rgb& rgb) { put_vector(text, linear_light(rgb)); });
-}
-
-std::string extent(const std::vector<glm::vec3>& points, float margin) {
-    if (points.empty()) return "[(0, 0, 0), (0, 0, 0)]";
-    glm::vec3 lower = points.front(), upper = lower;
-    for (const glm::vec3& point : points) {
-        lower = glm::min(lower, point);
-        upper = glm::max(upper, point);
-    }
-    return vectors({lower - margin, upper + margin});
-}
-
-const char* visibility(bool visible) {
-    return visible ? "\"inherited\"" : "\"invisible\"";
-}
+using namespace usd;
 
 /// The axes of one plant at one frame.
 struct Curves {
@@ -130,14 +55,10 @@ public:
         triangles_ += rgb.size();
         vertices_ += mesh.points.size();
         face_counts_.add(step, numbers(std::vector<int>(rgb.size(), 3)));
-        corners_.add(step, list(mesh.triangles, [](std::string& text, const auto& corners) {
-                         fmt::format_to(std::back_inserter(text), "{}, {}, {}", corners[0], corners[1], corners[2]);
-                     }));
+        corners_.add(step, corners(mesh.triangles));
         mesh_points_.add(step, vectors(mesh.points));
         normals_.add(step, vectors(mesh.normals));
-        uvs_.add(step, list(mesh.uvs, [](std::string& text, const glm::vec2& uv) {
-                     fmt::format_to(std::back_inserter(text), "({}, {})", uv.x, uv.y);
-                 }));
+        uvs_.add(step, places(mesh.uvs));
         mesh_colours_.add(step, colours(rgb));
         mesh_extent_.add(step, extent(mesh.points, 0));
         mesh_shown_.add(step, visibility(!rgb.empty()));
@@ -146,15 +67,19 @@ public:
     std::size_t vertices() const { return vertices_; }  ///< of curves and surfaces, in all samples
     std::size_t triangles() const { return triangles_; }
 
-    void append_to(std::string& text, const std::string& name, const std::string& label) const {
-        text += "    def Xform \"" + name + "\" (\n        displayName = \"" + label + "\"\n    )\n    {\n";
-        text += "        def BasisCurves \"axes\"\n        {\n            uniform token type = \"linear\"\n";
+    void append_axes_to(std::string& text) const {
+        append_head(text, "BasisCurves", "axes");
+        text += "            uniform token type = \"linear\"\n";
         for (const Samples* samples : {&counts_, &points_, &widths_, &colours_, &births_, &extent_, &shown_}) {
             samples->append_to(text);
         }
-        text +=
-            "        }\n        def Mesh \"surfaces\"\n        {\n            uniform bool doubleSided = true\n"
-            "            uniform token subdivisionScheme = \"none\"\n";
+        text += "        }\n";
+    }
+
+    /// The surfaces, and with them the axes where those are meshes.
+    void append_mesh_to(std::string& text) const {
+        append_head(text, "Mesh", "surfaces");
+        text += "            uniform bool doubleSided = true\n            uniform token subdivisionScheme = \"none\"\n";
         if (!faces_.empty()) {
             text += "            uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n";
         }
@@ -163,10 +88,17 @@ public:
              {&face_counts_, &corners_, &mesh_points_, &normals_, &uvs_, &mesh_colours_, &mesh_extent_, &mesh_shown_}) {
             samples->append_to(text);
         }
-        text += "        }\n    }\n";
+        text += "        }\n";
     }
 
 private:
+    static void append_head(std::string& text, const char* type, const char* name) {
+        fmt::format_to(std::back_inserter(text),
+                       "        def {} \"{}\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n        )\n"
+                       "        {{\n            rel material:binding = </world/materials/{}>\n",
+                       type, name, UsdMaterials::of_colours);
+    }
+
     /// The faces that wear a material at each step.
     void append_subset(std::string& text, const std::string& material,
                        const std::map<int, std::vector<std::size_t>>& faces) const {
@@ -228,57 +160,100 @@ std::string quoted(const std::string& text) {
     return result;
 }
 
+/// One job's file in the making.
+class UsdFile {
+public:
+    explicit UsdFile(const ExportJob& job) : job_(job), materials_(job), plants_(job.run.plants().size()) {
+        for (const RecordedFrame* frame : job.frames) add(*frame);
+        if (job.instances) instancers_.emplace(job, materials_);
+    }
+
+    std::string text() const {
+        std::string text = head(job_);
+        for (std::uint32_t plant = 0; plant < plants_.size(); ++plant) {
+            if (is_wanted(plant)) append_plant(text, plant);
+        }
+        materials_.append_to(text);
+        return text + "}\n";
+    }
+
+    std::size_t vertices() const {
+        std::size_t sum = instancers_ ? instancers_->vertices() : 0;
+        for (const PlantSamples& plant : plants_) sum += plant.vertices();
+        return sum;
+    }
+    std::size_t triangles() const {
+        std::size_t sum = instancers_ ? instancers_->triangles() : 0;
+        for (const PlantSamples& plant : plants_) sum += plant.triangles();
+        return sum;
+    }
+
+private:
+    bool is_wanted(std::uint32_t plant) const { return !job_.options.plant || *job_.options.plant == plant; }
+
+    void add(const RecordedFrame& frame) {
+        const RecordedGeometry geometry = job_.run.geometry(frame);
+        std::vector<Curves> curves(plants_.size());
+        if (!job_.mesh_axes) curves = curves_of(geometry, job_);
+        std::map<std::uint32_t, FrameMesh> meshes = by_plant(mesh(geometry));
+        for (std::uint32_t plant = 0; plant < plants_.size(); ++plant) {
+            if (!is_wanted(plant)) continue;
+            plants_[plant].add(frame.step, curves[plant]);
+            plants_[plant].add(frame.step, meshes[plant], materials_);
+        }
+    }
+
+    FrameMesh mesh(const RecordedGeometry& geometry) const {
+        if (job_.instances) return job_.mesh_axes ? tubes_of(geometry, job_.options) : FrameMesh();
+        return job_.mesh_axes ? mesh_of(geometry, job_.options) : surfaces_of(geometry, job_.options);
+    }
+
+    void append_plant(std::string& text, std::uint32_t plant) const {
+        fmt::format_to(std::back_inserter(text),
+                       "    def Xform \"plant_{}\" (\n        displayName = \"{}\"\n    )\n    {{\n", plant,
+                       quoted(job_.run.plants()[plant].name));
+        if (!job_.mesh_axes) plants_[plant].append_axes_to(text);
+        if (!job_.instances || job_.mesh_axes) plants_[plant].append_mesh_to(text);
+        if (instancers_) instancers_->append_to(text, plant, fmt::format("/world/plant_{}", plant));
+        text += "    }\n";
+    }
+
+    static std::string head(const ExportJob& job) {
+        return fmt::format(
+            "#usda 1.0\n(\n    defaultPrim = \"world\"\n    doc = \"{}, made by espalier\"\n    metersPerUnit = 1\n"
+            "    upAxis = \"{}\"\n    startTimeCode = {}\n    endTimeCode = {}\n    timeCodesPerSecond = {}\n)\n\n"
+            "def Xform \"world\"\n{{\n",
+            quoted(job.run.scene()), job.options.up == 'z' ? "Z" : "Y", job.frames.front()->step,
+            job.frames.back()->step, job.steps_per_second);
+    }
+
+    const ExportJob& job_;
+    UsdMaterials materials_;
+    std::vector<PlantSamples> plants_;
+    std::optional<Instancers> instancers_;
+};
+
 class Usd final : public Exporter {
 public:
     std::string extension() const override { return "usda"; }
 
     void write(const ExportJob& job) const override {
-        std::vector<PlantSamples> plants(job.run.plants().size());
-        UsdMaterials materials(job);
-        const auto wanted = [&](std::uint32_t plant) { return !job.options.plant || *job.options.plant == plant; };
-        for (const RecordedFrame* frame : job.frames) {
-            const RecordedGeometry geometry = job.run.geometry(*frame);
-            const std::vector<Curves> curves = curves_of(geometry, job);
-            std::map<std::uint32_t, FrameMesh> surfaces = by_plant(surfaces_of(geometry, job.options));
-            for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
-                if (!wanted(plant)) continue;
-                plants[plant].add(frame->step, curves[plant]);
-                plants[plant].add(frame->step, surfaces[plant], materials);
-            }
-        }
-        std::string text = head(job);
-        std::size_t vertices = 0, triangles = 0;
-        for (std::uint32_t plant = 0; plant < plants.size(); ++plant) {
-            if (!wanted(plant)) continue;
-            const std::string& name = job.run.plants()[plant].name;
-            plants[plant].append_to(text, fmt::format("plant_{}", plant), quoted(name));
-            vertices += plants[plant].vertices();
-            triangles += plants[plant].triangles();
-        }
-        materials.append_to(text);
-        text += "}\n";
+        const UsdFile file(job);
         const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], extension()) : job.path(extension());
-        write_text(path, text);
-        job.report({path, vertices, triangles, job.frames.size(), "time samples"});
-    }
-
-private:
-    static std::string head(const ExportJob& job) {
-        return fmt::format(
-            "#usda 1.0\n(\n    defaultPrim = \"world\"\n    doc = \"{}, made by espalier\"\n    metersPerUnit = 1\n"
-            "    upAxis = \"{}\"\n    startTimeCode = {}\n    endTimeCode = {}\n    timeCodesPerSecond = 24\n)\n\n"
-            "def Xform \"world\"\n{{\n",
-            quoted(job.run.scene()), job.options.up == 'z' ? "Z" : "Y", job.frames.front()->step,
-            job.frames.back()->step);
+        write_text(path, file.text());
+        job.report({path, file.vertices(), file.triangles(), job.frames.size(), "time samples"});
     }
 };
 
 const Registered<ExporterType> entry{
     {"usd", "USD as text (.usda), growth as time samples: for Houdini, Blender, Omniverse, usdview",
      "One file: per plant the axes as curves with widths, colour and birth at every node, the surfaces as a mesh, and\n"
-     "when either is visible; textures as .png beside it. A step is a time code, 24 of them a second; --step all for "
-     "the whole growth.\n"
-     "Lost: identities, parameters; --sides means nothing to curves",
+     "when either is visible; textures as .png beside it. --mesh-axes: the axes are part of the mesh. --instances: "
+     "organs\n"
+     "that look alike are one shape in many places. A step is a time code, --rate of them a second; --step all for "
+     "the\n"
+     "whole growth.\n"
+     "Lost: identities, parameters; --sides and textures of axes mean nothing to curves",
      construct<Usd>}};
 
 }  // namespace

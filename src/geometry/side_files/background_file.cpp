@@ -16,7 +16,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr std::size_t most_diagnostics = 100;
@@ -257,4 +257,4 @@ void read_background(const std::filesystem::path& path, const Material& material
     read_background_text(read_text(path), path.string(), material, background, diagnostics);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

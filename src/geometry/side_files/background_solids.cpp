@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr std::uint32_t sides = 24, stacks = 12;
@@ -95,4 +95,4 @@ glm::dvec3 fan_normal(const std::vector<SurfaceVertex>& vertices) {
     return length > 0 ? sum / length : glm::dvec3(0, 0, 1);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

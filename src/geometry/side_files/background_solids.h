@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 struct Solid {
     std::vector<SurfaceVertex> vertices;
@@ -23,4 +23,4 @@ Solid solid_sphere(double radius);
 /// The normal of a polygon whose vertices need not lie in a plane quite (Newell 1972); unit length.
 glm::dvec3 fan_normal(const std::vector<SurfaceVertex>& vertices);
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr int most_dimensions = 3;
@@ -119,4 +119,4 @@ std::optional<Contour> read_contour(const std::filesystem::path& path, std::vect
     return read_contour_text(read_text(path), path.string(), diagnostics);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::geometry {
 
 // All throw UserError with the place of what cannot be understood; `name` is the file's, for that. What can be
 // understood but not used is explained among `diagnostics`, and nothing is returned.
@@ -33,5 +33,16 @@ std::optional<Surface> read_triangles_text(std::string_view text, const std::str
                                            std::vector<Diagnostic>& diagnostics);
 std::optional<Surface> read_triangles(const std::filesystem::path& path, double size,
                                       std::vector<Diagnostic>& diagnostics);
+
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::read_contour;
+using geometry::read_contour_text;
+using geometry::read_surface;
+using geometry::read_surface_text;
+using geometry::read_triangles;
+using geometry::read_triangles_text;
 
 }  // namespace espalier

@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr std::size_t most_patches = 64;  // as in cpfg
@@ -224,4 +224,4 @@ std::optional<Surface> read_surface(const std::filesystem::path& path, double si
     return read_surface_text(read_text(path), path.string(), size, diagnostics);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

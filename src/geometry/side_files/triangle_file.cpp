@@ -8,7 +8,7 @@
 
 #include <utility>
 
-namespace espalier {
+namespace espalier::geometry {
 namespace {
 
 constexpr std::string_view separators = " \t\r,:";
@@ -91,4 +91,4 @@ std::optional<Surface> read_triangles(const std::filesystem::path& path, double 
     return read_triangles_text(read_text(path), path.string(), size, diagnostics);
 }
 
-}  // namespace espalier
+}  // namespace espalier::geometry

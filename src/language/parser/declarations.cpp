@@ -1,7 +1,6 @@
 #include "language/parser/declarations.h"
 
-#include "espalier/base/text.h"
-
+#include "base/text.h"
 #include "language/parser/constant.h"
 
 #include <fmt/format.h>

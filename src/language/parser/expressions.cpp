@@ -1,7 +1,6 @@
 #include "language/parser/expressions.h"
 
-#include "espalier/base/text.h"
-
+#include "base/text.h"
 #include "language/parser/constant.h"
 #include "language/parser/depth.h"
 #include "language/parser/functions.h"
@@ -175,9 +174,18 @@ Expression ExpressionParser::binary(int least_precedence) {
         const int left_height = height_;
         Expression right = binary(next.precedence + 1);
         height_ = std::max(left_height, height_);
-        left = apply(next.op, at, std::move(left), std::move(right));
+        left = infixed(next.op, at, std::move(left), std::move(right));
     }
     return left;
+}
+
+// In cpfg, parentheses do not separate the condition of ?: from what stands before them: 5*(c?a:b) is (5*c)?a:b.
+Expression ExpressionParser::infixed(Operator op, Location at, Expression left, Expression right) {
+    if (arithmetic_ != Arithmetic::cpfg || right.kind != Expression::Kind::conditional) {
+        return apply(op, at, std::move(left), std::move(right));
+    }
+    right.operands[0] = apply(op, at, std::move(left), std::move(right.operands[0]));
+    return right;
 }
 
 Expression ExpressionParser::unary() {
@@ -324,6 +332,19 @@ Expression ExpressionParser::address() {
     return result;
 }
 
+/// True if the parentheses that open here are followed by braces, as those of `if (...) {` are.
+bool ExpressionParser::is_before_braces() const {
+    const std::string_view rest = in_.rest();
+    int depth = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        depth += rest[i] == '(' ? 1 : rest[i] == ')' ? -1 : 0;
+        if (depth > 0) continue;
+        const std::size_t next = rest.find_first_not_of(" \t\n", i + 1);
+        return next != std::string_view::npos && rest[next] == '{';
+    }
+    return false;
+}
+
 Expression ExpressionParser::call(std::string_view name, Location at) {
     const Scanner::Inside inside(in_);
     const Deeper deeper(depth_, in_);
@@ -331,7 +352,7 @@ Expression ExpressionParser::call(std::string_view name, Location at) {
     const FunctionEntry* entry = find_function(name);
     if (!entry) {
         std::vector<std::string> known = function_names();
-        known.insert(known.end(), {"if", "for", "while"});
+        if (is_before_braces()) known.insert(known.end(), {"if", "for", "while"});
         throw SyntaxError{at, fmt::format("there is no function '{}'{}", name, did_you_mean(name, known))};
     }
     Expression result;

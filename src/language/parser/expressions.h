@@ -1,6 +1,7 @@
 // Reads expressions and statements.
 #pragma once
 
+#include "espalier/lsystem/arithmetic.h"
 #include "espalier/lsystem/expression.h"
 
 #include "language/parser/names.h"
@@ -14,7 +15,8 @@ namespace espalier::language {
 /// All binary operators associate to the left, ^ too; unary minus binds tighter than ^.
 class ExpressionParser {
 public:
-    ExpressionParser(Scanner& in, Names& names, Mistakes& mistakes) : in_(in), names_(names), mistakes_(mistakes) {}
+    ExpressionParser(Scanner& in, Names& names, Mistakes& mistakes, Arithmetic arithmetic)
+        : in_(in), names_(names), mistakes_(mistakes), arithmetic_(arithmetic) {}
 
     Expression expression();
     /// The same, ended by the arrow of a production, which elsewhere could be read as operators.
@@ -35,6 +37,7 @@ private:
     Expression number();
     Expression text();
     Expression call(std::string_view name, Location at);
+    bool is_before_braces() const;
     Expression normalised(Expression call, Location at);
     Expression element(std::string_view name, Location at);
     Expression address();
@@ -55,6 +58,7 @@ private:
     AssignmentSign sign_after_name();
     Expression assignment(Expression target, Location at);
     Expression apply(Operator op, Location at, Expression left, std::optional<Expression> right = std::nullopt);
+    Expression infixed(Operator op, Location at, Expression left, Expression right);
     void check_height(Location at) const;
 
     // Statements.
@@ -74,6 +78,7 @@ private:
     Scanner& in_;
     Names& names_;
     Mistakes& mistakes_;
+    Arithmetic arithmetic_;
     int depth_ = 0;   // of the recursion at hand
     int height_ = 0;  // of the tree read last
     int loops_ = 0;   // around the statement at hand

@@ -1,8 +1,7 @@
 #include "language/parser/keywords.h"
 
-#include "espalier/base/text.h"
-
 #include "base/characters.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 #include "language/parser/model.h"
 
-#include "espalier/base/text.h"
-
+#include "base/text.h"
 #include "language/parser/declarations.h"
 #include "language/parser/expressions.h"
 #include "language/parser/keywords.h"
@@ -30,7 +29,7 @@ public:
         : in_(source.text),
           names_(sources, mistakes, source.macro_names),
           mistakes_(mistakes),
-          expressions_(in_, names_, mistakes),
+          expressions_(in_, names_, mistakes, model.arithmetic),
           productions_(in_, names_, mistakes, symbols_, expressions_),
           declarations_(in_, names_, mistakes, symbols_, expressions_, model),
           model_(model),
@@ -46,6 +45,10 @@ public:
             statement([&] { outside(); });
         }
         statement([&] { names_.finish_model(model_); });
+        if (const std::optional<Location> quote = productions_.unread_quote()) {
+            mistakes_.warning(
+                *quote, "nothing reads this module ': in older notation it takes the next colour, in cpfg ; does");
+        }
         if (model_.systems.empty() && complete_) {
             mistakes_.error(in_.here(), "there is no L-system here: 'lsystem: 1' ... 'endlsystem' is missing");
         }
@@ -180,10 +183,10 @@ private:
             const bool production = in_.line_has_arrow(in_.position());
             return next == '{' || !production || (next == ':' && (!axiom_read_ || keyword.size() > longest_plain_word));
         };
-        const auto header = header_keywords();
-        const auto section = section_keywords();
-        return std::any_of(header.begin(), header.end(), is_here) ||
-               std::any_of(section.begin(), section.end(), is_here);
+        const auto headers = header_keywords();
+        const auto sections = section_keywords();
+        return std::any_of(headers.begin(), headers.end(), is_here) ||
+               std::any_of(sections.begin(), sections.end(), is_here);
     }
 
     void production() {

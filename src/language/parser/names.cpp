@@ -1,8 +1,7 @@
 #include "language/parser/names.h"
 
-#include "espalier/base/text.h"
-
 #include "base/characters.h"
+#include "base/text.h"
 #include "language/parser/visit.h"
 
 #include <fmt/format.h>

@@ -96,6 +96,7 @@ ModulePattern ProductionParser::pattern(Production& production, bool right_conte
                           "A : { x = 1; } --> B");
     }
     const std::string_view name = symbol();
+    names_quote_ |= name == "'";
     result.place = names_.place(at);
     result.first_formal = static_cast<std::uint32_t>(production.formals.size());
     if (in_.accept("(")) {
@@ -146,6 +147,7 @@ ModuleTemplate ProductionParser::module() {
     ModuleTemplate result;
     const Location at = in_.here();
     const std::string_view name = symbol();
+    if (name == "'" && !first_quote_) first_quote_ = at;
     result.place = names_.place(at);
     if (in_.accept("(")) {
         const Scanner::Inside inside(in_);
@@ -203,7 +205,11 @@ std::vector<SymbolId> ProductionParser::symbol_list() {
         if (!in_.at_end()) in_.expected("nothing beside '*', which means no module");
         return result;
     }
-    while (!in_.at_end()) result.push_back(model_->alphabet.symbol(symbol()));
+    while (!in_.at_end()) {
+        const std::string_view name = symbol();
+        names_quote_ |= name == "'";
+        result.push_back(model_->alphabet.symbol(name));
+    }
     return result;
 }
 

@@ -28,6 +28,8 @@ public:
     std::vector<ModuleTemplate> axiom();
     /// The symbols of an ignore or consider list.
     std::vector<SymbolId> symbol_list();
+    /// Where a ' stands in a string of modules, if no production and no list names that module.
+    std::optional<Location> unread_quote() const { return names_quote_ ? std::nullopt : first_quote_; }
     /// Weights that were read since the last call, for the L-system to allow or not.
     std::optional<Location> take_first_weight();
 
@@ -53,6 +55,8 @@ private:
     Model* model_ = nullptr;
     std::unordered_map<std::string, std::uint32_t> texts_;  // their places in Model::texts
     std::optional<Location> first_weight_;
+    std::optional<Location> first_quote_;
+    bool names_quote_ = false;
 };
 
 }  // namespace espalier::language

@@ -45,6 +45,44 @@ private:
         return length > 0;
     }
 
+    /// What was read of the statement at hand: lines that begin with a tab continue the line before.
+    std::string_view statement() const {
+        const std::string_view read = out_.text();
+        std::size_t begin = read.rfind('\n');
+        while (begin != std::string_view::npos && begin > 0 && begin + 1 < read.size() && read[begin + 1] == '\t') {
+            begin = read.rfind('\n', begin - 1);
+        }
+        return begin == std::string_view::npos ? read : read.substr(begin + 1);
+    }
+
+    // Of two backslashes at the end of a line of a macro, one belongs to nothing.
+    bool at_stray_backslash() const {
+        if (peek() != '\\' || peek(1) != '\\' || (peek(2) != '\n' && (peek(2) != '\r' || peek(3) != '\n')))
+            return false;
+        std::string_view line = statement();
+        const auto skip_blanks = [&] {
+            while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+        };
+        skip_blanks();
+        if (!line.starts_with('#')) return false;
+        line.remove_prefix(1);
+        skip_blanks();
+        return line.starts_with("define");
+    }
+
+    // F//F has lost its end, and so has F ///// F; other comments stand behind a blank, a weight or a statement in C.
+    void warn_of_lost_modules() {
+        const std::string_view read = statement();
+        if (read.empty() || read.back() == '\n' || read.starts_with('#')) return;
+        if (is_blank(read.back()) && peek(2) != '/') return;
+        const std::size_t arrow = std::min(read.find("-->"), read.find("-o>"));
+        if (arrow == std::string_view::npos || arrow + 3 >= read.size()) return;
+        if (read.find(':', arrow) != std::string_view::npos) return;
+        mistakes_.warning(at_,
+                          "a comment begins here and hides the rest of the production: blanks "
+                          "between slashes make them modules, as in 'F / / F'");
+    }
+
     void copy() {
         const char c = peek();
         const bool control = (static_cast<unsigned char>(c) < 0x20 && !is_blank(c) && c != '\n') || c == 0x7F;
@@ -61,7 +99,11 @@ private:
     void step() {
         if (position_ >= text_.size()) return;
         const char c = peek();
-        if (c == '/' && peek(1) == '/') {
+        if (at_stray_backslash()) {
+            mistakes_.warning(at_, "this backslash is ignored: one alone joins the line with the next");
+            advance();
+        } else if (c == '/' && peek(1) == '/') {
+            warn_of_lost_modules();
             while (position_ < text_.size() && peek() != '\n') {
                 if (!next_line_joined()) advance();
             }

@@ -90,6 +90,14 @@ const Macro* Macros::find(std::string_view name) const {
     return found == macros_.end() ? nullptr : &found->second;
 }
 
+// #define MAX = 5 is C's mistake of every beginner; its consequences would be reported far from it.
+void Macros::require_value(std::string_view name, const Macro& macro) {
+    const std::string_view body = macro.body;
+    if (macro.function_like || body.size() < 2 || body[0] != '=' || body[1] == '=') return;
+    throw SyntaxError{macro.defined, fmt::format("'{0}' stands for '{1}' here: write '#define {0} {2}', without '='",
+                                                 name, body, trimmed(body.substr(1)))};
+}
+
 void Macros::limit(std::size_t size) const {
     if (size > longest_expansion) throw SyntaxError{use_, "this macro expands to more than 64 MiB"};
     if (expansions_ > most_expansions) {
@@ -99,7 +107,9 @@ void Macros::limit(std::size_t size) const {
 
 std::optional<std::string> Macros::expand_use(std::string_view name, std::string_view text, std::size_t& position,
                                               Location use) {
-    if (!find(name)) return std::nullopt;
+    const Macro* const macro = find(name);
+    if (!macro) return std::nullopt;
+    require_value(name, *macro);
     use_ = use;
     expansions_ = 0;
     Active active;

@@ -46,6 +46,7 @@ private:
                                                       std::size_t& position) const;
     std::string substitute(const Macro& macro, const std::vector<std::string>& arguments, Active& active);
     std::string_view name_that_waits(std::string_view expansion, std::string_view text, std::size_t position) const;
+    static void require_value(std::string_view name, const Macro& macro);
     void limit(std::size_t size) const;
 
     std::unordered_map<std::string, Macro> macros_;

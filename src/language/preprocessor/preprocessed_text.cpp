@@ -5,7 +5,7 @@
 #include "language/preprocessor/preprocessor.h"
 #include "language/source.h"
 
-namespace espalier {
+namespace espalier::language {
 namespace {
 
 struct MappedSource : SourceText {
@@ -43,4 +43,4 @@ std::shared_ptr<const SourceText> preprocess_file(const std::filesystem::path& p
     return preprocess_text(read_text(path), path.string(), path.parent_path(), options);
 }
 
-}  // namespace espalier
+}  // namespace espalier::language

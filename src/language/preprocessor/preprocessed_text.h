@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace espalier {
+namespace espalier::language {
 
 /// Preprocesses a file with `options.defines` (those it never mentions are ignored) and `options.predefined`;
 /// warnings are appended to `options.warnings`. Lines keep their ends and their order; a comment is one blank; what a
@@ -20,5 +20,11 @@ std::shared_ptr<const SourceText> preprocess_file(const std::filesystem::path& p
 std::shared_ptr<const SourceText> preprocess_text(std::string_view text, const std::string& name,
                                                   const std::filesystem::path& folder = {},
                                                   const ReadOptions& options = {});
+
+}  // namespace espalier::language
+
+namespace espalier {
+
+using language::preprocess_text;
 
 }  // namespace espalier

@@ -1,9 +1,9 @@
 #include "language/preprocessor/preprocessor.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
 #include "base/characters.h"
+#include "base/text.h"
 #include "language/preprocessor/comments.h"
 #include "language/preprocessor/macros.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace espalier {
+namespace espalier::language {
 namespace {
 
 constexpr std::size_t least_points = 4;
@@ -109,4 +109,4 @@ SpaceCurve read_curve_file(const std::filesystem::path& path, int samples) {
     return read_curve_text(read_text(path), path.string(), samples);
 }
 
-}  // namespace espalier
+}  // namespace espalier::language

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace espalier {
+namespace espalier::language {
 namespace {
 
 constexpr int least_points = 4;
@@ -90,4 +90,4 @@ std::vector<NamedFunction> read_function_set(const std::filesystem::path& path) 
     return read_function_set_text(read_text(path), path.string());
 }
 
-}  // namespace espalier
+}  // namespace espalier::language

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::language {
 
 /// A member of a function set; the name is cut at its last dot.
 struct NamedFunction {
@@ -29,5 +29,17 @@ std::vector<NamedFunction> read_function_set(const std::filesystem::path& path);
 /// A curve in space; `samples` chords measure its length.
 SpaceCurve read_curve_text(std::string_view text, const std::string& name, int samples = 100);
 SpaceCurve read_curve_file(const std::filesystem::path& path, int samples = 100);
+
+}  // namespace espalier::language
+
+namespace espalier {
+
+using language::NamedFunction;
+using language::read_curve_file;
+using language::read_curve_text;
+using language::read_function_file;
+using language::read_function_set;
+using language::read_function_set_text;
+using language::read_function_text;
 
 }  // namespace espalier

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t most_classes = 254;
@@ -178,13 +178,14 @@ bool ChoosingCompiler::certain(const CompiledProduction& production) const {
 
 Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint32_t right) {
     Productions candidates;
-    bool all_certain = true, all_tested = true;
+    bool all_certain = true, all_tested = true, all_spelled = !rules_.stochastic;
     for (std::uint32_t k = rules_.first[letter]; k < rules_.first[letter + 1]; ++k) {
         const CompiledProduction& production = rules_.productions[rules_.candidates[k]];
         if (!possible(production, left, right)) continue;
         candidates.push_back(rules_.candidates[k]);
         all_certain &= certain(production);
         all_tested &= certain(production) || (in_place(production) && production.before.empty() && production.tests);
+        all_spelled &= production.context_free() && production.before.empty() && !production.has_condition;
         if (!rules_.stochastic && certain(production)) break;
     }
     if (candidates.empty()) return {};
@@ -193,6 +194,7 @@ Outcome ChoosingCompiler::outcome(LetterId letter, std::uint32_t left, std::uint
         return pool ? *pool : tried(candidates, Outcome::Way::matched);
     }
     if (certain(rules_.productions[candidates[0]])) return {Outcome::Way::known, choosing_.ranks[candidates[0]]};
+    if (all_spelled) return tried(candidates, Outcome::Way::spelled);
     return tried(candidates, all_tested && !rules_.several_strict ? Outcome::Way::tested : Outcome::Way::matched);
 }
 
@@ -272,4 +274,4 @@ Choosing make_choosing(const CompiledSystem& system) {
     return ChoosingCompiler(system).compile();
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 class CompiledSystem;
 
@@ -18,6 +18,7 @@ struct Outcome {
         known,    ///< choice `index` of the letter
         sampled,  ///< one of pool `index`, by a random number
         matched,  ///< by trying the candidates `index`
+        spelled,  ///< the first of the candidates `index` whose strict predecessor stands there
         tested,   ///< by the conditions of the candidates `index`, which can be evaluated for many modules at once
     };
     Way way = Way::known;
@@ -57,4 +58,4 @@ struct Choosing {
 /// For `system.rules`, whose plans are made. Neighbours are also those that its decomposition asks for.
 Choosing make_choosing(const CompiledSystem& system);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

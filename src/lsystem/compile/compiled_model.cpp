@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr double deepest = 1e6;
@@ -28,13 +28,18 @@ bool writes_cut(const Model& model) {
            });
 }
 
+bool names_bracket_to_the_left(const Production& production) {
+    return std::any_of(production.left.begin(), production.left.end(),
+                       [](const ModulePattern& pattern) { return pattern.letter <= Alphabet::close_bracket; });
+}
+
 /// Compiles one L-system of a model.
 class SystemCompiler {
 public:
     SystemCompiler(const Model& model, std::size_t index)
         : model_(&model),
           system_(model.systems[index]),
-          programs_(system_, index > 0, model.quirks),
+          programs_(system_, index > 0, model.arithmetic),
           compiled_(std::make_unique<CompiledSystem>()) {
         compiled_->source = model_;
         compiled_->system = &system_;
@@ -310,11 +315,14 @@ std::optional<std::uint32_t> place_of(std::uint32_t formal, const std::vector<Co
     return std::nullopt;
 }
 
-// Only forms that a multiplication followed by an addition computes with the very same rounding.
+// Only forms that a multiplication followed by an addition computes with the very same rounding. What cpfg's arithmetic
+// rounds once more needs a program.
 // Adding -0.0 changes no number, not even -0.0.
 std::optional<Lane> SystemCompiler::lane(const Expression& expression,
                                          const std::vector<CompiledPattern>& strict) const {
-    if (const std::optional<double> constant = programs_.fold(expression)) {
+    const Arithmetic arithmetic = model_->arithmetic;
+    if (std::optional<double> constant = programs_.fold(expression)) {
+        constant = stored(*constant, arithmetic);
         // 0 times a value, plus -0.0, may be 0.0.
         if (!std::isfinite(*constant) || (*constant == 0 && std::signbit(*constant))) return std::nullopt;
         return Lane{0, 0, *constant};
@@ -323,7 +331,7 @@ std::optional<Lane> SystemCompiler::lane(const Expression& expression,
         const std::optional<std::uint32_t> source = place_of(expression.index, strict);
         return source ? std::optional(Lane{*source, 1, -0.0}) : std::nullopt;
     }
-    if (expression.kind != Expression::Kind::apply) return std::nullopt;
+    if (expression.kind != Expression::Kind::apply || arithmetic == Arithmetic::cpfg) return std::nullopt;
     if (expression.op == Operator::add || expression.op == Operator::subtract) return sum_lane(expression, strict);
     if (expression.op != Operator::multiply) return std::nullopt;
     for (const int side : {0, 1}) {
@@ -355,15 +363,22 @@ std::optional<Lane> SystemCompiler::sum_lane(const Expression& expression,
     return std::nullopt;
 }
 
+/// Lists the productions that may apply; in cpfg, brackets in a left context never match.
 void SystemCompiler::index(CompiledRules& rules) const {
     const std::size_t letters = model_->alphabet.size();
     rules.first.assign(letters + 1, 0);
-    for (const CompiledProduction& production : rules.productions) ++rules.first[production.strict[0].letter + 1];
+    const auto counts = [&](const CompiledProduction& production) {
+        return model_->arithmetic != Arithmetic::cpfg || !names_bracket_to_the_left(*production.source);
+    };
+    for (const CompiledProduction& production : rules.productions) {
+        rules.first[production.strict[0].letter + 1] += counts(production);
+    }
     for (std::size_t l = 0; l < letters; ++l) rules.first[l + 1] += rules.first[l];
-    rules.candidates.resize(rules.productions.size());
+    rules.candidates.resize(rules.first.back());
     std::vector<std::uint32_t> next(rules.first.begin(), rules.first.end() - 1);
     for (std::uint32_t p = 0; p < rules.productions.size(); ++p) {
-        rules.candidates[next[rules.productions[p].strict[0].letter]++] = p;
+        const CompiledProduction& production = rules.productions[p];
+        if (counts(production)) rules.candidates[next[production.strict[0].letter]++] = p;
     }
     rules.always.resize(letters);
     for (std::size_t l = 0; l < letters; ++l) rules.always[l] = always(rules, static_cast<LetterId>(l));
@@ -520,8 +535,8 @@ bool has_order(const CompiledModel& compiled) {
     return compiled.nested || compiled.main().ordered();
 }
 
-bool draws_random_numbers(const CompiledModel& compiled) {
+bool uses_random_numbers(const CompiledModel& compiled) {
     return compiled.any(&CompiledSystem::samples);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

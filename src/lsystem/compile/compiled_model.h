@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct CompiledPattern {
     LetterId letter = no_letter;
@@ -147,10 +147,10 @@ public:
     bool ring = false;
     bool computes_columns = false;  ///< some production of `rules` has `values`
     bool may_cut = false;           ///< `%` can stand in the string and is no production's business
-    /// Of all plants that grow from it: see workplace.h.
+    /// Of all plants that grow from it: see scratch_lease.h.
     mutable tbb::enumerable_thread_specific<std::shared_ptr<Machine>> machines;
 
-    Machine machine() const { return Machine(constants, registers, arrays, source->quirks); }
+    Machine machine() const { return Machine(constants, registers, arrays, source->arithmetic); }
     /// Globals and arrays as declared, external ones not yet lent.
     Variables variables() const;
     std::size_t bytes_of_variables() const;
@@ -159,7 +159,13 @@ public:
                decomposition.effects.ordered;
     }
     /// Modules are replaced one after the other: as ordered() says, or since a predecessor may reach beyond a cut.
-    bool serial() const { return ordered() || (may_cut && rules.follows(Alphabet::cut)); }
+    bool serial() const {
+        return ordered() || (may_cut && (rules.follows(Alphabet::cut) || decomposition.follows(Alphabet::cut)));
+    }
+    /// Two modules that stand side by side may be replaced together.
+    bool joins(LetterId left, LetterId right) const {
+        return rules.joins(left, right) || decomposition.joins(left, right);
+    }
     bool samples() const {
         return rules.effects.samples || rules.stochastic || decomposition.effects.samples || decomposition.stochastic;
     }
@@ -210,4 +216,4 @@ public:
 /// Throws UserError for external variables that no other L-system can lend.
 void require_lenders(const CompiledModel& model);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

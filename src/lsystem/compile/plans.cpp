@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 void Lanes::push_back(const Lane& lane) {
     sources.push_back(lane.source);
@@ -16,9 +16,9 @@ void Lanes::pad() {
     while (sources.size() % value_block != 0) push_back({});
 }
 
-std::uint64_t PackedSizes::pack(const Plan& plan) {
+std::uint64_t PackedSizes::pack(const Plan& plan, bool simple) {
     return std::uint64_t{plan.length} | std::uint64_t{plan.parameters} << bits | std::uint64_t{plan.reads} << 2 * bits |
-           std::uint64_t{plan.bears} << 3 * bits;
+           std::uint64_t{plan.bears} << 3 * bits | std::uint64_t{!simple} << (3 * bits + flag_bits);
 }
 
 namespace {
@@ -62,8 +62,12 @@ void measure(Plans& plans) {
     }
     const std::size_t most = std::max({plans.longest, plans.most_parameters, plans.most_read});
     plans.sizes.at_once = std::min<std::size_t>(PackedSizes::most_at_once, PackedSizes::mask / most);
-    for (const std::uint32_t known : plans.known)
-        plans.sizes.of_letter.push_back(PackedSizes::pack(plans.choices[known]));
+    for (std::size_t l = 0; l < plans.known.size(); ++l) {
+        const Plan& plan = plans.of_letter(static_cast<LetterId>(l));
+        const bool decided = plan.kind != Plan::Kind::copy || !plans.lookups[l].replaced;
+        const bool computes = plan.kind == Plan::Kind::mixed || plan.kind == Plan::Kind::program;
+        plans.sizes.of_letter.push_back(PackedSizes::pack(plan, decided && !computes));
+    }
 }
 
 }  // namespace
@@ -90,4 +94,4 @@ Plans make_plans(const CompiledSystem& system) {
     return plans;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

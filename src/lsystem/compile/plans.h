@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct CompiledProduction;
 class CompiledSystem;
@@ -84,12 +84,29 @@ struct alignas(64) Plan {
 struct PackedSizes {
     static constexpr int bits = 16;
     static constexpr std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    static constexpr std::size_t most_at_once = 256;
+    static constexpr int flag_bits = 8;  ///< of siblings, and of letters that are not simple: they share a field
+    static constexpr std::uint64_t flag_mask = (std::uint64_t{1} << flag_bits) - 1;
+    static constexpr std::size_t most_at_once = flag_mask;
 
     std::vector<std::uint64_t> of_letter;
     std::size_t at_once = 0;  ///< modules whose sizes can be added up; 0: not even those of one
 
-    static std::uint64_t pack(const Plan& plan);
+    struct Sum {
+        Extent becomes;
+        std::size_t reads = 0;  ///< parameters
+        bool simple = true;     ///< every letter alone decides, and no program is run
+    };
+    static std::uint64_t pack(const Plan& plan, bool simple);
+    static Sum unpack(std::uint64_t sum) {
+        const auto field = [&](int k) { return sum >> k * bits & mask; };
+        return {{field(0), field(1), field(3) & flag_mask}, field(2), field(3) >> flag_bits == 0};
+    }
+    /// Of at most `at_once` modules.
+    Sum add_up(const LetterId* letters, std::size_t count) const {
+        std::uint64_t sum = 0;
+        for (std::size_t i = 0; i < count; ++i) sum += of_letter[letters[i]];
+        return unpack(sum);
+    }
 };
 
 /// What a scan of the string needs of a letter.
@@ -116,4 +133,4 @@ struct Plans {
 /// The plans of `system.rules`, which must stay where they are.
 Plans make_plans(const CompiledSystem& system);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

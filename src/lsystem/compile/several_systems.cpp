@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 std::optional<long long> number_of(const LSystem& system) {
@@ -100,4 +100,4 @@ std::string CompiledModel::labels() const {
     return list;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -1,14 +1,13 @@
 #include "lsystem/contexts/matching.h"
 
-#include "espalier/base/text.h"
-
 #include "base/excerpt.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 const CompiledProduction* Matcher::choose(const CompiledRules& rules, const Site& site) {
     const std::uint32_t first = rules.first[site.letter];
@@ -19,7 +18,7 @@ const CompiledProduction* Matcher::choose(const CompiledRules& rules, std::span<
                                           const Site& site) {
     if (candidates.empty()) return nullptr;
     machine_.forget_reseeding();
-    if (rules.effects.samples || rules.stochastic) machine_.sample_with(RandomDraws(key_, site.identity, step_));
+    if (rules.effects.samples || rules.stochastic) machine_.sample_with(RandomSamples(key_, site.identity, step_));
     if (rules.stochastic) return choose_by_weight(rules, candidates, site);
     for (const std::uint32_t candidate : candidates) {
         const CompiledProduction& production = rules.productions[candidate];
@@ -59,7 +58,7 @@ const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules,
     }
     if (!(sum > 0)) return nullptr;
     const CompiledProduction* chosen = nullptr;
-    RandomDraws random = machine_.random_numbers();
+    RandomSamples random = machine_.random_numbers();
     double left = random.uniform() * sum;
     machine_.sample_with(random);
     for (const Weighted& candidate : pool_) {
@@ -84,7 +83,7 @@ void Matcher::bind(const CompiledProduction& production, const Site& site) {
 void Matcher::begin_successor(const CompiledProduction& production, const Site& site) {
     const bool samples = production.successor.effects.samples || production.after.effects.samples;
     if (samples && !machine_.reseeded())
-        machine_.sample_with(RandomDraws(key_, site.identity, step_, first_of_successor));
+        machine_.sample_with(RandomSamples(key_, site.identity, step_, first_of_successor));
 }
 
 bool Matcher::match_strict(const CompiledProduction& production, const Site& site) const {
@@ -230,4 +229,4 @@ std::string describe(const EvaluationError& error, const Alphabet& alphabet, Let
                        error.what(), to_text(module, alphabet), step, excerpt(error.place));
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// A string as matching sees it. Without `neighbours` contexts are looked for step by step, with `partner`; what no
 /// production needs may be null.
@@ -114,4 +114,4 @@ void require_finite(const CompiledProduction& production, const double* values);
 std::string describe(const EvaluationError& error, const Alphabet& alphabet, LetterId letter, const double* values,
                      std::uint32_t step);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

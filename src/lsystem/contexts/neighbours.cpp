@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 template <class Work>
@@ -260,4 +260,4 @@ std::size_t ParameterPlaces::find(const ModuleString& string, const std::uint16_
     return at;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// One side of contexts: scanning along the string, each module becomes the neighbour of those that follow, or is
 /// ignored.
@@ -102,4 +102,4 @@ private:
     Column<std::uint32_t> within_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

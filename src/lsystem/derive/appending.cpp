@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 // Of the string's memory only what is used counts: how much there is depends on who had it before.
 GrowingPart::GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
@@ -103,38 +103,45 @@ std::size_t Appending::run(std::size_t begin, std::size_t end, std::size_t param
     return i;
 }
 
-/// Replaces the modules at a site; returns how many they were.
+/// Replaces the modules at a site; returns how many they were. Where no production applies, the decomposition takes
+/// modules from the old string, even those behind that productions would replace.
 std::size_t Appending::rewrite(const Site& site) {
     const CompiledProduction* production = matcher_.choose(system_.rules, site);
-    const std::size_t width = production ? production->strict.size() : 1;
-    if (production) {
-        if (system_.index == 0) ++out_.uses[static_cast<std::size_t>(production - system_.rules.productions.data())];
-        matcher_.begin_successor(*production, site);
-        strict_.clear();
-        for (std::size_t k = 0; k < width; ++k) strict_.push_back(lineage(site.first + k));
-        if (!production->decomposes && !enclosure_) {
-            rewriting_.emit_successor(
-                *production, site.values, strict_.data(), input_.step,
-                [&](LetterId letter, const double* values, std::size_t arity, const Lineage& lineage) {
-                    out_.append(letter, values, arity, lineage.birth);
-                });
-            follow_reseeding();
-            return width;
-        }
-        rewriting_.push_successor(*production, site.values, strict_.data(), input_.step, 0, stack_);
-        follow_reseeding();
-    } else {
+    const std::uint32_t depth = production ? 0 : 1;
+    if (!production) production = decomposition_of(site);
+    if (!production) {
         const int arity = system_.source->alphabet.arity(site.letter);
-        if (!system_.decomposition.has(site.letter)) {
-            out_.append(site.letter, site.values, static_cast<std::size_t>(arity), lineage(site.first).birth);
-            return 1;
-        }
-        stack_.push({site.letter, static_cast<std::uint16_t>(arity), 0, lineage(site.first)}, site.values);
+        out_.append(site.letter, site.values, static_cast<std::size_t>(arity), lineage(site.first).birth);
+        return 1;
     }
     Site origin = site;
-    origin.width = width;
+    origin.width = production->strict.size();
+    strict_.clear();
+    for (std::size_t k = 0; k < origin.width; ++k) strict_.push_back(lineage(site.first + k));
+    if (depth == 0) matcher_.begin_successor(*production, site);
+    if (depth == 0 && system_.index == 0)
+        ++out_.uses[static_cast<std::size_t>(production - system_.rules.productions.data())];
+    if (depth == 0 && !production->decomposes && !enclosure_) {
+        rewriting_.emit_successor(*production, site.values, strict_.data(), input_.step,
+                                  [&](LetterId letter, const double* values, std::size_t arity,
+                                      const Lineage& lineage) { out_.append(letter, values, arity, lineage.birth); });
+        follow_reseeding();
+        return origin.width;
+    }
+    rewriting_.push_successor(*production, site.values, strict_.data(), input_.step, depth, stack_);
+    if (depth == 0) follow_reseeding();
     decompose(origin);
-    return width;
+    return origin.width;
+}
+
+/// What decomposes the modules at a site, its successor begun; null if nothing does.
+const CompiledProduction* Appending::decomposition_of(Site site) {
+    const CompiledRules& rules = system_.decomposition;
+    if (!rules.has(site.letter) || rules.maximum_depth == 0) return nullptr;
+    site.identity = mix(site.identity, 1);
+    const CompiledProduction* const production = matcher_.choose(rules, site);
+    if (production) matcher_.begin_successor(*production, site);
+    return production;
 }
 
 void Appending::run_within(std::size_t begin, std::size_t end, std::size_t parameters_at, const Enclosure& enclosure) {
@@ -245,4 +252,4 @@ void rewrite_and_decompose(const StepInput& input, Scratch& scratch, Machines& m
     join(input, scratch.pieces, parts, input.from.size() <= grain ? bytes_before(input) : bytes.load(), to);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <deque>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// A part of the new string, which grows within the step's memory. Rows of siblings come behind those of the old
 /// string; of parts that are joined, each counts its own from there.
@@ -53,6 +53,7 @@ public:
 
 private:
     std::size_t rewrite(const Site& site);
+    const CompiledProduction* decomposition_of(Site site);
     bool lives_on(LetterId letter) const { return !system_.rules.has(letter) && !system_.decomposition.has(letter); }
     Lineage lineage(std::size_t module) const {
         return input_.lineage ? Lineage{input_.from.identity(module), input_.from.births[module]} : Lineage{};
@@ -81,4 +82,4 @@ void join(const StepInput& input, const std::vector<ModuleString>& pieces, const
 /// Gives a string that was written as a whole the rows of its siblings.
 void add_siblings(const StepInput& input, const GrowingPart& part, ModuleString& to);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -1,7 +1,7 @@
 // A derivation's memory as bytes.
 #include "lsystem/derive/derivation_state.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::uint64_t signature = 0x32'6576'6972'6544;  // "Derive2"
@@ -28,7 +28,7 @@ void Derivation::restore(std::istream& in) {
     const auto length = get<std::int32_t>(in);
     const auto stopped = get<std::uint8_t>(in);
     const auto salt = get<std::uint64_t>(in);
-    const auto random = get(in, RandomDraws(RandomKey(), 0, 0));
+    const auto random = get(in, RandomSamples(RandomKey(), 0, 0));
     Variables variables = state.variables;
     get_variables(in, variables);
     state.sub_systems.restore(in, *state.model);
@@ -42,4 +42,4 @@ void Derivation::restore(std::istream& in) {
     ++state.generation;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -5,7 +5,7 @@
 #include <span>
 #include <type_traits>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 // What a module's neighbours are to the table of outcomes, from the columns that were found.
@@ -90,6 +90,7 @@ private:
     void choose(Replacement* first);
     void follow(const Outcome& outcome, Replacement& replacement);
     const CompiledProduction* match(const Candidates& trial, const Replacement& replacement);
+    const CompiledProduction* spell(const Candidates& trial, const Replacement& replacement) const;
     void test(std::uint32_t trial, const Replacement& replacement);
     void decide(std::uint32_t trial);
     void decide_one_by_one(std::uint32_t trial);
@@ -170,6 +171,14 @@ void Chooser::scan(const ClassOf& class_of, LetterId* outcomes) {
     }
 }
 
+[[gnu::always_inline]] inline void Chooser::take(Replacement& replacement, std::uint32_t plan) {
+    replacement.plan = plan;
+    const Plan& taken = plans_.choices[plan];
+    becomes_.modules += taken.length - std::size_t{taken.width};
+    becomes_.parameters += taken.parameters - std::size_t{taken.reads};
+    becomes_.siblings += taken.bears;
+}
+
 /// Chooses for replacements from one on.
 void Chooser::choose(Replacement* first) {
     for (Replacement* replacement = first; replacement != end_; ++replacement) {
@@ -189,8 +198,20 @@ void Chooser::follow(const Outcome& outcome, Replacement& replacement) {
         take(replacement, plan_of(replacement, outcome.index));
     else if (outcome.way == Outcome::Way::tested && tests_ == Tests::together)
         test(outcome.index, replacement);
+    else if (outcome.way == Outcome::Way::spelled)
+        take(replacement, spell(choosing_.trials[outcome.index], replacement));
     else
         take(replacement, match(choosing_.trials[outcome.index], replacement));
+}
+
+/// The first candidate whose strict predecessor stands there.
+const CompiledProduction* Chooser::spell(const Candidates& trial, const Replacement& replacement) const {
+    const Site site{replacement.module, replacement.parameters_at, letters_[replacement.module]};
+    for (std::uint32_t k = trial.begin; k < trial.end; ++k) {
+        const CompiledProduction& production = input_.system.rules.productions[choosing_.candidates[k]];
+        if (production.strict.size() == 1 || matcher_.match_strict(production, site)) return &production;
+    }
+    return nullptr;
 }
 
 const CompiledProduction* Chooser::match(const Candidates& trial, const Replacement& replacement) {
@@ -247,14 +268,6 @@ void Chooser::decide_one_by_one(std::uint32_t trial) {
     batch.count = 0;
 }
 
-void Chooser::take(Replacement& replacement, std::uint32_t plan) {
-    replacement.plan = plan;
-    const Plan& taken = plans_.choices[plan];
-    becomes_.modules += taken.length - std::size_t{taken.width};
-    becomes_.parameters += taken.parameters - std::size_t{taken.reads};
-    becomes_.siblings += taken.bears;
-}
-
 void Chooser::take(Replacement& replacement, const CompiledProduction* production) {
     const CompiledProduction* const first = input_.system.rules.productions.data();
     take(replacement, plan_of(replacement, production ? choosing_.ranks[production - first] : LetterId{0}));
@@ -267,7 +280,7 @@ void Chooser::sample() {
     for (std::size_t k = 0; k < waiting_count_; ++k) {
         identities[k] = input_.from.identity(waiting_[k].replacement->module);
     }
-    first_draws(input_.key, input_.step, {identities.data(), waiting_count_}, numbers.data());
+    first_samples(input_.key, input_.step, {identities.data(), waiting_count_}, numbers.data());
     for (std::size_t k = 0; k < waiting_count_; ++k) {
         const Pool& pool = choosing_.pools[waiting_[k].pool];
         std::size_t selected = 0;
@@ -316,4 +329,4 @@ std::size_t list_known_replacements(const StepInput& input, const Chunk& chunk, 
     return count;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -3,7 +3,7 @@
 
 #include "lsystem/derive/step.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Where letters alone do not decide: fills in what a chunk's modules are replaced by, and what it becomes.
 void choose_replacements(const StepInput& input, Scratch& scratch, Chunk& chunk, Machine& machine);
@@ -15,4 +15,4 @@ std::size_t list_known_replacements(const StepInput& input, const Chunk& chunk, 
 /// Adds a module to those that wait, with its neighbours if productions may read their parameters.
 void add_to(Batch& batch, const StepInput& input, std::size_t module, const double* values);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

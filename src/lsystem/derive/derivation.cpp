@@ -2,13 +2,14 @@
 // EndEach; and End after the last.
 #include "base/prefetch.h"
 #include "lsystem/derive/derivation_state.h"
+#include "lsystem/derive/small_step.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 // --- Start ------------------------------------------------------------------------------------------------------
 
@@ -73,8 +74,9 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
 }
 
 void Derivation::State::rewrite(const ModuleString& from, ModuleString& to) {
-    const Workplace workplace(from.size(), own_scratch);
-    scratch = &workplace.scratch();
+    if (may_be_simple && lineage && rewrite_small(main, from, step, settings.memory, to)) return;
+    const ScratchLease lease(from.size(), own_scratch);
+    scratch = &lease.scratch();
     const StepInput input = prepare(from);
     if (in_order)
         rewrite_in_order(input, to);
@@ -215,4 +217,4 @@ bool Derivation::stopped() const {
     return state_->services.stopped;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

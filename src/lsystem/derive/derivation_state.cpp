@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdio>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr double most_steps = 1e9;
@@ -24,6 +24,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
       main(model->main()),
       machines(main, variables, services),
       in_order(given.one_by_one || model->nested || main.serial()),
+      may_be_simple(!in_order && main.decomposition.empty() && !model->uses_context && !main.may_cut),
       lineage(keeps_lineage(given.lineage)),
       settings(std::move(given)),
       files(settings.input_folder, settings.output_folder),
@@ -84,7 +85,7 @@ void Derivation::State::evaluate_seed() {
     double seed = 0;
     in_block(block_machine, "the seed", [&] { seed = block_machine.evaluate(main.seed); });
     services.salt = std::bit_cast<std::uint64_t>(seed);
-    block_random = RandomDraws(key(Stream::blocks), 0, 0);
+    block_random = RandomSamples(key(Stream::blocks), 0, 0);
 }
 
 void Derivation::State::reset() {
@@ -96,7 +97,7 @@ void Derivation::State::reset() {
     step = 0;
     services.stopped = false;
     services.salt = 0;
-    block_random = RandomDraws(key(Stream::blocks), 0, 0);
+    block_random = RandomSamples(key(Stream::blocks), 0, 0);
     if (!main.seed.empty() && !main.seed.reads_variables()) evaluate_seed();
 }
 
@@ -145,4 +146,4 @@ void Derivation::State::warn_of_depth() {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <set>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct Derivation::State {
     State(std::shared_ptr<const CompiledModel> compiled, DerivationSettings given);
@@ -51,7 +51,9 @@ struct Derivation::State {
     std::atomic<bool> depth_limit{false};
     bool warned_of_depth = false;
     const bool in_order;  ///< steps replace one module after the other
-    bool lineage;         ///< births are kept: somebody asks, or random numbers are taken
+    /// Letters may decide alone what a step writes, and need nothing besides the string.
+    const bool may_be_simple;
+    bool lineage;  ///< births are kept: somebody asks, or random numbers are taken
     /// Grows with every change of variables, so that writers of pictures know what they have seen.
     std::uint64_t generation = 0;
     Scratch* scratch = nullptr;  ///< lent for the step at hand
@@ -63,11 +65,11 @@ struct Derivation::State {
     std::unique_ptr<Scratch> own_scratch;
     SubSystems sub_systems;
     Machine block_machine;
-    RandomDraws block_random{RandomKey(), 0, 0};
+    RandomSamples block_random{RandomKey(), 0, 0};
     /// Never the same for two states.
     const std::uint64_t serial;
     std::mutex warning;
     std::set<std::pair<std::string, std::pair<int, int>>> warned;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

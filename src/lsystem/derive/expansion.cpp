@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// What replaces the module that was taken from the stack, alone or with those that follow it there.
 const CompiledProduction* Expansion::choose(const ModuleStack& stack, Site& site) {
@@ -52,4 +52,4 @@ void Expansion::push_successor(const CompiledProduction& production, const doubl
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Who a module is.
 struct Lineage {
@@ -183,4 +183,4 @@ void Expansion::run(ModuleStack& stack, const Site& origin, std::uint32_t step, 
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Writes lanes in whole blocks; false if a value is not finite, which may be one of those that are too much.
 inline bool write_lanes(const Plan& plan, const double* values, double* out) {
@@ -47,4 +47,4 @@ inline bool write_lanes_exactly(const CompiledProduction& production, const doub
     return write_lanes_exactly(production.lanes, production.parameters, reads, values, out);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

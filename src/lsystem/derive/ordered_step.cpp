@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 /// Who lives in a string: identities of `?` with the L-system they ask for.
@@ -156,4 +156,4 @@ void Derivation::State::rewrite_in_order(const StepInput& input, ModuleString& t
     ordered.end(to);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -2,8 +2,15 @@
 #include "lsystem/derive/choose.h"
 #include "lsystem/derive/write.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
+
+/// Resizes a column whose elements are no longer needed, so that they are not copied to larger memory.
+template <class T>
+void renew(Column<T>& column, std::size_t size) {
+    column.clear();
+    column.resize(size);
+}
 
 /// What a chunk's modules are replaced by; where letters alone decide, in the thread's memory.
 std::span<const Replacement> replacements_of(const StepInput& input, const Chunk& chunk) {
@@ -43,8 +50,8 @@ void place(const StepInput& input, std::vector<Chunk>& chunks, ModuleString& to)
 void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& machines, ModuleString& to) {
     make_chunks(input, scratch);
     if (!input.system.plans.all_known) {
-        scratch.outcomes.resize(input.system.choosing.places() > 1 ? input.from.size() : 0);
-        scratch.replacements.resize(input.from.size() + scratch.chunks.size());
+        renew(scratch.outcomes, input.system.choosing.places() > 1 ? input.from.size() : 0);
+        renew(scratch.replacements, input.from.size() + scratch.chunks.size());
         for_each_chunk(scratch.chunks, machines,
                        [&](Chunk& chunk, Machine& machine) { choose_replacements(input, scratch, chunk, machine); });
     }
@@ -57,4 +64,4 @@ void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& mac
     if (input.lineage) drop_unused_siblings(to);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::uint32_t deepest = 100;
@@ -126,4 +126,4 @@ std::uint32_t Scopes::of_module(std::size_t module) const {
     return 0;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

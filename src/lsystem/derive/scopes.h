@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// One occurrence of ?(id, scale) ... $ and what is between; scope 0 is the main L-system's.
 struct Scope {
@@ -57,4 +57,4 @@ private:
     std::size_t cut_level_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

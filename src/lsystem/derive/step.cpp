@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 template <class T>
@@ -14,7 +14,7 @@ void resize_column(Column<T>& column, std::size_t size, std::size_t spare) {
     column.clear();
     if (size > 0 && room < size + spare) {
         Column<T>().swap(column);
-        column.reserve(size + size / 8 + spare);
+        column.reserve(size + size / 16 + spare);
     }
     column.resize(size);
 }
@@ -22,15 +22,11 @@ void resize_column(Column<T>& column, std::size_t size, std::size_t spare) {
 /// Adds up what letters alone say of a chunk.
 void count_known(const StepInput& input, Chunk& chunk) {
     const PackedSizes& sizes = input.system.plans.sizes;
-    const std::uint64_t* const of_letter = sizes.of_letter.data();
     const LetterId* const letters = input.from.letters.data();
-    const auto field = [](std::uint64_t sum, int k) { return sum >> k * PackedSizes::bits & PackedSizes::mask; };
-    for (std::size_t i = chunk.begin; i < chunk.end;) {
-        const std::size_t end = std::min(i + sizes.at_once, chunk.end);
-        std::uint64_t sum = 0;
-        for (; i < end; ++i) sum += of_letter[letters[i]];
-        chunk.becomes += {field(sum, 0), field(sum, 1), field(sum, 3)};
-        chunk.parameters_end += field(sum, 2);
+    for (std::size_t i = chunk.begin; i < chunk.end; i += sizes.at_once) {
+        const PackedSizes::Sum sum = sizes.add_up(letters + i, std::min(sizes.at_once, chunk.end - i));
+        chunk.becomes += sum.becomes;
+        chunk.parameters_end += sum.reads;
     }
 }
 
@@ -61,7 +57,7 @@ void require_parameters(const StepInput& input, std::size_t parameters) {
 /// The first place from `at` on that no production reaches across.
 std::size_t border(const StepInput& input, std::size_t at, std::size_t end) {
     const LetterId* const letters = input.from.letters.data();
-    while (at < end && input.system.rules.joins(letters[at - 1], letters[at])) ++at;
+    while (at < end && input.system.joins(letters[at - 1], letters[at])) ++at;
     return at;
 }
 
@@ -144,9 +140,9 @@ void refuse_memory(const StepInput& input, std::size_t modules, std::size_t byte
         most = added;
         fastest = &production;
     }
-    std::string message =
-        fmt::format("step {}: the string would grow to {} modules and {} MiB, more than its memory of {} MiB",
-                    input.step, modules, bytes >> 20, input.memory >> 20);
+    std::string message = fmt::format(
+        "step {}: the string would grow to {} modules and {} MiB, more than the {} MiB of memory left to it",
+        input.step, modules, bytes >> 20, input.memory >> 20);
     if (fastest) {
         const Place& place = fastest->source->place;
         message += fmt::format("; the production{}{} for {} adds the most, {} modules", place.known() ? " at " : "",
@@ -171,4 +167,4 @@ void drop_unused_siblings(ModuleString& string) {
     for (Birth& birth : string.births) birth.siblings = rows[birth.siblings];
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

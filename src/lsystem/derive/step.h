@@ -3,7 +3,7 @@
 
 #include "lsystem/compile/compiled_model.h"
 #include "lsystem/contexts/matching.h"
-#include "lsystem/derive/workplace.h"
+#include "lsystem/derive/scratch_lease.h"
 
 #include <tbb/parallel_for.h>
 
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Everything a step reads.
 struct StepInput {
@@ -107,7 +107,7 @@ void make_room(const StepInput& input, const Extent& added, std::size_t held, Mo
 /// Forgets rows of siblings that none of the string's modules belong to, once they are most of the table.
 void drop_unused_siblings(ModuleString& string);
 
-// The three ways of doing a step. All write the same string.
+// The ways of doing a step of any string; small_step.h is the short one of some. All write the same string.
 
 /// Match and choose, prefix sum, write, in parallel: for productions that can be applied in any order, without
 /// decomposition.
@@ -118,4 +118,4 @@ void rewrite_in_parallel(const StepInput& input, Scratch& scratch, Machines& mac
 void rewrite_and_decompose(const StepInput& input, Scratch& scratch, Machines& machines, Services& services,
                            ModuleString& to, std::atomic<bool>& limit);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

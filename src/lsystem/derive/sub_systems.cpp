@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 void put_variables(std::ostream& out, const Variables& variables) {
     put_values(out, variables.globals);
@@ -76,4 +76,4 @@ void SubSystems::restore(std::istream& in, const CompiledModel& model) {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -1,15 +1,14 @@
 // The instances of sub-L-systems that live in a string: each occurrence of ?(id) owns variables.
 #pragma once
 
-#include "espalier/base/bytes.h"
-
+#include "base/bytes.h"
 #include "lsystem/derive/scopes.h"
 
 #include <map>
 #include <utility>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 void put_variables(std::ostream& out, const Variables& variables);
 /// Throws RunError if they are not of the same model.
@@ -39,4 +38,4 @@ private:
     std::size_t bytes_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

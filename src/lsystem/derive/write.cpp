@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 /// Where reading and writing are.
@@ -277,4 +277,4 @@ void write(const StepInput& input, const Chunk& chunk, std::span<const Replaceme
     Writer(input, chunk, replacements, machine, to).run();
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

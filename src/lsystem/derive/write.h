@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Writes letters and values of what replaces a chunk to `to`, whose columns have their final size.
 void write(const StepInput& input, const Chunk& chunk, std::span<const Replacement> replacements, Machine& machine,
@@ -35,4 +35,4 @@ inline std::ptrdiff_t reach(const Column<T>& column, std::size_t end, std::size_
     return static_cast<std::ptrdiff_t>(end + (has_spare ? spare : 0));
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

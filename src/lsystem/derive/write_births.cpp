@@ -2,7 +2,7 @@
 #include "base/vector_clones.h"
 #include "lsystem/derive/write.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 /// Where births are read and written.
@@ -88,4 +88,4 @@ void write_births(const StepInput& input, const Chunk& chunk, std::span<const Re
     write_all(births, input.system.plans.choices.data(), replacements, input.step, chunk.end);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

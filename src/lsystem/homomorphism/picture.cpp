@@ -2,7 +2,7 @@
 #include "lsystem/derive/lanes.h"
 #include "lsystem/homomorphism/picture_writer.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 bool has_picture(const CompiledSystem& system, LetterId letter) {
@@ -64,4 +64,4 @@ std::size_t Derivation::picture(const ModuleString& string, const std::vector<st
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t most_modules = 100'000'000;  // of one picture, whatever memory there is
@@ -211,4 +211,4 @@ void PictureWriter::forget_variables() {
     made_.clear();
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

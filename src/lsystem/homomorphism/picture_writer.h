@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// What one L-system's homomorphism needs.
 struct SystemPictures {
@@ -93,4 +93,4 @@ private:
     int level_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t most_letters = 65'000;
@@ -57,4 +57,4 @@ std::optional<LetterId> Alphabet::find(std::string_view symbol, int arity) const
     return found->second;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// De Boor's recurrence (de Boor 1972) with knots 0, 0, 0, 0, 1, 2, ..., n, n, n, n of n segments. `points` are the
 /// four of the segment that `u` lies in.
@@ -22,4 +22,4 @@ Point clamped_spline(std::array<Point, 4> points, int segment, int segments, dou
     return points[3];
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -1,6 +1,6 @@
 #include "espalier/lsystem/expression.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 
 Expression Expression::number(double value, Place place) {
     Expression expression;
@@ -9,4 +9,4 @@ Expression Expression::number(double value, Place place) {
     return expression;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

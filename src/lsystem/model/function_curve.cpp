@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t least_points = 4;
@@ -57,4 +57,4 @@ double FunctionCurve::exact(double x) const {
     return point.y;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 SiblingTable SiblingTable::grown(std::size_t more) const {
     SiblingTable table = *this;
@@ -17,4 +17,4 @@ SiblingTable SiblingTable::grown(std::size_t more) const {
     return table;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -1,8 +1,8 @@
 #include "espalier/lsystem/module_string.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 template <class T>
@@ -87,4 +87,4 @@ void link_branches(const ModuleString& string, BranchLinks& links) {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t least_points = 4;
@@ -91,4 +91,4 @@ glm::dvec3 SpaceCurve::at_parameter(double t) const {
     return type_ == Type::end_point ? clamped_spline(q, segment, segments, u) : uniform(q, u - segment);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t lanes = ColumnProgram::lanes;
@@ -21,7 +21,7 @@ bool runs_in_columns(const Instruction& instruction, std::size_t at) {
     if (is_jump(instruction.op)) return instruction.b > at;
     if (instruction.op == Opcode::call) return is_pure(instruction.function);
     return instruction.op == Opcode::load_global ||
-           (instruction.op >= Opcode::copy && instruction.op <= Opcode::is_true);
+           (instruction.op >= Opcode::copy && instruction.op <= Opcode::single);
 }
 
 bool may_divide_by_zero(const Instruction& instruction, std::span<const double> constants) {
@@ -53,12 +53,12 @@ template <class Value>
     }
 }
 
-void call_each(double* columns, const Instruction& i, const Running& running, bool quirks) {
+void call_each(double* columns, const Instruction& i, const Running& running, Arithmetic arithmetic) {
     std::vector<double> values(i.count);
     for (std::size_t k = 0; k < running.count; ++k) {
         if (!running.runs(k)) continue;
         for (std::size_t v = 0; v < values.size(); ++v) values[v] = columns[(i.a + v) * lanes + k];
-        columns[i.target * lanes + k] = call(i.function, values, quirks);
+        columns[i.target * lanes + k] = call(i.function, values, arithmetic);
     }
 }
 
@@ -87,12 +87,13 @@ template <class Jumps>
 /// `goes_on`: of each module, the instruction where it does; null if nobody jumps.
 ESPALIER_VECTOR_CLONES
 bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::size_t count, double* goes_on,
-              const Variables& variables, bool quirks) {
+              const Variables& variables, Arithmetic arithmetic) {
     static const Place nowhere;
     for (std::size_t n = 0; n < steps.size(); ++n) {
         const Instruction i = steps[n].instruction;
         const Running running{steps[n].is_skipped ? goes_on : nullptr, double(n), count};
-        if (steps[n].may_divide_by_zero && !quirks && divides_by_zero(columns, i, running)) return false;
+        if (steps[n].may_divide_by_zero && arithmetic != Arithmetic::cpfg && divides_by_zero(columns, i, running))
+            return false;
         double* const target = columns + i.target * lanes;
         const auto with = [&](const auto& operation) [[gnu::always_inline]] {
             const double* const a = columns + i.a * lanes;
@@ -119,7 +120,7 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
                 with([](double a, double b) { return b != 0 ? a / b : a; });
                 break;
             case Opcode::remainder:
-                with([](double a, double b) { return remainder(a, b, true, nowhere); });
+                with([](double a, double b) { return remainder(a, b, Arithmetic::cpfg, nowhere); });
                 break;
             case Opcode::add:
                 with([](double a, double b) { return a + b; });
@@ -148,8 +149,11 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
             case Opcode::is_true:
                 with([](double a, double) { return a != 0 ? 1.0 : 0.0; });
                 break;
+            case Opcode::single:
+                with([](double a, double) { return stored(a, Arithmetic::cpfg); });
+                break;
             case Opcode::call:
-                call_each(columns, i, running, quirks);
+                call_each(columns, i, running, arithmetic);
                 break;
             case Opcode::load_global:
                 each(target, running, [value = variables.globals[i.a]](std::size_t) { return value; });
@@ -239,7 +243,7 @@ std::optional<ColumnProgram> ColumnProgram::make(const Program& program, std::sp
     return made;
 }
 
-bool ColumnProgram::run(const Modules& modules, std::size_t count, const Variables& variables, bool quirks,
+bool ColumnProgram::run(const Modules& modules, std::size_t count, const Variables& variables, Arithmetic arithmetic,
                         std::vector<double>& columns) const {
     if (columns.size() < (width_ + 1) * lanes) columns.resize((width_ + 1) * lanes);
     double* const to = columns.data();
@@ -251,7 +255,7 @@ bool ColumnProgram::run(const Modules& modules, std::size_t count, const Variabl
         const double* const* const values = modules[input.source.whose].data();
         for (std::size_t k = 0; k < count; ++k) column[k] = values[k][input.source.place];
     }
-    return run_code(steps_, to, count, goes_on, variables, quirks);
+    return run_code(steps_, to, count, goes_on, variables, arithmetic);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct Variables;
 
@@ -46,7 +46,7 @@ public:
 
     /// Of `count` modules. `columns` is memory to work in. False if one of them
     /// divides by zero where that is an error: running it for each alone says which.
-    bool run(const Modules& modules, std::size_t count, const Variables& variables, bool quirks,
+    bool run(const Modules& modules, std::size_t count, const Variables& variables, Arithmetic arithmetic,
              std::vector<double>& columns) const;
     /// The values of a result, one a module, where `run` left them.
     const double* result(std::size_t k, const std::vector<double>& columns) const {
@@ -80,4 +80,4 @@ struct Batch {
     std::array<std::uint32_t, ColumnProgram::lanes> places;  ///< among what waits
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

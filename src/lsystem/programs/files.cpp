@@ -1,8 +1,8 @@
 #include "lsystem/programs/files.h"
 
-#include "espalier/base/bytes.h"
 #include "espalier/base/file.h"
 
+#include "base/bytes.h"
 #include "lsystem/programs/functions.h"
 #include "lsystem/programs/limits.h"
 
@@ -14,7 +14,7 @@
 #include <optional>
 #include <system_error>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 namespace fs = std::filesystem;
@@ -260,4 +260,4 @@ void ModelFiles::restore(std::istream& in) {
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

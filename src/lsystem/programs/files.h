@@ -12,7 +12,7 @@
 #include <mutex>
 #include <string>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Files are read whole when they are opened; what is written goes to disk when they are flushed or closed and after
 /// every step. A name is looked for among what the model itself wrote, then in the output folder, then in the input
@@ -68,4 +68,4 @@ private:
     mutable std::mutex mutex_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -162,21 +162,21 @@ double apply(Operator op, double a, double b) {
     return 0;
 }
 
-double divide(double a, double b, bool quirks, const Place& place) {
+double divide(double a, double b, Arithmetic arithmetic, const Place& place) {
     if (b != 0) return a / b;
-    if (quirks) return a;
-    throw EvaluationError(place, fmt::format("division by zero: {:g} / {:g} (--cpfg-quirks divides by 1)", a, b));
+    if (arithmetic == Arithmetic::cpfg) return a;
+    throw EvaluationError(place, fmt::format("division by zero: {:g} / {:g} (--arithmetic cpfg divides by 1)", a, b));
 }
 
 // Both sides are truncated to whole numbers, as in C.
-double remainder(double a, double b, bool quirks, const Place& place) {
+double remainder(double a, double b, Arithmetic arithmetic, const Place& place) {
     const double divisor = std::trunc(b);
     if (divisor != 0) return std::fmod(std::trunc(a), divisor);
-    if (quirks) return 0;
-    throw EvaluationError(place, fmt::format("division by zero: {:g} % {:g} (--cpfg-quirks divides by 1)", a, b));
+    if (arithmetic == Arithmetic::cpfg) return 0;
+    throw EvaluationError(place, fmt::format("division by zero: {:g} % {:g} (--arithmetic cpfg divides by 1)", a, b));
 }
 
-double call(Function function, std::span<const double> values, bool quirks) {
+double call(Function function, std::span<const double> values, Arithmetic arithmetic) {
     const double x = values[0];
     switch (function) {
         case Function::sin:
@@ -213,7 +213,7 @@ double call(Function function, std::span<const double> values, bool quirks) {
         case Function::sign:
             return (x > 0) - (x < 0);
         case Function::trunc:
-            return quirks ? std::floor(x + 0.5) : std::trunc(x);
+            return arithmetic == Arithmetic::cpfg ? std::floor(x + 0.5) : std::trunc(x);
         case Function::min:
             return *std::min_element(values.begin(), values.end());
         case Function::max:
@@ -229,7 +229,7 @@ double call(Function function, std::span<const double> values, bool quirks) {
     }
 }
 
-double sample(Function function, std::span<const double> values, RandomDraws& random, const Place& place) {
+double sample(Function function, std::span<const double> values, RandomSamples& random, const Place& place) {
     const bool finite = std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
     require(finite, function, "the arguments must be finite numbers", values, place);
     switch (function) {
@@ -284,4 +284,4 @@ double gradient_noise(double x, double y, double z) {
     return std::lerp(std::lerp(along_x(0, 0), along_x(1, 0), v), std::lerp(along_x(0, 1), along_x(1, 1), v), w);
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

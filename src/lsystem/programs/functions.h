@@ -2,13 +2,14 @@
 #pragma once
 
 #include "espalier/base/random.h"
+#include "espalier/lsystem/arithmetic.h"
 #include "espalier/lsystem/expression.h"
 
 #include <span>
 #include <stdexcept>
 #include <string>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// An expression that has no value, before anybody knows which module it belongs to.
 struct EvaluationError : std::runtime_error {
@@ -32,15 +33,15 @@ bool has_order(Function function);
 
 /// The value of an operator other than / and %, which may fail, and && and ||, which may not evaluate both sides.
 double apply(Operator op, double a, double b);
-/// a / b and a % b; `quirks`: division by 0 divides by 1. Throws EvaluationError.
-double divide(double a, double b, bool quirks, const Place& place);
-double remainder(double a, double b, bool quirks, const Place& place);
+/// a / b and a % b; with cpfg's arithmetic, division by 0 divides by 1. Throws EvaluationError.
+double divide(double a, double b, Arithmetic arithmetic, const Place& place);
+double remainder(double a, double b, Arithmetic arithmetic, const Place& place);
 /// A pure function.
-double call(Function function, std::span<const double> values, bool quirks);
+double call(Function function, std::span<const double> values, Arithmetic arithmetic);
 /// ran, nran, bran, biran. Throws EvaluationError for arguments they are not defined for.
-double sample(Function function, std::span<const double> values, RandomDraws& random, const Place& place);
+double sample(Function function, std::span<const double> values, RandomSamples& random, const Place& place);
 
 /// Gradient noise in [-1, 1], 0 at whole coordinates (Perlin 2002's interpolant over hashed gradients).
 double gradient_noise(double x, double y, double z);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 inline constexpr std::uint64_t most_turns = 1'000;
@@ -20,4 +20,4 @@ inline constexpr std::size_t most_file_bytes = std::size_t{1} << 30;  ///< of al
 
 inline constexpr std::size_t most_open_files = 1000;
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

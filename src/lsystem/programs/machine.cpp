@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 [[noreturn]] void refuse_loop(const Place& place) {
@@ -18,8 +18,8 @@ namespace {
 }  // namespace
 
 Machine::Machine(const std::vector<double>& constants, std::size_t registers, const std::vector<CompiledArray>& arrays,
-                 bool quirks)
-    : registers_(registers), first_formal_(constants.size()), arrays_(arrays), quirks_(quirks) {
+                 Arithmetic arithmetic)
+    : registers_(registers), first_formal_(constants.size()), arrays_(arrays), arithmetic_(arithmetic) {
     std::copy(constants.begin(), constants.end(), registers_.begin());
 }
 
@@ -49,10 +49,10 @@ void Machine::run(const Program& program) {
                 r[i.target] = r[i.a] * r[i.b];
                 break;
             case Opcode::divide:
-                r[i.target] = r[i.b] != 0 ? r[i.a] / r[i.b] : divide(r[i.a], r[i.b], quirks_, place());
+                r[i.target] = r[i.b] != 0 ? r[i.a] / r[i.b] : divide(r[i.a], r[i.b], arithmetic_, place());
                 break;
             case Opcode::remainder:
-                r[i.target] = remainder(r[i.a], r[i.b], quirks_, place());
+                r[i.target] = remainder(r[i.a], r[i.b], arithmetic_, place());
                 break;
             case Opcode::add:
                 r[i.target] = r[i.a] + r[i.b];
@@ -80,6 +80,9 @@ void Machine::run(const Program& program) {
                 break;
             case Opcode::is_true:
                 r[i.target] = r[i.a] != 0;
+                break;
+            case Opcode::single:
+                r[i.target] = stored(r[i.a], Arithmetic::cpfg);
                 break;
             case Opcode::call:
                 r[i.target] = call(i, place());
@@ -131,13 +134,13 @@ void Machine::run(const Program& program) {
 
 double Machine::call(const Instruction& instruction, const Place& place) {
     const std::span<const double> values(registers_.data() + instruction.a, instruction.count);
-    if (is_pure(instruction.function)) return espalier::call(instruction.function, values, quirks_);
-    if (espalier::samples(instruction.function)) return sample(instruction.function, values, random_, place);
+    if (is_pure(instruction.function)) return lsystem::call(instruction.function, values, arithmetic_);
+    if (lsystem::samples(instruction.function)) return sample(instruction.function, values, random_, place);
     switch (instruction.function) {
         case Function::srand:
             // The stream begins anew with the seed, whoever takes numbers from it.
             services_->salt = std::bit_cast<std::uint64_t>(values[0]);
-            random_ = RandomDraws(RandomKey(services_->seed, services_->plant, stream_, services_->salt), 0, 0);
+            random_ = RandomSamples(RandomKey(services_->seed, services_->plant, stream_, services_->salt), 0, 0);
             reseeded_ = true;
             return values[0];
         case Function::stop:
@@ -177,7 +180,7 @@ double* Machine::element(const Instruction& instruction, const Place& place) {
         const auto size = static_cast<double>(array.dimensions[k]);
         double subscript = std::trunc(registers_[instruction.b + k]);
         if (!(subscript >= 0 && subscript < size)) {
-            if (!quirks_) {
+            if (arithmetic_ != Arithmetic::cpfg) {
                 throw EvaluationError(place, fmt::format("subscript {:g} of array '{}' is out of range: 0 to {:g}",
                                                          subscript, array.name, size - 1));
             }
@@ -220,4 +223,4 @@ double Machine::warn_of_file(Function function, double file, const Place& place)
     return -1;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

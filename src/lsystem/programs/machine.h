@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct CompiledArray {
     std::string name;
@@ -49,7 +49,7 @@ struct Services {
 class Machine {
 public:
     Machine(const std::vector<double>& constants, std::size_t registers, const std::vector<CompiledArray>& arrays,
-            bool quirks);
+            Arithmetic arithmetic);
 
     /// Binds the variables and services that programs see from now on.
     void attach(Variables* variables, Services* services, Stream stream) {
@@ -57,8 +57,8 @@ public:
         services_ = services;
         stream_ = stream;
     }
-    void sample_with(const RandomDraws& numbers) { random_ = numbers; }
-    const RandomDraws& random_numbers() const { return random_; }
+    void sample_with(const RandomSamples& numbers) { random_ = numbers; }
+    const RandomSamples& random_numbers() const { return random_; }
     /// True once after a program called srand: its stream goes on until the module is done.
     bool reseeded() const { return reseeded_; }
     void forget_reseeding() { reseeded_ = false; }
@@ -68,7 +68,7 @@ public:
     /// Throws EvaluationError.
     void run(const Program& program);
     bool run(const ColumnProgram& program, const Batch& batch) {
-        return program.run(batch.modules, batch.count, *variables_, quirks_, columns_);
+        return program.run(batch.modules, batch.count, *variables_, arithmetic_, columns_);
     }
     const double* result(const ColumnProgram& program, std::size_t k) const { return program.result(k, columns_); }
     /// Modules that wait, by a number that whoever makes them wait chooses.
@@ -97,12 +97,12 @@ private:
     std::vector<Batch> batches_;
     std::size_t first_formal_;
     const std::vector<CompiledArray>& arrays_;
-    bool quirks_;
+    Arithmetic arithmetic_;
     Variables* variables_ = nullptr;
     Services* services_ = nullptr;
     Stream stream_ = Stream::blocks;
-    RandomDraws random_{RandomKey(), 0, 0};
+    RandomSamples random_{RandomKey(), 0, 0};
     bool reseeded_ = false;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

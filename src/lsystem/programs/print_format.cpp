@@ -1,9 +1,9 @@
-#include "espalier/lsystem/print_format.h"
+#include "lsystem/programs/print_format.h"
 
 #include <cmath>
 #include <cstdio>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::string_view floating = "fFeEgGaA";
@@ -82,4 +82,4 @@ std::string PrintFormat::fill(const std::vector<Value>& values) const {
     return text + after_;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -1,7 +1,6 @@
 #include "lsystem/programs/program.h"
 
-#include "espalier/lsystem/constant.h"
-
+#include "lsystem/programs/constant.h"
 #include "lsystem/programs/functions.h"
 
 #include <fmt/format.h>
@@ -9,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 // Register names while compiling: what kind, and which.
@@ -72,7 +71,8 @@ bool Program::reads_variables() const {
 }
 
 // The step and the derivation length are everybody's.
-ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, bool quirks) : system_(system), quirks_(quirks) {
+ProgramCompiler::ProgramCompiler(const LSystem& system, bool inner, Arithmetic arithmetic)
+    : system_(system), arithmetic_(arithmetic) {
     external_.assign(system.globals.size(), false);
     if (!inner) return;
     for (std::size_t g = 0; g < system.globals.size(); ++g) {
@@ -111,9 +111,16 @@ Program ProgramCompiler::values(const std::vector<const Expression*>& expression
     for (const Expression* const each : expressions) {
         const bool text = each->kind == Expression::Kind::text;
         const Operand value = text ? Operand{true, double(each->index), 0} : compile(*each);
-        program_.results.push_back(reg(value));
+        program_.results.push_back(reg(kept(value, each->place)));
     }
     return finish({});
+}
+
+/// A value as the string keeps it.
+ProgramCompiler::Operand ProgramCompiler::kept(const Operand& value, const Place& place) {
+    if (arithmetic_ != Arithmetic::cpfg) return value;
+    if (value.constant) return {true, stored(value.number, arithmetic_), 0};
+    return emit({Opcode::single, Function::sin, 0, temporary(), value.reg, 0}, place);
 }
 
 Program ProgramCompiler::block(const Block& block) {
@@ -193,7 +200,10 @@ ProgramCompiler::Operand ProgramCompiler::apply(const Expression& expression) {
 ProgramCompiler::Operand ProgramCompiler::short_circuit(const Expression& expression) {
     const std::uint32_t target = temporary();
     const Opcode leave = expression.op == Operator::logical_and ? Opcode::jump_if_false : Opcode::jump_if_true;
-    emit({Opcode::is_true, Function::sin, 0, target, reg(compile(expression.operands[0])), 0}, expression.place);
+    // In cpfg, what holds on the left of || is the value.
+    const bool keeps_value = arithmetic_ == Arithmetic::cpfg && expression.op == Operator::logical_or;
+    const Opcode test = keeps_value ? Opcode::copy : Opcode::is_true;
+    emit({test, Function::sin, 0, target, reg(compile(expression.operands[0])), 0}, expression.place);
     const std::size_t jump = emit_jump(leave, target, expression.place);
     emit({Opcode::is_true, Function::sin, 0, target, reg(compile(expression.operands[1])), 0}, expression.place);
     land(jump);
@@ -322,7 +332,7 @@ void ProgramCompiler::loop(const Statement& statement) {
 }
 
 std::optional<double> ProgramCompiler::fold(const Expression& expression) const {
-    return constant_value(expression, quirks_);
+    return constant_value(expression, arithmetic_);
 }
 
 std::uint32_t ProgramCompiler::register_count(std::uint32_t formals) const {
@@ -353,4 +363,4 @@ void ProgramCompiler::place_registers(Program& program, std::uint32_t formals) c
     }
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "espalier/lsystem/lsystem.h"
-#include "espalier/lsystem/print_format.h"
 
+#include "lsystem/programs/print_format.h"
 #include "lsystem/programs/scan_format.h"
 
 #include <bit>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 enum class Opcode : std::uint8_t {
     end,
@@ -33,6 +33,7 @@ enum class Opcode : std::uint8_t {
     equal,
     not_equal,
     is_true,  // target = a != 0
+    single,   // target = a, rounded to a 32-bit float
     call,     // target = function(count registers from a)
     load_global,
     store_global,   // a = index of the global; store takes `target`
@@ -131,7 +132,7 @@ private:
 class ProgramCompiler {
 public:
     /// `inner`: the L-system stands inside others, whose variables its external ones are.
-    ProgramCompiler(const LSystem& system, bool inner, bool quirks);
+    ProgramCompiler(const LSystem& system, bool inner, Arithmetic arithmetic);
 
     bool is_external(std::uint32_t global) const { return external_.at(global); }
 
@@ -164,6 +165,7 @@ private:
     Operand print(const Expression& expression);
     Operand open_file(const Expression& expression);
     Operand scan_file(const Expression& expression);
+    Operand kept(const Operand& value, const Place& place);
     void store(const Expression& target, std::uint32_t subscripts, std::uint32_t value, const Place& place);
     std::uint32_t subscripts(const Expression& element);
     void statements(const Block& block);
@@ -183,7 +185,7 @@ private:
     void require_arguments(const Expression& expression) const;
 
     const LSystem& system_;
-    bool quirks_;
+    Arithmetic arithmetic_;
     std::vector<bool> external_;  ///< by global
     ConstantPool pool_;
     Program program_;
@@ -192,4 +194,4 @@ private:
     std::vector<std::vector<std::size_t>> breaks_;  // jumps out of each enclosing loop
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

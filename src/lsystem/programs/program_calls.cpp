@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 void ProgramCompiler::require_arguments(const Expression& expression) const {
     const Arguments allowed = arguments_of(expression.function);
@@ -114,4 +114,4 @@ ProgramCompiler::Operand ProgramCompiler::scan_file(const Expression& expression
     return count;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t widest = 1'000'000;
@@ -173,4 +173,4 @@ int ScanFormat::scan(std::string_view text, std::size_t& position, double* value
     return stored;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

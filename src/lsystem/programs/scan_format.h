@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 class ScanFormat {
 public:
@@ -40,4 +40,4 @@ private:
     std::size_t conversions_ = 0;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

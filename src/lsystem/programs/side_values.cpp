@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 /// An element counted from 1 by a number that is truncated; null if there is none.
@@ -45,4 +45,4 @@ double side_value(const Resources* resources, Function function, std::span<const
     return function == Function::curve_x ? point.x : function == Function::curve_y ? point.y : point.z;
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 /// Extents are numbered vvXmin, vvXmax, vvYmin, vvYmax, vvZmin, vvZmax, vvScale.
 double extent_of_view(const Resources& resources, std::uint32_t which);
@@ -17,4 +17,4 @@ double extent_of_view(const Resources& resources, std::uint32_t which);
 double side_value(const Resources* resources, Function function, std::span<const double> values,
                   const std::function<void(const std::string&)>& warn);
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

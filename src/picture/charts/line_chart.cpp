@@ -73,6 +73,7 @@ public:
     void set(const ChartPage& page, const Chart& chart, const vtkRectf& place, float font) {
         page_ = &page, chart_ = &chart, font_ = font, look_ = look_of(page);
         Span x, y;
+        if (chart.upright) x.low = 0;
         for (const Series& series : chart.series) {
             x.add(series.x);
             for (const std::vector<double>* values : {&series.y, &series.low, &series.high}) y.add(*values);

@@ -1,7 +1,8 @@
 #include "picture/charts/quantity.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
+
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,12 @@
 #include <set>
 
 namespace espalier::picture {
+
+std::string with_powers(const std::string& unit) {
+    std::string text;
+    for (const char c : unit) text += c == '2' ? "²" : c == '3' ? "³" : std::string(1, c);
+    return text;
+}
 
 std::string quantity_title(const std::string& column) {
     if (column == "length" || column == "height") return column + " (m)";
@@ -24,7 +31,7 @@ void require_quantity(std::span<const PlottedTable> tables, const std::string& q
     for (const PlottedTable& table : tables) {
         for (const std::string& name : table.table.columns) {
             if (name == quantity) return;
-            if (name != "step" && name != "plant") names.push_back(name);
+            if (name != "step" && name != "time" && name != "plant") names.push_back(name);
         }
     }
     throw UserError(fmt::format("there is no quantity '{}'{}", quantity, did_you_mean(quantity, names)));

@@ -1,7 +1,7 @@
 // Quantities of statistics.csv: their titles, and what several plants' values are in one.
 #pragma once
 
-#include "espalier/picture/table_charts.h"
+#include "picture/charts/table_charts.h"
 
 #include <cstddef>
 #include <span>
@@ -11,6 +11,9 @@ namespace espalier::picture {
 
 /// With its unit.
 std::string quantity_title(const std::string& column);
+
+/// "m3" as "m³", "m3/m3" as "m³/m³".
+std::string with_powers(const std::string& unit);
 
 /// Throws UserError for a quantity that no table has, naming the nearest.
 void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity);

@@ -1,4 +1,4 @@
-#include "espalier/picture/sweep_charts.h"
+#include "picture/charts/sweep_charts.h"
 
 #include "picture/charts/quantity.h"
 
@@ -56,7 +56,7 @@ Axis axis_of(const SweptRuns& sweep, std::size_t column) {
 std::vector<Axis> axes_of(const SweptRuns& sweep) {
     std::vector<Axis> axes;
     for (std::size_t column = 0; column < sweep.keys.size(); ++column) {
-        if (sweep.keys[column] != seed_key || sweep.keys.size() == 1) axes.push_back(axis_of(sweep, column));
+        if (sweep.keys[column] != seed_key) axes.push_back(axis_of(sweep, column));
     }
     std::stable_sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
         return std::pair(a.numbers.empty(), b.names.size()) < std::pair(b.numbers.empty(), a.names.size());
@@ -103,6 +103,13 @@ public:
     const std::map<std::vector<std::size_t>, std::map<std::size_t, std::vector<double>>>& lines() const {
         return values_;
     }
+    std::size_t size() const {
+        std::size_t runs = 0;
+        for (const auto& [line, places] : values_) {
+            for (const auto& [place, values] : places) runs += values.size();
+        }
+        return runs;
+    }
     bool has_repetitions() const {
         for (const auto& [line, places] : values_) {
             for (const auto& [place, values] : places) {
@@ -130,7 +137,7 @@ std::string line_name(const std::vector<Axis>& axes, const std::vector<std::size
 }
 
 Chart line_chart(const std::vector<Axis>& axes, const Values& values, const std::string& title) {
-    const Axis nothing{0, "", {""}, {}};
+    const Axis nothing{0, "", {fmt::format("{} runs", values.size())}, {}};
     const Axis& x = axes.empty() ? nothing : axes.front();
     Chart chart{x.title, title, {}, x.numbers.empty() ? x.names : std::vector<std::string>{}, {}};
     const bool repeated = values.has_repetitions();

@@ -1,4 +1,4 @@
-#include "espalier/picture/table_charts.h"
+#include "picture/charts/table_charts.h"
 
 #include "picture/charts/quantity.h"
 
@@ -98,7 +98,7 @@ private:
 };
 
 void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const std::string& quantity, const Keys& keys,
-                const std::string& along, Lines lines) {
+                const std::string& along, Lines lines, bool upright) {
     const std::optional<std::size_t> column = column_of(table.table, quantity);
     if (!column) return;
     const std::size_t at_x = table.table.column(along), plant = table.table.column("plant");
@@ -115,6 +115,7 @@ void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const 
             series.x.push_back(at);
             series.y.push_back(merged.value());
         }
+        if (upright) std::swap(series.x, series.y);
         chart.series.push_back(std::move(series));
     }
 }
@@ -167,8 +168,10 @@ ChartPage chart_page(std::span<const PlottedTable> tables, const PlotOptions& op
         require_quantity(tables, quantity);
         Chart chart{title_of(options.x, options), title_of(quantity, options), {}};
         for (std::size_t run = 0; run < tables.size(); ++run) {
-            add_series(chart, tables[run], run, quantity, keys, options.x, lines);
+            add_series(chart, tables[run], run, quantity, keys, options.x, lines, options.upright);
         }
+        chart.upright = options.upright;
+        if (chart.upright) std::swap(chart.x_title, chart.y_title);
         page.charts.push_back(std::move(chart));
     }
     return page;

@@ -5,6 +5,7 @@
 #include "picture/stage/legend.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkNew.h>
@@ -20,38 +21,48 @@ namespace {
 
 /// Pixels that are drawn for each along both sides of a picture: edges become smooth.
 constexpr int finer = 2;
-constexpr int largest = 8192;
+constexpr std::size_t block_side = finer;
+constexpr int largest_side = 8192;
 
 const PictureSize& checked(const PictureSize& size) {
-    if (size.width >= 1 && size.height >= 1 && size.width <= largest && size.height <= largest) return size;
+    if (size.width >= 1 && size.height >= 1 && size.width <= largest_side && size.height <= largest_side) return size;
     throw UserError(
-        fmt::format("a picture has 1 to {} pixels along a side, not {}x{}", largest, size.width, size.height));
+        fmt::format("a picture has 1 to {} pixels along a side, not {}x{}", largest_side, size.width, size.height));
 }
 
-/// Means of blocks of pixels; what is clear does not lend its colour.
+/// The mean of a block of pixels, whose rows are `row` bytes apart; what is clear does not lend its colour.
+void mean_of(const unsigned char* block, std::size_t row, std::size_t parts, unsigned char* to) {
+    std::array<int, 3> colour{};
+    int weight = 0;
+    for (std::size_t k = 0; k < block_side * block_side; ++k) {
+        const unsigned char* const pixel = block + k / block_side * row + k % block_side * parts;
+        const int alpha = parts == 4 ? pixel[3] : 255;
+        for (std::size_t i = 0; i < 3; ++i) colour[i] += alpha * pixel[i];
+        weight += alpha;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        to[i] = static_cast<unsigned char>(weight > 0 ? (colour[i] + weight / 2) / weight : 255);
+    }
+    constexpr int count = finer * finer;
+    if (parts == 4) to[3] = static_cast<unsigned char>((weight + count / 2) / count);
+}
+
+/// Means of blocks of pixels.
 vtkSmartPointer<vtkImageData> shrunk(vtkImageData& drawn, const PictureSize& size) {
     auto picture = vtkSmartPointer<vtkImageData>::New();
     const int parts = drawn.GetNumberOfScalarComponents();
     picture->SetDimensions(size.width, size.height, 1);
     picture->AllocateScalars(VTK_UNSIGNED_CHAR, parts);
-    for (int y = 0; y < size.height; ++y) {
-        for (int x = 0; x < size.width; ++x) {
-            std::array<int, 3> colour{};
-            int weight = 0;
-            for (int k = 0; k < finer * finer; ++k) {
-                const auto* from = static_cast<const unsigned char*>(
-                    drawn.GetScalarPointer(finer * x + k % finer, finer * y + k / finer, 0));
-                const int alpha = parts == 4 ? from[3] : 255;
-                for (std::size_t i = 0; i < 3; ++i) colour[i] += alpha * from[i];
-                weight += alpha;
-            }
-            auto* to = static_cast<unsigned char*>(picture->GetScalarPointer(x, y, 0));
-            for (std::size_t i = 0; i < 3; ++i) {
-                to[i] = static_cast<unsigned char>(weight > 0 ? (colour[i] + weight / 2) / weight : 255);
-            }
-            if (parts == 4) to[3] = static_cast<unsigned char>((weight + finer * finer / 2) / (finer * finer));
+    const auto* const from = static_cast<const unsigned char*>(drawn.GetScalarPointer());
+    auto* const to = static_cast<unsigned char*>(picture->GetScalarPointer());
+    const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
+    const auto bytes = static_cast<std::size_t>(parts);
+    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t row = bytes * block_side * width;
+            mean_of(from + block_side * (y * row + x * bytes), row, bytes, to + bytes * (y * width + x));
         }
-    }
+    });
     return picture;
 }
 

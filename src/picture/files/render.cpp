@@ -7,6 +7,7 @@
 #include "picture/files/frame_painter.h"
 #include "picture/stage/colouring.h"
 #include "picture/stage/legend.h"
+#include "picture/stage/stage_survey.h"
 
 #include <fmt/format.h>
 
@@ -30,9 +31,11 @@ public:
         if (job.frames.empty()) throw UserError(fmt::format("{} has no frames", job.run.folder().string()));
         Stage& stage = painter_.stage();
         const StageSurvey survey = stage.survey(distinct_frames());
+        require_something(survey);
         stage.settle(survey);
         PictureStyle style = job.style;
         style.ground = job.ground.value_or(!survey.box.empty() && !grows_beneath(survey.box));
+        if (job.chooses_background) style.background = chosen_background(job.run, survey, style.background);
         stage.restyle(style);
         place_ = job.camera;
         place_.turns = place_.turns || job.orbit != 0;
@@ -53,6 +56,19 @@ public:
     Stage& stage() { return painter_.stage(); }
 
 private:
+    static bool is_empty(const StageSurvey& survey) { return survey.outline.empty() && !survey.has_labels; }
+
+    // A plant may begin with nothing to see; one that ends so is hardly what was meant.
+    void require_something(const StageSurvey& survey) {
+        const RecordedFrame* const last = &job_.run.frames().back();
+        if (!is_empty(survey) || job_.run.background() || !is_empty(painter_.stage().survey({&last, 1}))) return;
+        throw UserError(fmt::format(
+            "{}: nothing to draw: no line, surface or organ in the frame of step {}{}, nor in the last one; "
+            "`espalier info` tells what the plants are made of",
+            job_.run.folder().string(), job_.frames.back()->step,
+            job_.style.plant ? " of plant " + job_.run.plants()[*job_.style.plant].name : ""));
+    }
+
     std::vector<const RecordedFrame*> distinct_frames() const {
         std::vector<const RecordedFrame*> frames;
         for (const RecordedFrame* frame : job_.frames) {
@@ -168,15 +184,16 @@ void render_sheet(const RenderJob& job, int columns, const fs::path& path) {
     const int count = static_cast<int>(job.frames.size());
     const int rows = (count + columns - 1) / columns;
     const int height = rows * job.size.height;
+    const PictureBackground background = painter.stage().style().background;
     vtkSmartPointer<vtkImageData> keys, sheet;
     for (int i = 0; i < count; ++i) {
         const auto cell = painter.picture(static_cast<std::size_t>(i));
         if (!sheet) {
             const int width = columns * job.size.width;
             if (job.style.legend && !painter.stage().legend().keys.empty()) {
-                keys = picture_of(painter.stage().legend(), job.style.background, height);
+                keys = picture_of(painter.stage().legend(), background, height);
             }
-            sheet = paper(width + (keys ? keys->GetDimensions()[0] : 0), height, job.style.background);
+            sheet = paper(width + (keys ? keys->GetDimensions()[0] : 0), height, background);
             if (keys) copy_into(*sheet, *keys, width, 0);
         }
         copy_into(*sheet, *cell, i % columns * job.size.width, (rows - 1 - i / columns) * job.size.height);

@@ -43,11 +43,12 @@ struct Axes {
     glm::dvec3 right, up, towards;  ///< `towards` the camera
 };
 
-Axes axes_of(double azimuth, double elevation) {
-    const double a = glm::radians(azimuth), e = glm::radians(elevation);
-    return {{std::cos(a), 0, -std::sin(a)},
-            {-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a)},
-            {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)}};
+Axes axes_of(double azimuth, double elevation, double twist) {
+    const double a = glm::radians(azimuth), e = glm::radians(elevation), t = glm::radians(twist);
+    const glm::dvec3 right(std::cos(a), 0, -std::sin(a));
+    const glm::dvec3 up(-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a));
+    const glm::dvec3 towards(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a));
+    return {std::cos(t) * right + std::sin(t) * up, std::cos(t) * up - std::sin(t) * right, towards};
 }
 
 /// What one picture axis asks for: how far the middle is moved along it, and how far away the camera must be.
@@ -96,7 +97,7 @@ Seen seen_around(std::span<const glm::dvec3> points, const glm::dvec3& middle, c
                  double slope_x, double slope_y) {
     Seen seen;
     for (int turn = 0; turn < turns; ++turn) {
-        const Axes axes = axes_of(place.azimuth + 360.0 * turn / turns, place.elevation);
+        const Axes axes = axes_of(place.azimuth + 360.0 * turn / turns, place.elevation, place.twist);
         for (const glm::dvec3& point : points) {
             const glm::dvec3 here = point - middle;
             const double z = glm::dot(here, axes.towards);
@@ -114,12 +115,13 @@ CameraView fitted(std::span<const glm::dvec3> points, const CameraPlace& place, 
                   double aspect, const Margins& margins) {
     CameraView view;
     view.is_parallel = is_parallel;
+    view.view_angle = place.view_angle.value_or(view.view_angle);
     view.focus = middle_of(points);
     const double wide = std::max(0.1, 1 - margins.left - margins.right);
     const double high = std::max(0.1, 1 - margins.bottom - margins.top);
     const double slope = std::tan(glm::radians(view.view_angle / 2));
     const double slope_x = is_parallel ? 0 : slope * aspect * wide, slope_y = is_parallel ? 0 : slope * high;
-    const Axes axes = axes_of(place.azimuth, place.elevation);
+    const Axes axes = axes_of(place.azimuth, place.elevation, place.twist);
     Seen seen = seen_around(points, view.focus, place, turns ? turns_tried : 1, slope_x, slope_y);
     if (turns) {
         // What turns does so about its own middle, which only moves up and down: that changes distances too.

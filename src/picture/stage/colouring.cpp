@@ -1,9 +1,9 @@
 #include "picture/stage/colouring.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/text.h"
 
 #include "archive/meshes/surface_mesh.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -31,7 +31,7 @@ public:
     static LegendItem* New();
     vtkTypeMacro(LegendItem, vtkContextItem)
 
-        bool Paint(vtkContext2D* painter) override;
+    bool Paint(vtkContext2D* painter) override;
 
     Legend legend;
 };

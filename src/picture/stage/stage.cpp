@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "picture/stage/background_scene.h"
 #include "picture/stage/colouring.h"
 #include "picture/stage/field_props.h"
 #include "picture/stage/ground.h"
@@ -28,6 +29,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace espalier::picture {
 namespace {
@@ -76,7 +78,8 @@ public:
         vtkSmartPointer<vtkActor> actor;
     };
     std::vector<Part> parts_;
-    std::vector<vtkSmartPointer<vtkProp>> others_;  ///< fields, ground, labels
+    std::vector<vtkSmartPointer<vtkProp>> others_;               ///< fields, ground, labels
+    std::optional<vtkSmartPointer<vtkActor>> background_scene_;  ///< null: none. Read once
     std::vector<vtkSmartPointer<vtkActor>> highlight_actors_;
     std::optional<CameraView> view_;
     vtkNew<vtkRenderer> renderer_;
@@ -121,7 +124,7 @@ public:
         if (style_.scale_bar || style_.time_beneath) margins.bottom += 0.05;
         CameraPlace from = place;
         if (is_flat() && place.front_if_flat && !place.turns) from.azimuth = from.elevation = 0;
-        view_ = fitted(points, from, place.turns, is_flat(), width / height, margins);
+        view_ = fitted(points, from, place.turns, is_flat() || place.is_parallel, width / height, margins);
         vtkCamera& camera = *renderer_->GetActiveCamera();
         camera.SetFocalPoint(&view_->focus.x);
         camera.SetPosition(&view_->position.x);
@@ -184,6 +187,7 @@ private:
         build_meshes();
         add_lights_and_colours();
         add_field_props();
+        add_background_scene();
         add_labels();
         write_legend();
         show_highlight();
@@ -194,13 +198,21 @@ private:
         return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
     }
 
+    /// Of all frames that the camera frames: lines without radius keep their width from frame to frame.
+    double framed_size() const {
+        const Box& box = survey_ && !survey_->box.empty() ? survey_->box : here_.box;
+        return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
+    }
+
     void build_meshes() {
         StageMeshOptions options;
         options.plant = style_.plant;
         options.triangles = static_cast<std::size_t>(std::max(0, style_.triangles));
         options.size = size();
+        options.thinnest = static_cast<float>(framed_size() / 1000);
         std::vector<StageMesh> meshes = surfaces_of(*geometry_, options);
-        meshes.push_back(tubes_of(*geometry_, options));
+        std::vector<StageMesh> tubes = tubes_of(*geometry_, options);
+        std::move(tubes.begin(), tubes.end(), std::back_inserter(meshes));
         for (StageMesh& mesh : meshes) {
             if (mesh.row_of_triangle.empty()) continue;
             parts_.push_back({std::move(mesh), vtkSmartPointer<vtkActor>::New()});
@@ -271,6 +283,14 @@ private:
             renderer_->AddViewProp(made.prop);
             legend_->legend.keys.push_back(std::move(made.key));
         }
+    }
+
+    /// What stands around the plants in the background scenes of their view files.
+    void add_background_scene() {
+        if (!background_scene_) background_scene_ = background_actor(*run_);
+        if (!*background_scene_) return;
+        others_.push_back(*background_scene_);
+        renderer_->AddViewProp(others_.back());
     }
 
     void add_labels() {

@@ -31,6 +31,11 @@ struct StageSurvey {
     Outline outline;                             ///< of plants and fields
     std::optional<std::array<double, 2>> range;  ///< of `colour_by`, if it is a number
     std::map<std::string, std::array<double, 2>> field_ranges;
+    bool has_labels = false;
+    std::size_t drawn = 0, pale = 0;  ///< lines and faces whose colour is known, and those hardly seen on white
+
+    /// A dark background shows more of the plants' own colours.
+    bool wants_dark() const { return 2 * pale > drawn; }
 };
 
 /// Something of a frame that was pointed at.

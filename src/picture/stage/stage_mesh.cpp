@@ -79,6 +79,7 @@ private:
 
 struct PlacedTube {
     TubeLine line;
+    std::uint16_t texture = 0;
     int sides = 3;
     std::size_t first_point = 0, first_triangle = 0;
 
@@ -111,24 +112,23 @@ std::vector<PlacedTube> placed_tubes(const RecordedGeometry& geometry, const Sta
     wanted.plant = options.plant;
     std::vector<AxisPath> paths = axis_paths(geometry, wanted);
     add_outlines(geometry, options.plant, paths);
-    const float thinnest = thinnest_radius(geometry);
     std::vector<PlacedTube> tubes(paths.size());
-    tbb::parallel_for(std::size_t{0}, paths.size(),
-                      [&](std::size_t i) { tubes[i].line = tube_line(geometry, paths[i].points, 0, thinnest); });
+    tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+        tubes[i].line = tube_line(geometry, paths[i].points, 0, options.thinnest);
+        tubes[i].texture = geometry.textures[paths[i].row];
+        tubes[i].line.wears_texture = tubes[i].texture != 0;
+    });
     std::erase_if(tubes, [](const PlacedTube& tube) { return tube.line.nodes.size() < 2; });
     double triangles = 1;
     for (const PlacedTube& tube : tubes) {
         triangles += 2 * static_cast<double>(tube.line.nodes.size()) * wanted_sides(tube.line, options.size);
     }
     const double share = std::min(1.0, static_cast<double>(options.triangles) / triangles);
-    std::size_t point = 0, triangle = 0;
     for (PlacedTube& tube : tubes) {
         tube.sides = std::max(3, static_cast<int>(share * wanted_sides(tube.line, options.size)));
-        tube.first_point = point;
-        tube.first_triangle = triangle;
-        point += tube.points();
-        triangle += tube.triangles();
     }
+    const auto by_texture = [](const PlacedTube& a, const PlacedTube& b) { return a.texture < b.texture; };
+    std::stable_sort(tubes.begin(), tubes.end(), by_texture);
     return tubes;
 }
 
@@ -146,6 +146,23 @@ void fill_tube(const PlacedTube& placed, MeshFiller& filler) {
                             {origin + triangle.corners[0], origin + triangle.corners[1], origin + triangle.corners[2]},
                             row(triangle.node));
     }
+}
+
+/// Of tubes that wear one texture.
+StageMesh mesh_of(std::span<PlacedTube> tubes) {
+    std::size_t points = 0, triangles = 0;
+    for (PlacedTube& tube : tubes) {
+        tube.first_point = points;
+        tube.first_triangle = triangles;
+        points += tube.points();
+        triangles += tube.triangles();
+    }
+    MeshFiller filler(points, triangles);
+    tbb::parallel_for(std::size_t{0}, tubes.size(), [&](std::size_t i) { fill_tube(tubes[i], filler); });
+    StageMesh mesh = filler.take();
+    mesh.is_of_axes = true;
+    mesh.texture = tubes.front().texture;
+    return mesh;
 }
 
 /// A triangle fan's area, along its normal.
@@ -210,18 +227,14 @@ StageMesh surface_of(const RecordedGeometry& geometry, const std::vector<std::si
 
 }  // namespace
 
-StageMesh tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options) {
-    const std::vector<PlacedTube> tubes = placed_tubes(geometry, options);
-    std::size_t points = 0, triangles = 0;
-    if (!tubes.empty()) {
-        points = tubes.back().first_point + tubes.back().points();
-        triangles = tubes.back().first_triangle + tubes.back().triangles();
+std::vector<StageMesh> tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options) {
+    std::vector<PlacedTube> tubes = placed_tubes(geometry, options);
+    std::vector<StageMesh> meshes;
+    for (std::size_t first = 0, last = 0; first < tubes.size(); first = last) {
+        while (last < tubes.size() && tubes[last].texture == tubes[first].texture) ++last;
+        meshes.push_back(mesh_of(std::span(tubes).subspan(first, last - first)));
     }
-    MeshFiller filler(points, triangles);
-    tbb::parallel_for(std::size_t{0}, tubes.size(), [&](std::size_t i) { fill_tube(tubes[i], filler); });
-    StageMesh mesh = filler.take();
-    mesh.is_of_axes = true;
-    return mesh;
+    return meshes;
 }
 
 std::vector<StageMesh> surfaces_of(const RecordedGeometry& geometry, const StageMeshOptions& options) {

@@ -26,10 +26,11 @@ struct StageMeshOptions {
     std::optional<std::uint32_t> plant;  ///< this one alone
     std::size_t triangles = 0;           ///< of tubes, about
     double size = 1;                     ///< of the scene: thick axes have more sides than thin ones
+    float thinnest = 0.001f;             ///< radius of lines that have none, and half a pixel of those with such widths
 };
 
-/// Axes, joined where one continues another, and outlines.
-StageMesh tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options);
+/// Axes, joined where one continues another, and outlines: a mesh for each texture.
+std::vector<StageMesh> tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options);
 
 /// Polygons and organs, a mesh for each texture, of what is thin and of what is closed.
 std::vector<StageMesh> surfaces_of(const RecordedGeometry& geometry, const StageMeshOptions& options);

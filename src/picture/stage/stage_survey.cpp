@@ -14,12 +14,43 @@ void add_plants(const RecordedGeometry& geometry, const std::optional<std::uint3
     for (std::size_t i = 0; i < geometry.points.size(); ++i) {
         const Kind kind = geometry.of_points.kinds[i];
         if (plant && geometry.of_points.plants[i] != *plant) continue;
+        survey.has_labels = survey.has_labels || kind == Kind::label;
         if (kind == Kind::query || kind == Kind::label) continue;
         const glm::dvec3 point(geometry.points[i]);
         if (!std::isfinite(point.x + point.y + point.z)) continue;
         survey.box.add(point);
         survey.outline.add(point, std::isfinite(geometry.radii[i]) ? geometry.radii[i] : 0);
     }
+}
+
+/// Relative luminance (WCAG 2.1).
+double luminance(const Rgb& rgb) {
+    constexpr std::array weights{0.2126, 0.7152, 0.0722};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double share = rgb[k] / 255.0;
+        sum += weights[k] * (share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4));
+    }
+    return sum;
+}
+
+// Yellow has a contrast of 1.07 to white, light green of 1.4.
+bool is_pale(const Rgb& rgb) {
+    constexpr double least_contrast = 1.3;
+    return 1.05 / (luminance(rgb) + 0.05) < least_contrast;
+}
+
+void add_colours(const RecordedGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
+    const auto add = [&](const RecordedAttributes& of, std::size_t row) {
+        if (plant && of.plants[row] != *plant) return;
+        ++survey.drawn;
+        survey.pale += is_pale(of.rgb[row]);
+    };
+    if (geometry.of_points.rgb.empty() || geometry.of_cells.rgb.empty()) return;
+    for (std::size_t i = 0; i < geometry.of_points.size(); ++i) {
+        if (geometry.of_points.kinds[i] == Kind::axis) add(geometry.of_points, i);
+    }
+    for (std::size_t i = 0; i < geometry.polygons.size(); ++i) add(geometry.of_cells, geometry.polygons.first + i);
 }
 
 void add_field(const RecordedField& field, StageSurvey& survey) {
@@ -38,6 +69,7 @@ void add_field(const RecordedField& field, StageSurvey& survey) {
 void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
                 const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) {
     add_plants(geometry, style.plant, survey);
+    if (colouring.is_natural()) add_colours(geometry, style.plant, survey);
     if (colouring.is_number()) {
         const auto range = range_of(colouring.values(run, frame, geometry));
         if (range) widen(survey.range ? *survey.range : survey.range.emplace(*range), *range);
@@ -45,6 +77,12 @@ void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouri
     for (const FieldLook& look : style.fields) {
         if (frame.fields.contains(look.name)) add_field(run.field(frame, look.name), survey);
     }
+}
+
+PictureBackground chosen_background(const RecordedRun& run, const StageSurvey& survey,
+                                    const PictureBackground& otherwise) {
+    if (run.view() && run.view()->background) return {*run.view()->background, otherwise.transparent};
+    return survey.wants_dark() ? dark_background : otherwise;
 }
 
 }  // namespace espalier::picture

@@ -10,4 +10,8 @@ namespace espalier::picture {
 void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
                 const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey);
 
+/// The background of the run's author; else a dark one where most colours are hardly seen on white, or `otherwise`.
+PictureBackground chosen_background(const RecordedRun& run, const StageSurvey& survey,
+                                    const PictureBackground& otherwise);
+
 }  // namespace espalier::picture

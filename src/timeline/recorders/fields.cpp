@@ -3,11 +3,11 @@
 // Parameters: fields (list of field names, default none; ["all"] for every field), field_files (list of "vti", "vdb";
 // default both). A field that does not change is written once and named by every time step.
 // The .vti has a value at every voxel's centre, over the domain or the active box, and field data unit and meaning.
-#include "espalier/base/bytes.h"
-#include "espalier/base/text.h"
 #include "espalier/timeline/recorder.h"
 
+#include "base/bytes.h"
 #include "base/folder.h"
+#include "base/text.h"
 #include "geometry/grid_file.h"
 #include "timeline/collection_file.h"
 #include "timeline/vti_file.h"

@@ -5,9 +5,9 @@
 // Each internode is a line of two points, where it was last seen. Cell arrays: identity, parent, plant, symbol (index
 // into symbol_names), birth (step its module was born), death (first step without it; last step + 1 if it lives),
 // alive (1 or 0), order, colour. Point array: radius.
-#include "espalier/base/bytes.h"
 #include "espalier/timeline/recorder.h"
 
+#include "base/bytes.h"
 #include "timeline/internode_lives.h"
 #include "timeline/symbol_numbers.h"
 #include "timeline/vtk_file.h"

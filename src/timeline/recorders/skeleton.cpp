@@ -6,10 +6,11 @@
 // Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
 // (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
 // cell arrays besides: texture (index into texture_files) and back_colour; point arrays besides: Normals, TCoords,
-// radius and the chosen parameters. Field data: the texts of the labels, in the order of their vertices.
-#include "espalier/base/bytes.h"
+// radius, the chosen parameters, and pixels where a view file gives widths in pixels. Field data: the texts of the
+// labels, in the order of their vertices.
 #include "espalier/timeline/recorder.h"
 
+#include "base/bytes.h"
 #include "base/folder.h"
 #include "timeline/attribute_arrays.h"
 #include "timeline/chosen_parameters.h"
@@ -37,8 +38,8 @@ struct PlantData {
 
     bool texts_changed = false;  ///< of these two
 
-    void begin() {
-        mesh.begin();
+    void begin(bool with_pixels) {
+        mesh.begin(with_pixels);
         cell_owners.begin();
         of_points.begin();
         of_cells.begin();
@@ -55,6 +56,11 @@ std::size_t points_foreseen(const Frame& frame) {
         points += 2 * geometry.internodes.size() + 4 * geometry.organs.size() + geometry.vertices.size();
     }
     return points;
+}
+
+bool is_in_pixels(const Frame& frame) {
+    return std::any_of(frame.plants.begin(), frame.plants.end(),
+                       [](const PlantFrame& plant) { return plant.interpretation->geometry.in_pixels; });
 }
 
 template <class T>
@@ -100,7 +106,7 @@ public:
 
     void record(const Frame& frame) override {
         if (written_.empty()) require_known(chosen_, frame.plants);
-        data_.begin();
+        data_.begin(is_in_pixels(frame));
         fill_mesh(frame);
         fill_arrays(frame);
         if (!is_written()) write(frame);
@@ -160,7 +166,7 @@ private:
             add_asked_queries(plant, i);
             add_axes(mesh, plant.interpretation->geometry, i);
             add_polygons(mesh, plant.interpretation->geometry, i);
-            add_organs(mesh, plant.interpretation->geometry, organs_, i);
+            add_organs(mesh, plant.interpretation->geometry, organs_, i, plant.palette);
             add_pieces(mesh, plant.interpretation->geometry, i);
             add_labels(mesh, plant.interpretation->geometry, i);
         }
@@ -220,6 +226,7 @@ private:
                               mesh.size(), cells(mesh.vertices), cells(mesh.lines), cells(mesh.polygons)));
         file.open("PointData", R"(Normals="Normals" TCoords="TCoords")");
         file.add(array_of("radius", mesh.radii, 1));
+        if (mesh.pixels.size() > 0) file.add(array_of("pixels", mesh.pixels, 1));
         file.add(array_of("Normals", mesh.normals, 3));
         file.add(array_of("TCoords", mesh.uvs, 2));
         add_arrays(file, data.of_points);

@@ -1,15 +1,15 @@
 // statistics.csv: one row per step and plant, whatever `every` says.
 //
 // Parameters: statistics (true or false, default true).
-// Columns: step, plant (its number); modules (of the string, brackets included); queries; internodes; organs (polygons
-// included); length (m, of all internodes); height (m, highest point above the base of the first internode); volume
-// (m3, of all internodes); born, died (modules since the step before, brackets included); then the processes'
-// quantities.
-#include "espalier/base/bytes.h"
-#include "espalier/base/csv_file.h"
-#include "espalier/base/text.h"
+// Columns: step, time (in the scene's unit), plant (its number), name; modules (of the string, brackets included);
+// queries; internodes; organs (polygons included); length (m, of all internodes); height (m, highest point above the
+// base of the first internode); volume (m3, of all internodes); born, died (modules since the step before, brackets
+// included); then the processes' quantities.
 #include "espalier/timeline/recorder.h"
 
+#include "base/bytes.h"
+#include "base/csv_file.h"
+#include "base/text.h"
 #include "timeline/highest_point.h"
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ public:
     void record(const Frame& frame) override {
         if (!file_) begin(frame);
         std::string rows;
-        for (const PlantFrame& plant : frame.plants) rows += row(frame.step, plant);
+        for (const PlantFrame& plant : frame.plants) rows += row(frame, plant);
         file_->append(rows);
         previous_step_ = frame.step;
     }
@@ -82,24 +82,25 @@ public:
 
 private:
     void begin(const Frame& frame) {
-        std::string header = "step,plant,modules,queries,internodes,organs,length,height,volume,born,died";
+        std::string header = "step,time,plant,name,modules,queries,internodes,organs,length,height,volume,born,died";
         if (!frame.plants.empty()) quantities_ = quantity_names(frame.plants.front());
         for (const std::string& name : quantities_) header.append(",").append(csv_text(name));
         file_.emplace(path_, header);
     }
 
-    std::string row(int step, const PlantFrame& plant) {
+    std::string row(const Frame& frame, const PlantFrame& plant) {
         if (quantity_names(plant) != quantities_) {
             throw RunError(fmt::format("the quantities of plant '{}' at step {} are not the columns of {}", plant.name,
-                                       step, path_.string()));
+                                       frame.step, path_.string()));
         }
         const PlantGeometry& geometry = plant.interpretation->geometry;
         const std::size_t modules = plant.string->size();
         const std::size_t queries = plant.interpretation->queries.size() + plant.interpretation->answers.size();
-        std::string row = fmt::format("{},{},{},{},{},{},{},{},{},{}", step, plant.plant, modules, queries,
-                                      geometry.internodes.size(), geometry.organs.size() + geometry.polygons.size(),
-                                      format_exact(total_length(geometry)), format_exact(height(geometry)),
-                                      format_exact(total_volume(geometry)), turnover(plant));
+        std::string row =
+            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", frame.step, format_exact(frame.time), plant.plant,
+                        csv_text(plant.name), modules, queries, geometry.internodes.size(),
+                        geometry.organs.size() + geometry.polygons.size(), format_exact(total_length(geometry)),
+                        format_exact(height(geometry)), format_exact(total_volume(geometry)), turnover(plant));
         for (const Quantity& quantity : plant.quantities) row.append(",").append(format_exact(quantity.value));
         return row + "\n";
     }

@@ -2,7 +2,7 @@
 // so.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 const Registered<Symbol> open{{"[", {}, "[: begin a branch", [](Walk& walk, std::span<const double>) { walk.push(); }}};
@@ -21,4 +21,4 @@ const Registered<Symbol> cut{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

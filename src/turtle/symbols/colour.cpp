@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 constexpr int map_size = 256;
@@ -60,4 +60,4 @@ const Registered<Symbol> texture{{"@Tx",
                                   }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 std::optional<double> first(std::span<const double> parameters) {
@@ -94,15 +94,18 @@ const Registered<Symbol> contour_sides{
          walk.change_brush([&](Brush& brush) { brush.sides = bounded(parameters[0], 3, most_sides); });
      }}};
 
+// In cpfg the turtle itself turns back what it rolled since its last segment.
 const Registered<Symbol> least_twist{
     {"@Tp", {}, "@Tp: cylinders twist as little as possible from here on", [](Walk& walk, std::span<const double>) {
+         walk.lose_rolls();
          walk.change_brush([](Brush& brush) { brush.follows_roll = false; });
      }}};
 
 const Registered<Symbol> own_twist{
     {"@Tf", {}, "@Tf: cylinders follow the turtle's roll from here on", [](Walk& walk, std::span<const double>) {
+         walk.keep_frame();
          walk.change_brush([](Brush& brush) { brush.follows_roll = true; });
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

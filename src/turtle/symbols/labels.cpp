@@ -1,7 +1,7 @@
 // Labels: texts where the turtle is.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 const Registered<Symbol> label{{"@L",
@@ -10,4 +10,4 @@ const Registered<Symbol> label{{"@L",
                                 [](Walk& walk, std::span<const double> parameters) { walk.write_label(parameters); }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,7 @@
 // Moving: F and G draw an internode, f and g do not; F and f mark a vertex of the open polygon.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 double distance(std::span<const double> parameters) {
@@ -35,4 +35,4 @@ const Registered<Symbol> skip_unmarked{
      [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -2,7 +2,7 @@
 // something else: the F in @F does not move.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 void nothing(Walk&, std::span<const double>) {}
@@ -15,4 +15,4 @@ const Registered<Symbol> old_mc{{"@mc", {}, "@mc: an old symbol; has no effect",
 const Registered<Symbol> unknown{{"@*", {}, "@x: unless listed, ignored together with its second character", nothing}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -3,7 +3,7 @@
 
 #include "turtle/surface_id.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 /// Towards the reader of a front view, along z.
@@ -57,4 +57,4 @@ const Registered<Symbol> surface{
     {"~*", {}, "~x(scale) or ~x(sx, sy, sz): draw the surface x and move to its end point", place_surface}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

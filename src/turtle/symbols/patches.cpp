@@ -1,7 +1,7 @@
 // Bicubic patches whose sixteen control points the turtle walks to.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 const Registered<Symbol> begin{
@@ -32,4 +32,4 @@ const Registered<Symbol> draw{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 std::optional<double> second(std::span<const double> parameters) {
@@ -45,4 +45,4 @@ const Registered<Symbol> vertex{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,7 @@
 // Absolute position, in the coordinates of the world.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 const Registered<Symbol> position{
@@ -13,4 +13,4 @@ const Registered<Symbol> position{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -5,7 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 void answer_position(Walk& walk, std::span<const double> parameters) {
@@ -51,4 +51,4 @@ const Registered<Symbol> communication{
      asks}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

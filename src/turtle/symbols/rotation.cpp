@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 void set_heading(Walk& walk, std::span<const double> parameters) {
@@ -14,7 +14,7 @@ void set_heading(Walk& walk, std::span<const double> parameters) {
         if (!std::isfinite(parameter)) walk.fail("a heading that is not a number");
     }
     const glm::dvec3 heading(parameters[0], parameters[1], parameters.size() > 2 ? parameters[2] : 0);
-    head_towards(walk.turtle().pose, heading);
+    walk.set_heading(heading);
     if (parameters.size() < 6) return;
     // An up vector counts only if it is perpendicular to the heading, as in cpfg.
     const glm::dvec3 up(parameters[3], parameters[4], parameters[5]);
@@ -77,4 +77,4 @@ const Registered<Symbol> absolute{{"@R",
                                    set_heading}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,7 @@
 // The scale of lengths and of widths set from now on.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 double factor(const Walk& walk, std::span<const double> parameters) {
@@ -28,4 +28,4 @@ const Registered<Symbol> divide{{"@Dd",
                                  }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,7 @@
 // Sub-L-systems: what stands between ? and $ is drawn in a scale of its own.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 const Registered<Symbol> enter{
@@ -18,4 +18,4 @@ const Registered<Symbol> leave{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,7 @@
 // How strongly each tropism acts from here on. Tropisms are counted from 1; another number changes nothing.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 void increase(Walk& walk, std::span<const double> parameters, double sign) {
@@ -41,4 +41,4 @@ const Registered<Symbol> older{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

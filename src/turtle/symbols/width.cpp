@@ -1,10 +1,11 @@
 // The width of what F and G draw: set, in units of the scale, or changed by the model's increment.
 #include "espalier/turtle/symbol.h"
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 void change_width(Walk& walk, std::span<const double> parameters, double increment) {
+    if (parameters.empty() && increment == 0) return;
     walk.set_width(parameters.empty() ? walk.turtle().width + increment : parameters[0] * walk.turtle().scale);
 }
 
@@ -25,4 +26,4 @@ const Registered<Symbol> narrower{
      }}};
 
 }  // namespace
-}  // namespace espalier
+}  // namespace espalier::turtle

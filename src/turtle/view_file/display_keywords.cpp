@@ -1,12 +1,14 @@
 #include "turtle/view_file/reader.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 using Severity = Diagnostic::Severity;
@@ -86,6 +88,21 @@ void box(ViewReader& reader) {
         if (!reader.read_number(box.lower[axis]) || !reader.read_number(box.upper[axis])) return;
     }
     reader.view.camera.box = box;
+}
+
+// cpfg knows the keyword and ignores it. Numbers beyond 1 count to 255.
+void background_color(ViewReader& reader) {
+    constexpr double bytes = 255;
+    glm::dvec3 colour(0);
+    reader.read_vector(colour);
+    const double most = std::max({colour.x, colour.y, colour.z});
+    reader.view.background_colour = glm::clamp(most > 1 ? colour / bytes : colour, 0.0, 1.0);
+}
+
+void light_direction(ViewReader& reader) {
+    glm::dvec3 direction(1, 0, 0);
+    reader.read_vector(direction);
+    if (glm::length(direction) > 0) reader.view.light_direction = glm::normalize(direction);
 }
 
 void render_mode(ViewReader& reader) {
@@ -187,11 +204,11 @@ void light(ViewReader& reader) {
 constexpr bool display = true;
 
 constexpr std::array keywords{
-    ViewKeyword{"viewpoint:", "three numbers", viewpoint, display},
-    ViewKeyword{"view reference point:", "three numbers", view_reference_point, display},
-    ViewKeyword{"twist:", "a whole number", twist, display},
-    ViewKeyword{"projection:", "parallel or perspective", projection, display},
-    ViewKeyword{"viewing angle:", "a number", viewing_angle, display},
+    ViewKeyword{"viewpoint:", "three numbers", viewpoint},
+    ViewKeyword{"view reference point:", "three numbers", view_reference_point},
+    ViewKeyword{"twist:", "a whole number", twist},
+    ViewKeyword{"projection:", "parallel or perspective", projection},
+    ViewKeyword{"viewing angle:", "a number", viewing_angle},
     ViewKeyword{"front distance:", "a number", front_distance},
     ViewKeyword{"back distance:", "a number", back_distance},
     ViewKeyword{"scale factor:", "a number", scale_factor},
@@ -207,16 +224,16 @@ constexpr std::array keywords{
     ViewKeyword{"render mode:", "a word", render_mode, display},
     ViewKeyword{"shade mode:", "a whole number", shade_mode, display},
     ViewKeyword{"shadow map:", "sub-commands", skip_line, display},
-    ViewKeyword{"light:", "sub-commands", light, display},
-    ViewKeyword{"light direction:", "three numbers", skip_vector, display},
+    ViewKeyword{"light:", "sub-commands", light},
+    ViewKeyword{"light direction:", "three numbers", light_direction},
     ViewKeyword{"diffuse reflection:", "a whole number", skip_integer, display},
     ViewKeyword{"surface ambient:", "a number", skip_number, display},
     ViewKeyword{"surface diffuse:", "a number", skip_number, display},
     ViewKeyword{"font:", "a word", skip_word, display},
     ViewKeyword{"winfont:", "a name and a size", skip_line, display},
     ViewKeyword{"PS linecap:", "a whole number", skip_integer, display},
-    ViewKeyword{"background scene:", "files", background_scene, display},
-    ViewKeyword{"background color:", "three numbers", skip_vector, display},
+    ViewKeyword{"background scene:", "files", background_scene},
+    ViewKeyword{"background color:", "three numbers", background_color},
     ViewKeyword{"ambient light:", "three numbers", skip_vector, display},
     ViewKeyword{"rayshade scale:", "a number", skip_number, display},
     ViewKeyword{"rayshade objects:", "a format", skip_line, display},
@@ -228,4 +245,4 @@ std::span<const ViewKeyword> display_keywords() {
     return keywords;
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,8 +1,8 @@
 #include "turtle/view_file/reader.h"
 
 #include "espalier/base/file.h"
-#include "espalier/base/text.h"
 
+#include "base/text.h"
 #include "geometry/side_files/side_files.h"
 #include "language/preprocessor/preprocessed_text.h"
 
@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,7 +53,9 @@ std::string without_colon(std::string_view label) {
 
 ViewReader::ViewReader(std::shared_ptr<const SourceText> text, fs::path folder)
     : text_(std::move(text)), setting_(text_), folder_(std::move(folder)) {
-    view.turtle.line_style = LineStyle::pixel;  // until the file says otherwise
+    // Until the file says otherwise.
+    view.turtle.line_style = LineStyle::pixel;
+    view.turtle.line_width = 1;
 }
 
 View ViewReader::read() {
@@ -300,4 +302,4 @@ View read_view_file(const fs::path& path, const Defines& defines, const fs::path
     return read_view_text(read_text(path), path.string(), defines, folder);
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 class ViewReader;
 
@@ -92,4 +92,4 @@ private:
     std::filesystem::path folder_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,5 +1,4 @@
-#include "espalier/base/text.h"
-
+#include "base/text.h"
 #include "geometry/side_files/side_files.h"
 #include "language/side_files/side_files.h"
 #include "turtle/surface_id.h"
@@ -11,7 +10,7 @@
 #include <array>
 #include <cctype>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 namespace fs = std::filesystem;
@@ -319,4 +318,4 @@ std::span<const ViewKeyword> shape_keywords() {
     return keywords;
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 constexpr int colours = 256;
@@ -56,7 +56,7 @@ void color_increment(ViewReader& reader) {
 // The style is that of the word behind the width; without a word lines are polygons (cpfg's manual says pixels).
 void initial_line_width(ViewReader& reader) {
     TurtleSettings& turtle = reader.view.turtle;
-    if (!reader.read_number(turtle.line_width)) return;
+    if (!reader.read_number(*turtle.line_width)) return;
     const std::string style = reader.word_on_this_line().value_or("");
     turtle.line_style = style.starts_with('p')   ? LineStyle::pixel
                         : style.starts_with('s') ? LineStyle::cylinder
@@ -231,4 +231,4 @@ std::span<const ViewKeyword> turtle_keywords() {
     return keywords;
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

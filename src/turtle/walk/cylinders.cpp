@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 constexpr double most_strips = 1000;
@@ -137,4 +137,4 @@ void Walk::finish() {
     for (std::size_t i = 0; i < cylinders.size(); ++i) draw_cylinder(std::int32_t(i));
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,10 +1,11 @@
 // Labels: a text of the model filled in with the module's parameters, where the turtle is.
-#include "espalier/lsystem/print_format.h"
 #include "espalier/turtle/walk.h"
+
+#include "lsystem/programs/print_format.h"
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 constexpr std::size_t longest_label = 1000;  // bytes; formats such as %99999d are no labels
@@ -33,4 +34,4 @@ void Walk::write_label(std::span<const double> values) {
     geometry_->bounds.add(turtle().pose.position);
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

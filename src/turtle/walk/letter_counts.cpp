@@ -8,7 +8,7 @@
 #include <immintrin.h>
 #endif
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 // Fields of a packed count. A block's modules fill none of them; the depth, which may fall, is the highest.
@@ -219,4 +219,4 @@ LetterSum LetterCounts::sum_wide(const LetterId*, const Bytes&) {
 void LetterCounts::find_bytes(const std::vector<LetterMeaning>&) {}
 #endif
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// Sums over stretches: parameters, and rows of result that are known from the letters.
 struct WalkCounts {
@@ -55,4 +55,4 @@ private:
     bool wide_ = false;
 };
 
-}  // namespace espalier
+}  // namespace espalier::turtle

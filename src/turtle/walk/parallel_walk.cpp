@@ -17,7 +17,7 @@
 #include <iterator>
 #include <optional>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 constexpr std::size_t chunks_per_thread = 4;
@@ -224,6 +224,7 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
         return false;
     }
     result.geometry.shapes = input.settings.shapes;
+    result.geometry.in_pixels = input.settings.line_style == LineStyle::pixel;
     result.geometry.axes = stretches.back().axes_before + stretches.back().rest.geometry.axes;
     make_room(&PlantGeometry::organs, stretches, result.geometry);
     make_room(&PlantGeometry::polygons, stretches, result.geometry);
@@ -235,4 +236,4 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
     return true;
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::turtle {
 void WalkPlan::read(const WalkInput& input, const LetterCounts& counts) {
     if (!add_up(input, counts)) count_rows(input);
     find_runs(input);
@@ -107,4 +107,4 @@ void WalkPlan::advance(const WalkInput& input, std::size_t parameters, WalkState
     state = walk->state();
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

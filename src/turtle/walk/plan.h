@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// Modules [begin, end) of the string, bounded by brackets, so that no symbol reaches across.
 class WalkPlan {
@@ -54,4 +54,4 @@ private:
     std::vector<Run> runs_;   ///< last one first
 };
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 std::vector<std::unique_ptr<StringWalk>>& spare_walks() {
@@ -120,4 +120,4 @@ std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
     return replaced;
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

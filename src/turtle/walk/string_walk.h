@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// Whose string is walked along.
 struct WalkInput {
@@ -71,4 +71,4 @@ private:
     std::unique_ptr<StringWalk> walk_;
 };
 
-}  // namespace espalier
+}  // namespace espalier::turtle

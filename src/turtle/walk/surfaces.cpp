@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 constexpr double finest = 64;  // quadrilaterals along a side of a patch
@@ -110,4 +110,4 @@ void Walk::draw_patch(double id, double rows, double columns) {
     require_room();
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,11 +1,11 @@
 #include "turtle/walk/symbol_table.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 const Symbol* find_symbol(const std::string& name) {
@@ -82,4 +82,4 @@ std::shared_ptr<const SymbolTable> symbol_table(const Model& model) {
     return std::make_shared<SymbolTable>(model);
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-namespace espalier {
+namespace espalier::turtle {
 
 /// What one letter means in one place. `level` is the table for the next module where that one may belong to the same
 /// symbol (as after `@`), 0 if this letter ends its symbol.
@@ -53,4 +53,4 @@ private:
     std::uint16_t add_level(const Alphabet& alphabet, const std::string& beginning);
 };
 
-}  // namespace espalier
+}  // namespace espalier::turtle

@@ -1,7 +1,7 @@
 // What symbols do to a walk: move, branch, draw, ask.
 #include "espalier/turtle/walk.h"
 
-#include "espalier/base/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,26 +11,36 @@
 #include <tuple>
 #include <utility>
 
-namespace espalier {
+namespace espalier::turtle {
 namespace {
 
 bool finite(const glm::dvec3& vector) {
     return std::isfinite(vector.x + vector.y + vector.z);
 }
 
+/// True if a polygon comes back to its first vertex, but for rounding.
+bool meet(const glm::dvec3& first, const glm::dvec3& second, const glm::dvec3& last) {
+    constexpr double rounding = 1e-9;
+    return glm::distance(first, last) <= rounding * glm::distance(first, second);
+}
+
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
+template <class Vectors>
+bool same_bits(const Vectors& a, const Vectors& b) {
+    return std::memcmp(&a, &b, sizeof(Vectors)) == 0;
+}
+
 bool same(const TurtleState& a, const TurtleState& b) {
-    const auto numbers = [](const TurtleState& t) { return std::array{t.width, t.scale, t.node_width, t.elasticity}; };
+    const auto numbers = [](const TurtleState& t) { return std::array{t.width, t.scale, t.node_radius, t.elasticity}; };
     const auto integers = [](const TurtleState& t) {
-        return std::tuple(t.colour, t.back_colour, t.order, t.on_axis, t.branches_off, t.texture, t.brush, t.systems,
-                          t.cylinder);
+        return std::tuple(t.colour, t.back_colour, t.order, t.on_axis, t.branches_off, t.has_width, t.texture, t.brush,
+                          t.systems, t.cylinder);
     };
     const auto first = numbers(a), second = numbers(b);
-    return integers(a) == integers(b) && std::memcmp(&a.pose, &b.pose, sizeof(Pose)) == 0 &&
-           std::memcmp(&first, &second, sizeof(first)) == 0;
+    return integers(a) == integers(b) && same_bits(a.pose, b.pose) && same_bits(first, second);
 }
 
 }  // namespace
@@ -46,6 +56,8 @@ void WalkState::clear() {
     elasticities.clear();
     stopped = false;
     elasticity_stack.clear();
+    drawn_frame = {};
+    frame_stack.clear();
     systems.clear();
     brushes.clear();
     open_polygons.clear();
@@ -60,9 +72,12 @@ bool WalkState::is_between_drawings() const {
 
 bool WalkState::stands_like(const WalkState& other) const {
     const auto same_scale = [](const SystemScale& a, const SystemScale& b) {
-        return std::memcmp(&a, &b, sizeof(SystemScale)) == 0;
+        return std::array{a.scale, a.width} == std::array{b.scale, b.width} && a.has_width == b.has_width;
     };
     return same(elasticities, other.elasticities) && same(elasticity_stack, other.elasticity_stack) &&
+           same_bits(drawn_frame, other.drawn_frame) &&
+           std::equal(frame_stack.begin(), frame_stack.end(), other.frame_stack.begin(), other.frame_stack.end(),
+                      same_bits<DrawnFrame>) &&
            std::equal(turtles.begin(), turtles.end(), other.turtles.begin(), other.turtles.end(),
                       [](const TurtleState& a, const TurtleState& b) { return same(a, b); }) &&
            std::equal(systems.begin(), systems.end(), other.systems.begin(), other.systems.end(), same_scale);
@@ -97,17 +112,22 @@ void Walk::begin(const Model& model, const ModuleString& string, const TurtleSet
     }
     TurtleState& turtle = turtles.top();
     turtle.pose = settings.pose;
-    turtle.width = turtle.node_width = settings.line_width;
+    turtle.width = settings.line_width.value_or(1);
+    turtle.has_width = settings.line_width.has_value();
     turtle.scale = settings.scale;
     turtle.colour = settings.colour;
     turtle.back_colour = settings.back_colour.value_or(-1);
     turtle.elasticity = settings.initial_elasticity;
     for (const Tropism& tropism : settings.tropisms) elasticities.push_back(tropism.elasticity);
+    is_as_cpfg_ = model.arithmetic == Arithmetic::cpfg;
+    pushes_more_ = !elasticities.empty() || is_as_cpfg_;
+    keep_frame();
     Brush& brush = brushes.emplace_back();
     brush.sides = std::max(settings.contour_sides, 3);
     brush.follows_roll = settings.twist_of_cylinders;
     // Plants share their shapes, and threads would wait for each other to count them.
     if (geometry_->shapes != settings.shapes) geometry_->shapes = settings.shapes;
+    geometry_->in_pixels = settings.line_style == LineStyle::pixel;
 }
 
 void Walk::end() {
@@ -118,14 +138,18 @@ void Walk::end() {
 
 void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
     TurtleState& turtle = turtles.top();
-    if (!elasticities.empty()) apply_tropisms(turtle.pose, settings_->tropisms, elasticities);
+    if (!elasticities.empty()) {
+        const bool bent = bend_by_tropisms(turtle.pose, settings_->tropisms, elasticities);
+        if (bent) lose_rolls();
+        roll_by_torques(turtle.pose, settings_->tropisms, elasticities);
+    }
     const glm::dvec3 base = turtle.pose.position;
     turtle.pose.position += turtle.pose.heading * (distance * turtle.scale);
     if (turtle.elasticity != 0) {
         apply_older_tropism(turtle.pose, glm::normalize(settings_->tropism_direction), turtle.elasticity);
     }
     require_number(turtle.pose.position);
-    if (records_vertex) record_vertex();
+    if (records_vertex && !open_polygons.empty()) add_vertex(true);
     if (turtle.cylinder >= 0 && draws && records_vertex) record_control_point({}, false);
     if (!draws) {
         turtle.on_axis = false;
@@ -144,6 +168,16 @@ void Walk::jump(const glm::dvec3& position) {
     if (!finite(position)) fail("the turtle's position is not a number");
 }
 
+void Walk::set_heading(glm::dvec3 heading) {
+    Pose& pose = turtle().pose;
+    if (is_as_cpfg_) {
+        pose.heading = drawn_frame.heading;
+        pose.left = drawn_frame.left;
+        pose.up = glm::cross(pose.left, pose.heading);
+    }
+    head_towards(pose, heading);
+}
+
 void Walk::set_scale(double scale) {
     if (!std::isfinite(scale)) fail("the turtle's scale is not a number");
     turtle().scale = scale;
@@ -154,11 +188,16 @@ const Rotation& Walk::learn(KnownRotation& known, double degrees) {
     return known.rotation;
 }
 
-void Walk::push_elasticities() {
+void Walk::push_more() {
+    if (is_as_cpfg_) frame_stack.push_back(drawn_frame);
     elasticity_stack.insert(elasticity_stack.end(), elasticities.begin(), elasticities.end());
 }
 
-void Walk::pop_elasticities() {
+void Walk::pop_more() {
+    if (is_as_cpfg_) {
+        drawn_frame = frame_stack.back();
+        frame_stack.pop_back();
+    }
     const auto first = elasticity_stack.end() - std::ptrdiff_t(elasticities.size());
     std::copy(first, elasticity_stack.end(), elasticities.begin());
     elasticity_stack.erase(first, elasticity_stack.end());
@@ -169,7 +208,23 @@ double* Walk::elasticity(double id) {
 }
 
 void Walk::open_polygon(bool filled) {
-    open_polygons.push_back({open_vertices.size(), module_, filled});
+    open_polygons.push_back({open_vertices.size(), module_, filled, false, 0, {}});
+}
+
+// The colour of a polygon is that of its first vertex, as in cpfg. A `.` behind an `f` means the vertex that the `f`
+// marked.
+void Walk::add_vertex(bool by_step) {
+    OpenPolygon& polygon = open_polygons.back();
+    const glm::dvec3& position = turtle().pose.position;
+    const bool is_first = open_vertices.size() == polygon.first;
+    const bool is_marked = !by_step && !is_first && polygon.after_step && open_vertices.back() == position;
+    polygon.after_step = by_step;
+    if (is_marked) return;
+    if (is_first) {
+        polygon.colour = std::uint16_t(turtle().colour);
+        polygon.look = look();
+    }
+    open_vertices.push_back(position);
 }
 
 void Walk::close_polygon() {
@@ -177,11 +232,13 @@ void Walk::close_polygon() {
     if (open_polygons.empty()) return;
     const OpenPolygon polygon = open_polygons.back();
     open_polygons.pop_back();
-    const std::size_t count = open_vertices.size() - polygon.first;
+    std::size_t count = open_vertices.size() - polygon.first;
+    if (count > 3 && meet(open_vertices[polygon.first], open_vertices[polygon.first + 1], open_vertices.back()))
+        --count;
     if (polygon.filled && count >= 3) {
         geometry_->polygons.push_back({polygon.module, std::uint32_t(geometry_->vertices.size()), std::uint32_t(count),
-                                       turtle().order, std::uint16_t(turtle().colour), look()});
-        for (std::size_t i = polygon.first; i < open_vertices.size(); ++i) {
+                                       turtle().order, polygon.colour, polygon.look});
+        for (std::size_t i = polygon.first; i < polygon.first + count; ++i) {
             geometry_->vertices.push_back(open_vertices[i]);
             geometry_->bounds.add(open_vertices[i]);
         }
@@ -201,16 +258,19 @@ Look Walk::look() const {
 }
 
 void Walk::enter_system(double scale) {
-    systems.push_back({turtle().scale, turtle().width});
+    const bool has_width = turtle().has_width;
+    systems.push_back({turtle().scale, turtle().width, has_width});
     turtle().systems = std::uint32_t(systems.size());
     set_scale(turtle().scale * scale);
     set_width(turtle().width * scale);
+    turtle().has_width = has_width;
 }
 
 void Walk::leave_system() {
     if (systems.empty()) return;
     turtle().scale = systems.back().scale;
     turtle().width = systems.back().width;
+    turtle().has_width = systems.back().has_width;
     systems.pop_back();
     turtle().systems = std::uint32_t(systems.size());
 }
@@ -268,4 +328,4 @@ void Walk::fail(const std::string& what) const {
                                to_text(context, model_->alphabet), last < string_->size() ? "..." : ""));
 }
 
-}  // namespace espalier
+}  // namespace espalier::turtle

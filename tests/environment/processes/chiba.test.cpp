@@ -10,6 +10,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -24,33 +25,66 @@ std::vector<double> answers(const std::string& lines, const std::vector<Asked>& 
 }
 
 std::vector<Asked> crown(int count, double corner) {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 place(draws.uniform(), draws.uniform(), draws.uniform());
+        const glm::dvec3 place(samples.uniform(), samples.uniform(), samples.uniform());
         questions.push_back({corner + 10.0 * place, {0.4}});
     }
     return questions;
 }
 
-/// Mean light by the formula as it is written, every pair tested.
-double mean_by_definition(const std::vector<Asked>& all, double t) {
-    double sum = 0;
+/// Balls of sizes from 0.01 to 3, some of them around others, one far away.
+std::vector<Asked> mixed_crown(int count) {
+    RandomSamples samples({5, 2, Stream::process}, 3, 4);
+    std::vector<Asked> questions{{{1000, -200, 50}, {2}}};
+    for (int i = 1; i < count; ++i) {
+        const glm::dvec3 place(samples.uniform(), samples.uniform(), samples.uniform());
+        questions.push_back({10.0 * place - 5.0, {0.01 * std::pow(300, samples.uniform())}});
+    }
+    return questions;
+}
+
+double lens(double a, double b, double d) {
+    if (d >= a + b) return 0;
+    if (d <= std::abs(a - b)) return std::numbers::pi * std::pow(std::min(a, b), 2);
+    const auto segment = [](double r, double x) { return r * r * std::acos(x / r) - x * std::sqrt(r * r - x * x); };
+    const double x = (d * d + a * a - b * b) / (2 * d);
+    return segment(a, x) + segment(b, d - x);
+}
+
+/// Light by the formulae as they are written, every pair tested. By chords, only what lies in front of the ray's origin
+/// counts.
+std::vector<double> by_definition(const std::vector<Asked>& all, double t, bool areas) {
+    std::vector<double> light;
     for (const Asked& one : all) {
+        double sum = 0;
         for (const SkyDirection& sky : uniform_sky(128, 0.7)) {
             double part = sky.weight;
             for (const Asked& other : all) {
+                if (&other == &one) continue;
                 const glm::dvec3 between = other.position - one.position;
-                const double ahead = glm::dot(between, sky.towards);
-                const double d = glm::length(between - ahead * sky.towards), r = 0.4;
-                if (ahead <= 0 || d >= 2 * r) continue;
-                const double lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
-                part *= 1 - (1 - t) * lens / (std::numbers::pi * r * r);
+                const double ahead = glm::dot(between, sky.towards), r = one.parameters[0], R = other.parameters[0];
+                const double d = glm::length(between - ahead * sky.towards);
+                if (areas) {
+                    if (ahead > 0) part *= 1 - (1 - t) * lens(r, R, d) / (std::numbers::pi * r * r);
+                } else if (d < R) {
+                    const double half = std::sqrt(R * R - d * d);
+                    const double chord = std::max(ahead + half, 0.0) - std::max(ahead - half, 0.0);
+                    part *= std::pow(t, chord / (2 * R));
+                }
             }
             sum += part;
         }
+        light.push_back(sum);
     }
-    return sum / static_cast<double>(all.size());
+    return light;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double largest = a.size() == b.size() ? 0 : 1e9;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
 }
 
 double mean(const std::vector<double>& values) {
@@ -111,11 +145,39 @@ TEST_CASE("1000 clusters in a box have the mean light that testing every pair gi
           "[chiba]") {
     const std::string lines = by_area + "transmittance = 0.25\ngrid_size = [32, 32, 32]";
     const std::vector<Asked> some = crown(150, 0);
-    CHECK(mean(answers(lines, some)) == Approx(mean_by_definition(some, 0.25)).epsilon(1e-9));
+    CHECK(largest_difference(answers(lines, some), by_definition(some, 0.25, true)) < 1e-12);
     const double at_origin = mean(answers(lines, crown(1000, 0)));
     CHECK(at_origin == Approx(0.318).margin(0.02));  // published for another draw of the thousand places
     CHECK(mean(answers(lines, crown(1000, -5))) == Approx(at_origin).epsilon(1e-9));
     CHECK(mean(answers(lines, crown(1000, 100))) == Approx(at_origin).epsilon(1e-9));
+}
+
+TEST_CASE("balls of all sizes, one around the other and far apart, dim as the formulae say", "[chiba]") {
+    const std::vector<Asked> some = mixed_crown(200);
+    CHECK(largest_difference(answers("transmittance = 0.25\n", some), by_definition(some, 0.25, false)) < 1e-12);
+    CHECK(largest_difference(answers("transmittance = 0.25\n" + by_area, some), by_definition(some, 0.25, true)) <
+          1e-9);  // lenses of a small disc and a large one are differences
+    const std::vector<Asked> one_place(9, {{1, 2, 3}, {0.5}});
+    CHECK(answers(zenith, one_place)[8] == Approx(std::pow(0.25, 8 * 0.5)));
+    CHECK(answers(zenith + by_area, one_place)[8] == 1);  // no centre is in front
+}
+
+TEST_CASE("from within a ball light passes the leaves in front of it", "[chiba]") {
+    const auto below = [](double height) { return answers(zenith, {{{0, 0, 0}, {0.1}}, {{0, height, 0}, {2}}})[0]; };
+    CHECK(below(2.5) == Approx(0.25));
+    CHECK(below(1) == Approx(std::pow(0.25, 0.75)));
+    CHECK(below(-1) == Approx(std::pow(0.25, 0.25)));
+    CHECK(below(-2.5) == 1);
+}
+
+TEST_CASE("with the numbers of cpfg, the whole chord of a ball counts from within it", "[chiba]") {
+    const auto below = [](double aside, double height) {
+        return answers(zenith + "numbers = \"cpfg\"\n", {{{0, 0, 0}, {0.1}}, {{aside, height, 0}, {2}}})[0];
+    };
+    for (const double height : {-1.0, 1.0, 3.0}) CHECK(below(0, height) == Approx(0.25));
+    CHECK(below(1.2, -1) == Approx(std::pow(0.25, 0.8)));
+    CHECK(below(1.2, -1.7) == 1);
+    CHECK(below(0, -2.5) == 1);
 }
 
 TEST_CASE("light among clusters is the same bytes in any order of queries and on any number of threads", "[chiba]") {

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -94,6 +95,70 @@ TEST_CASE("the order of the queries changes no answer about the ground", "[clove
     for (std::size_t i = 0; i < second.size(); i += 2) std::swap(second[i], second[i + 1]);
     std::reverse(second.begin(), second.end());
     CHECK(first == second);
+}
+
+TEST_CASE(
+    "with the numbers of cpfg, leaves lie over all cells that they touch, come and go in string order, and get no "
+    "answer",
+    "[clover]") {
+    const std::string grid = "process = \"clover\"\ngrid_size = [9, 7]\ngrid_range = [9, 7]\ntransmittance = 0.5\n";
+    const std::vector<Asked> leaves{{{2.6, 3.3, 0}, {2, 3}},
+                                    {{2.6, 3.3, 0}, {1, 3}},
+                                    {{7, 5, 0}, {1, 2}},
+                                    {{7, 5, 0}, {2, 2}},
+                                    {{7.5, 2, 0}, {1, 0.01}}};
+    std::vector<Asked> questions = leaves;
+    std::vector<double> expected{2, 3, 1, 3, 1, 2, 2, 2, 1, 0.01};
+    for (int j = 0; j < 7; ++j) {
+        for (int i = 0; i < 9; ++i) {
+            questions.push_back({{i + 0.5, j + 0.5, 0}, {0}});
+            double light = 1;
+            for (std::size_t k = 0; k < leaves.size(); ++k) {
+                if (k == 0 || k == 2 || k == 3) continue;  // one goes before it came, one comes and goes
+                const glm::dvec3& at = leaves[k].position;
+                const double across = at.x - std::clamp(at.x, double(i), i + 1.0);
+                const double along = at.y - std::clamp(at.y, double(j), j + 1.0);
+                const bool touches = across * across + along * along <= leaves[k].parameters[1] / std::numbers::pi;
+                if (touches) light /= 2;
+            }
+            expected.push_back(light);
+        }
+    }
+    Environment as_cpfg = environment_of("[light]\n" + grid + "numbers = \"cpfg\"\n");
+    CHECK(ask(as_cpfg, questions) == expected);
+    Environment ours = environment_of("[light]\n" + grid);
+    const std::vector<double> exact = ask(ours, questions);
+    CHECK(std::count(exact.begin() + 10, exact.end(), 1) > std::count(expected.begin() + 10, expected.end(), 1));
+    CHECK(exact[0] == 1);
+}
+
+TEST_CASE("with the numbers of cpfg, the picture is stretched from corner cell to corner cell", "[clover]") {
+    const TemporaryFolder folder;
+    const std::string name = folder.write("plain.rgb", sgi(false)).string();  // 3 x 2 pixels
+    const Picture picture = read_picture(name);
+    Environment environment = environment_of(
+        "[light]\nprocess = \"clover\"\ngrid_size = [5, 3]\nnumbers = \"cpfg\"\ninput_image = \"" + name + "\"\n");
+    const int column[] = {0, 0, 1, 1, 2}, row[] = {0, 0, 1};
+    std::vector<Asked> questions;
+    std::vector<double> expected;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 5; ++i) {
+            questions.push_back({{(i + 0.5) / 5, (j + 0.5) / 3, 0}, {0}});
+            expected.push_back(picture.pixels[std::size_t(row[j] * 3 + column[i])][1] / 255.0);
+        }
+    }
+    CHECK(ask(environment, questions) == expected);
+}
+
+TEST_CASE("a file of parameters asks for the numbers of cpfg, and a scene may ask for the exact ones", "[clover]") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("clover.spec", "grid size: 9x7\ngrid range: 9 7\n").string();
+    const std::vector<Asked> leaf{{{2.6, 3.3, 0}, {1, 3}}};
+    Environment as_cpfg = environment_of("[light]\nprocess = \"clover\"\nparameters = \"" + file + "\"\n");
+    CHECK(ask(as_cpfg, leaf) == std::vector<double>{1, 3});
+    Environment ours =
+        environment_of("[light]\nprocess = \"clover\"\nnumbers = \"exact\"\nparameters = \"" + file + "\"\n");
+    CHECK(ask(ours, leaf) == std::vector<double>{0.6, 255 / 128.0});
 }
 
 TEST_CASE("a grid larger than memory is a mistake", "[clover]") {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -55,10 +56,29 @@ TEST_CASE("the least of the unit square is less than at the middle, where the qu
     CHECK(density("one_point_value = true", {{{0, 0, 0}, {0, 0, 0}}})[0] == 1);
 }
 
+TEST_CASE("with the numbers of cpfg, the asker adds 1 wherever it looks, and directions are from 0 to 360",
+          "[density]") {
+    const std::vector<Asked> questions{{{0, 0, 0}, {0, 0, 0}}, {{0.7, 2, 0}, {1, 1}}, {{-1, 1, 0}, {3}}};
+    double least = 1e9;
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+            const double x = -0.5 + 0.2 * i, y = -0.5 + 0.2 * j;
+            least = std::min(
+                least, 1 + 1 / (1 + (x - 0.7) * (x - 0.7) + (y - 2) * (y - 2)) + 3 / (1 + std::hypot(x + 1, y - 1)));
+        }
+    }
+    const std::vector<double> as_cpfg = density("numbers = \"cpfg\"\n", questions), ours = density("", questions);
+    CHECK(as_cpfg[0] == Approx(least));
+    CHECK(ours[0] < as_cpfg[0]);
+    CHECK(ours[1] < 0);
+    CHECK(as_cpfg[1] == Approx(ours[1] + 360));
+    CHECK(as_cpfg[2] == ours[2]);
+}
+
 TEST_CASE("density is the same bytes in any order of queries and on any number of threads", "[density]") {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
-    for (int i = 0; i < 200; ++i) questions.push_back({{9 * draws.uniform(), 9 * draws.uniform(), 0}, {0, 0, 0}});
+    for (int i = 0; i < 200; ++i) questions.push_back({{9 * samples.uniform(), 9 * samples.uniform(), 0}, {0, 0, 0}});
     const std::vector<double> first = density("", questions);
     {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -86,6 +106,14 @@ TEST_CASE("density3d adds up in string order, for good, through a checkpoint", "
     for (Environment* either : {&environment, &resumed}) {
         CHECK(ask(*either, questions) == std::vector<double>{7, 10, 8, 2, 0});
     }
+}
+
+TEST_CASE("with the numbers of cpfg, density3d keeps whole sums", "[density3d]") {
+    Environment environment = environment_of("[light]\nprocess = \"density3d\"\nnumbers = \"cpfg\"\n");
+    const glm::dvec3 place(0.5);
+    CHECK(ask(environment, {{place, {0.7}}, {place, {2.6}}, {place, {1.5}}, {place, {-0.5}}}) ==
+          std::vector<double>{0, 2, 3, 2});
+    CHECK(ask(environment, {{place, {0.9}}}) == std::vector<double>{2});
 }
 
 TEST_CASE("a box of 2^level voxels is as fine as a grid of that size", "[density3d]") {

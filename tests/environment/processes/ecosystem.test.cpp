@@ -9,6 +9,7 @@
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -26,12 +27,12 @@ std::vector<double> winners(const std::string& lines, const std::vector<Asked>& 
 }
 
 std::vector<Asked> stand(int count, double side) {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 place(side * draws.uniform(), side * draws.uniform(), side * draws.uniform());
-        const double radius = std::pow(draws.uniform(), 4);
-        questions.push_back({place, {radius, std::floor(5 * draws.uniform())}});
+        const glm::dvec3 place(side * samples.uniform(), side * samples.uniform(), side * samples.uniform());
+        const double radius = std::pow(samples.uniform(), 4);
+        questions.push_back({place, {radius, std::floor(5 * samples.uniform())}});
     }
     return questions;
 }

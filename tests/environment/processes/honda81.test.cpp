@@ -14,6 +14,7 @@
 #include <numeric>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -25,11 +26,11 @@ std::vector<double> answers(const std::string& lines, const std::vector<Asked>& 
 }
 
 std::vector<Asked> random_questions(int count, double side, int vigours) {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 place(side * draws.uniform(), side * draws.uniform(), side * draws.uniform());
-        questions.push_back({place, {std::floor(vigours * draws.uniform()), std::floor(2 * draws.uniform())}});
+        const glm::dvec3 place(side * samples.uniform(), side * samples.uniform(), side * samples.uniform());
+        questions.push_back({place, {std::floor(vigours * samples.uniform()), std::floor(2 * samples.uniform())}});
     }
     return questions;
 }

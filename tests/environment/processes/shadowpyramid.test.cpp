@@ -3,12 +3,15 @@
 #include "catch.h"
 #include "environment/exchange_plants.h"
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -60,13 +63,81 @@ TEST_CASE("the gradient points out of the shadow, with bias and chance added whe
     CHECK(chance == answers("light_randomness = 0.1\n", beside));
 }
 
+namespace {
+
+/// The light as cpfg's program keeps it: 11^3 voxels 2 wide, x and z from -10 to 10, y from 0 to 20.
+class Table {
+public:
+    Table() : light_(11 * 11 * 11, 1.0) {}
+
+    void cast(const glm::dvec3& place) {
+        const int x = int(std::lround(place.x / 2)) + 5, y = int(place.y / 2), z = int(std::lround(place.z / 2)) + 5;
+        for (int layer = 0; layer < 6 && y - layer >= 0; ++layer) {
+            for (int i = std::max(x - layer, 0); i <= std::min(x + layer, 10); ++i) {
+                for (int k = std::max(z - layer, 0); k <= std::min(z + layer, 10); ++k) {
+                    const double away = std::hypot(i - x, layer, k - z);
+                    light_[index(i, y - layer, k)] *= 1 - 0.58 * std::pow(6.9, -away);
+                }
+            }
+        }
+    }
+
+    double at(const glm::dvec3& place) const {
+        const glm::dvec3 where = place / 2.0 + glm::dvec3(5, 0, 5), low = glm::floor(where), part = where - low;
+        double sum = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::ivec3 up(corner & 1, corner >> 1 & 1, corner >> 2);
+            const glm::ivec3 at = glm::ivec3(low) + up;
+            double share = 1;
+            for (int axis = 0; axis < 3; ++axis) share *= up[axis] ? part[axis] : 1 - part[axis];
+            const bool inside =
+                glm::all(glm::greaterThanEqual(at, glm::ivec3(0))) && glm::all(glm::lessThanEqual(at, glm::ivec3(10)));
+            sum += share * (inside ? light_[index(at.x, at.y, at.z)] : 1);
+        }
+        return sum;
+    }
+
+private:
+    static std::size_t index(int x, int y, int z) { return std::size_t((x * 11 + y) * 11 + z); }
+
+    std::vector<double> light_;
+};
+
+}  // namespace
+
+TEST_CASE("with the numbers of cpfg, y begins at 0 and is cut off, and the gradient is a difference",
+          "[shadowpyramid]") {
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
+    std::vector<Asked> questions;
+    Table table;
+    for (int i = 0; i < 60; ++i) {
+        const glm::dvec3 place(16 * samples.uniform() - 8, 18 * samples.uniform(), 16 * samples.uniform() - 8);
+        questions.push_back({place, {i < 20 ? 1.0 : 0.0, 0, 0, 0}});
+        if (i < 20) table.cast(place);
+    }
+    const std::vector<double> light = answers("grid_size = 11\ngrid_span = 10\nnumbers = \"cpfg\"\n", questions);
+    double wrong = 0;
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+        const glm::dvec3& place = questions[i].position;
+        wrong = std::max(wrong, std::abs(light[4 * i] - table.at(place)));
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::dvec3 step(0);
+            step[axis] = 1.6;
+            const double rise = table.at(place + step) - table.at(place - step);
+            wrong = std::max(wrong, std::abs(light[4 * i + 1 + std::size_t(axis)] - rise));
+        }
+    }
+    CHECK(wrong < 1e-5);
+    CHECK(answers("grid_size = 11\ngrid_span = 10\nnumbers = \"cpfg\"\n", {{{0, -9, 0}, {1}}})[0] == 1);
+}
+
 TEST_CASE("light among pyramids is the same bytes in any order of queries and on any number of threads",
           "[shadowpyramid]") {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < 500; ++i) {
         questions.push_back(
-            {{20 * draws.uniform() - 10, 20 * draws.uniform(), 20 * draws.uniform() - 10}, {i % 3 - 1.0}});
+            {{20 * samples.uniform() - 10, 20 * samples.uniform(), 20 * samples.uniform() - 10}, {i % 3 - 1.0}});
     }
     std::vector<double> light = answers("", questions);
     {

@@ -39,6 +39,25 @@ bool mentions(const std::string& message, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("a request that no voxel can meet where amounts are volumes is a warning, once", "[environment][water]") {
+    const std::string text = "domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\ninitial = 0.3\n";
+    std::vector<Diagnostic> warnings;
+    EnvironmentContext context;
+    context.warnings = &warnings;
+    Soil small(text + "amount = \"volume\"", context), content(text, context);
+    for (int step = 0; step < 2; ++step) {
+        content.step({{{0.5, 0.5, 0.5}, {0.15}}});
+        small.step({{{0.5, 0.5, 0.5}, {0.0001}}});
+    }
+    CHECK(warnings.empty());
+    Soil soil(text + "amount = \"volume\"", context);
+    for (int step = 0; step < 2; ++step) soil.step({{{0.5, 0.5, 0.5}, {0.15}}});
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].place.line == 4);
+    mentions(warnings[0].message, "plant 0 requests 0.15 of 'water', but a voxel holds at most 0.001");
+    mentions(warnings[0].message, "content times m3");
+}
+
 TEST_CASE("the field is the content, free voxels active, in the domain's place", "[environment][water]") {
     Soil soil(soil_text);
     const Field& field = soil.fields.need("water");

@@ -8,6 +8,7 @@
 #include <numbers>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -62,11 +63,21 @@ TEST_CASE("sources are places that share the light; what stands beyond or behind
     CHECK(half > product(1, 0, 1));
 }
 
+TEST_CASE("with the numbers of cpfg, a ball around the asking centre shades it, wherever its own centre is",
+          "[takenaka]") {
+    const double area = 4 * std::numbers::pi * 16 / 9;  // a radius of 2
+    for (const double height : {-2.5, -1.0, 1.0, 2.5}) {
+        const std::vector<Asked> pair{{{0, 0, 0}, {1, 0}}, {{0, height, 0}, {area}}};
+        CHECK(answers("numbers = \"cpfg\"", pair)[1] == Approx(product(1, 0, height > -2 ? 1 : 0)));
+        CHECK(answers("", pair)[1] == Approx(product(1, 0, height > 0 ? 1 : 0)));
+    }
+}
+
 TEST_CASE("products are the same bytes in any order of queries and on any number of threads", "[takenaka]") {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < 500; ++i) {
-        questions.push_back({{10 * draws.uniform() - 5, 10 * draws.uniform(), 10 * draws.uniform()}, {0.7, 0}});
+        questions.push_back({{10 * samples.uniform() - 5, 10 * samples.uniform(), 10 * samples.uniform()}, {0.7, 0}});
     }
     const std::string lines = "source = [\"0 100 0 3\", \"60 80 0\", \"-60 80 3\"]";
     const std::vector<double> first = answers(lines, questions);

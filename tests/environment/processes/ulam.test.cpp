@@ -7,6 +7,7 @@
 #include <set>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 

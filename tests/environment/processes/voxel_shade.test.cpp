@@ -12,6 +12,7 @@
 #include <cstring>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -29,11 +30,11 @@ std::vector<double> answers(const std::string& scene, const std::vector<Asked>& 
 
 /// A crown of `count` questions that cast and ask for the gradient too, without any pattern in the voxels.
 std::vector<Asked> crown(int count, const glm::dvec3& centre = {0, 5, 0}) {
-    RandomDraws draws({1, 2, Stream::process}, 3, 4);
+    RandomSamples samples({1, 2, Stream::process}, 3, 4);
     std::vector<Asked> questions;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec3 offset(draws.uniform() * 9 - 4.5, draws.uniform() * 9 - 4.5, draws.uniform() * 9 - 4.5);
-        questions.push_back({centre + offset, {i % 5 == 0 ? 0 : 0.02 + 0.1 * draws.uniform(), 0, 0, 0}});
+        const glm::dvec3 offset(samples.uniform() * 9 - 4.5, samples.uniform() * 9 - 4.5, samples.uniform() * 9 - 4.5);
+        questions.push_back({centre + offset, {i % 5 == 0 ? 0 : 0.02 + 0.1 * samples.uniform(), 0, 0, 0}});
     }
     return questions;
 }
@@ -127,7 +128,7 @@ TEST_CASE("an opaque organ lets nothing through and still sees full light itself
 }
 
 TEST_CASE("a lone caster sees exactly full light and no gradient, wherever it stands", "[environment]") {
-    RandomDraws draws({5, 0, Stream::process}, 1, 1);
+    RandomSamples samples({5, 0, Stream::process}, 1, 1);
     for (const std::string mode : {"add", "attenuate"}) {
         for (const std::string sampling : {"trilinear", "nearest"}) {
             const std::string scene =
@@ -136,8 +137,8 @@ TEST_CASE("a lone caster sees exactly full light and no gradient, wherever it st
                 mode + "\"\nsampling = \"" + sampling + "\"\n";
             int wrong = 0;
             for (int i = 0; i < 200; ++i) {
-                const glm::dvec3 at(draws.normal() * 10, draws.normal() * 10, draws.normal() * 10);
-                const double s = 3 * draws.uniform();
+                const glm::dvec3 at(samples.normal() * 10, samples.normal() * 10, samples.normal() * 10);
+                const double s = 3 * samples.uniform();
                 wrong += answers(scene, {{at, {s, 9, 9, 9}}}) != std::vector<double>{0.9, 0, 0, 0};
             }
             CHECK(wrong == 0);

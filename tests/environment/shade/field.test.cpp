@@ -13,6 +13,7 @@
 #include <cstring>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 
@@ -20,7 +21,7 @@ namespace {
 class ChangingCrown {
 public:
     ChangingCrown(std::uint64_t seed, int count, double width)
-        : draws_({seed, 1, Stream::process}, 3, 4), width_(width) {
+        : samples_({seed, 1, Stream::process}, 3, 4), width_(width) {
         for (int i = 0; i < count; ++i) organs_.push_back(organ());
     }
 
@@ -29,7 +30,7 @@ public:
     void change(double part) {
         std::vector<Asked> next;
         for (const Asked& old : organs_) {
-            const double fate = draws_.uniform();
+            const double fate = samples_.uniform();
             if (fate < 0.25 * part) continue;                                       // dies
             if (fate > 1 - 0.25 * part) next.push_back(organ());                    // something is born beside it
             next.push_back(fate > 0.5 * (1 - part) && fate < 0.5 ? organ() : old);  // moves
@@ -46,12 +47,12 @@ public:
 
 private:
     Asked organ() {
-        const glm::dvec3 place(draws_.uniform(), draws_.uniform(), draws_.uniform());
-        const double strength = draws_.uniform() < 0.2 ? 0 : draws_.uniform() < 0.7 ? 1 : draws_.uniform();
+        const glm::dvec3 place(samples_.uniform(), samples_.uniform(), samples_.uniform());
+        const double strength = samples_.uniform() < 0.2 ? 0 : samples_.uniform() < 0.7 ? 1 : samples_.uniform();
         return {(place - 0.5) * width_, {strength, 0, 0, 0}};
     }
 
-    RandomDraws draws_;
+    RandomSamples samples_;
     double width_;
     std::vector<Asked> organs_;
 };
@@ -115,11 +116,12 @@ TEST_CASE("a pyramid's sum in every voxel is what its pyramids add there one by 
             const VoxelBox clip{{-9, -20, -40}, {21, 6, 12}};
             ShadeCasts casts(rule, clip);
             ShadeField field(std::size_t(1) << 30);
-            RandomDraws draws({7, 0, Stream::process}, 1, 1);
+            RandomSamples samples({7, 0, Stream::process}, 1, 1);
             casts.begin_step();
             for (int i = 0; i < 300; ++i) {
-                const glm::dvec3 at(draws.uniform() * 50 - 20, draws.uniform() * 30 - 20, draws.uniform() * 70 - 45);
-                casts.add(flat ? glm::ivec3(at.x, at.y, 0) : glm::ivec3(at), i % 3 == 0 ? 1 : draws.uniform());
+                const glm::dvec3 at(samples.uniform() * 50 - 20, samples.uniform() * 30 - 20,
+                                    samples.uniform() * 70 - 45);
+                casts.add(flat ? glm::ivec3(at.x, at.y, 0) : glm::ivec3(at), i % 3 == 0 ? 1 : samples.uniform());
             }
             REQUIRE(field.show(casts));
             int wrong = 0, shaded = 0;
@@ -162,10 +164,10 @@ TEST_CASE("shade followed through births, deaths and moves is the shade summed a
 TEST_CASE("a few changes are followed without a rebuild", "[environment]") {
     ShadeCasts casts((ShadeRule()), {glm::ivec3(-1000), glm::ivec3(1000)});
     ShadeField field(std::size_t(1) << 30);
-    RandomDraws draws({3, 0, Stream::process}, 1, 1);
+    RandomSamples samples({3, 0, Stream::process}, 1, 1);
     std::vector<glm::ivec3> apices;
     for (int i = 0; i < 2000; ++i)
-        apices.emplace_back(draws.uniform() * 60, draws.uniform() * 60, draws.uniform() * 60);
+        apices.emplace_back(samples.uniform() * 60, samples.uniform() * 60, samples.uniform() * 60);
     const auto show = [&] {
         casts.begin_step();
         for (const glm::ivec3& apex : apices) casts.add(apex, 1);

@@ -14,6 +14,7 @@
 #include <cstring>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 

@@ -17,6 +17,7 @@
 #include <filesystem>
 
 using namespace espalier;
+using namespace espalier::environment;
 using Catch::Matchers::Contains;
 
 namespace {

@@ -14,6 +14,7 @@
 #include <functional>
 
 using namespace espalier;
+using namespace espalier::environment;
 
 namespace {
 

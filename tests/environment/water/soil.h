@@ -15,6 +15,8 @@
 
 namespace espalier::test {
 
+using namespace espalier::environment;
+
 struct Tip {
     glm::dvec3 position{0};
     std::vector<double> parameters;

@@ -6,6 +6,7 @@
 #include <string>
 
 using namespace espalier;
+using namespace espalier::environment;
 using namespace espalier::test;
 
 namespace {

@@ -25,6 +25,7 @@ struct PlotOptions {
     /// `chosen`: per plant up to 8 plants, else per species if there are several, else in total. A species is a model.
     Lines lines = Lines::chosen;
     std::string x = "step";                     ///< the column along the horizontal axis
+    bool upright = false;                       ///< that column, a height, goes up instead
     std::map<std::string, std::string> titles;  ///< of columns: "crown volume (m3)"; else their names
     bool dark = false;
 };

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 class PrintFormat {
 public:
@@ -31,5 +31,11 @@ private:
     std::vector<Piece> pieces_;
     std::string after_;
 };
+
+}  // namespace espalier::lsystem
+
+namespace espalier {
+
+using lsystem::PrintFormat;
 
 }  // namespace espalier

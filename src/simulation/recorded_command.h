@@ -36,11 +36,15 @@ std::vector<std::string> arguments_below(const RecordedCommand& command, const s
 /// run.json and timings.csv describe the run, not the growth, and are ignored.
 std::vector<std::string> timeline_differences(const std::filesystem::path& before, const std::filesystem::path& after);
 
+/// What lies in the folder of a run and no run wrote: pictures, charts, exports; names of files and folders.
+std::vector<std::string> beside_timeline(const std::filesystem::path& run);
+
 }  // namespace espalier::simulation
 
 namespace espalier {
 
 using simulation::arguments_below;
+using simulation::beside_timeline;
 using simulation::is_unchanged;
 using simulation::lay_out_inputs;
 using simulation::read_command;

@@ -1,10 +1,10 @@
-#include "lsystem/derive/workplace.h"
+#include "lsystem/derive/scratch_lease.h"
 
 #include "lsystem/derive/step.h"
 
 #include <algorithm>
 
-namespace espalier {
+namespace espalier::lsystem {
 namespace {
 
 constexpr std::size_t most_kept = std::size_t{1} << 22;  // bytes of pieces that a thread keeps for the next plant
@@ -39,7 +39,7 @@ Machine& Machines::local() const {
     return *last.machine;
 }
 
-Workplace::Workplace(std::size_t modules, std::unique_ptr<Scratch>& own) {
+ScratchLease::ScratchLease(std::size_t modules, std::unique_ptr<Scratch>& own) {
     ThreadScratch& thread = of_this_thread();
     of_thread_ = modules <= grain && !thread.lent;
     if (!of_thread_ && !own) own = std::make_unique<Scratch>();
@@ -47,11 +47,11 @@ Workplace::Workplace(std::size_t modules, std::unique_ptr<Scratch>& own) {
     thread.lent = thread.lent || of_thread_;
 }
 
-Workplace::~Workplace() {
+ScratchLease::~ScratchLease() {
     if (!of_thread_) return;
     of_this_thread().lent = false;
     const auto large = [](const ModuleString& piece) { return piece.bytes() > most_kept; };
     if (std::any_of(scratch_->pieces.begin(), scratch_->pieces.end(), large)) scratch_->pieces.clear();
 }
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-namespace espalier {
+namespace espalier::lsystem {
 
 struct Scratch;
 
@@ -27,12 +27,12 @@ private:
 
 /// Lends a scratch for one step: of a small string the thread's, else the plant's own, which is made if there is none.
 /// For large strings the thread's would not do: while it waits for others it may begin another plant's step.
-class Workplace {
+class ScratchLease {
 public:
-    Workplace(std::size_t modules, std::unique_ptr<Scratch>& own);
-    ~Workplace();
-    Workplace(const Workplace&) = delete;
-    Workplace& operator=(const Workplace&) = delete;
+    ScratchLease(std::size_t modules, std::unique_ptr<Scratch>& own);
+    ~ScratchLease();
+    ScratchLease(const ScratchLease&) = delete;
+    ScratchLease& operator=(const ScratchLease&) = delete;
 
     Scratch& scratch() const { return *scratch_; }
 
@@ -41,4 +41,4 @@ private:
     bool of_thread_ = false;
 };
 
-}  // namespace espalier
+}  // namespace espalier::lsystem

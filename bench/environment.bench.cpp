@@ -1,0 +1,167 @@
+// Processes that search: collisions, cells, and light between balls of leaves.
+#include "espalier/simulation/world.h"
+
+#include "environment/exchange_plants.h"
+#include "table.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace espalier::bench {
+namespace {
+
+/// One process with its batch of queries, all at random places, without the exchange around it.
+class Searching {
+public:
+    Searching(const std::string& lines, std::size_t count, glm::dvec3 box, double parameter) {
+        Settings settings = Settings::parse_toml(lines, "scene.toml");
+        process_ = registered<ProcessType>().at(settings.text("process"))->make(settings, {}, fields_);
+        RandomSamples samples({1, 2, Stream::process}, 3, 4);
+        parameters_.assign(count, parameter);
+        answers_.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Query& query = queries_.emplace_back();
+            query.parameters = {&parameters_[i], 1};
+            query.pose.position = box * glm::dvec3(samples.uniform(), samples.uniform(), samples.uniform());
+            spans_.push_back({&answers_[i], 1});
+        }
+    }
+
+    void answer() {
+        process_->answer({}, queries_, spans_, fields_);
+        benchmark::DoNotOptimize(answers_.data());
+    }
+
+    std::vector<glm::dvec3> places() const {
+        std::vector<glm::dvec3> places;
+        for (const Query& query : queries_) places.push_back(query.pose.position);
+        return places;
+    }
+
+private:
+    Fields fields_;
+    std::unique_ptr<EnvironmentProcess> process_;
+    std::vector<double> parameters_, answers_;
+    std::vector<Query> queries_;
+    std::vector<Answer> spans_;
+};
+
+/// One in three meets another.
+Searching collisions() {
+    return {"process = \"honda81\"\nradius = 0.5\n", 13'000, {160, 0, 160}, 1};
+}
+
+void collisions(benchmark::State& state) {
+    Searching searching = collisions();
+    for (auto _ : state) searching.answer();
+}
+BENCHMARK(collisions)->UseRealTime();
+
+void sorted_places(benchmark::State& state) {
+    const std::vector<glm::dvec3> places = collisions().places();
+    std::vector<glm::dvec3> sorted;
+    for (auto _ : state) {
+        sorted = places;
+        std::sort(sorted.begin(), sorted.end(), [](const glm::dvec3& a, const glm::dvec3& b) {
+            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+        });
+        benchmark::DoNotOptimize(sorted.data());
+    }
+}
+BENCHMARK(sorted_places)->UseRealTime();
+
+constexpr std::size_t ball_count = 5'000;
+
+Searching balls(const std::string& mode) {
+    return {"process = \"chiba\"\ntransmittance = 0.25\n" + mode, ball_count, {10, 10, 10}, 0.4};
+}
+
+void light_by_chords(benchmark::State& state) {
+    Searching searching = balls("");
+    for (auto _ : state) searching.answer();
+}
+BENCHMARK(light_by_chords)->UseRealTime();
+
+void light_by_areas(benchmark::State& state) {
+    Searching searching = balls("estimate_intersection_area = true");
+    for (auto _ : state) searching.answer();
+}
+BENCHMARK(light_by_areas)->UseRealTime();
+
+/// Which balls are in front of which, for one direction of 128: every pair.
+void pairs_of_one_direction(benchmark::State& state) {
+    const std::vector<glm::dvec3> places = balls("").places();
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(1, 2, 3));
+    for (auto _ : state) {
+        std::size_t hits = 0;
+        for (const glm::dvec3& one : places) {
+            for (const glm::dvec3& other : places) {
+                const glm::dvec3 between = other - one;
+                const double ahead = glm::dot(between, towards);
+                hits += ahead > 0 && glm::dot(between, between) - ahead * ahead < 0.16;
+            }
+        }
+        benchmark::DoNotOptimize(hits);
+    }
+}
+BENCHMARK(pairs_of_one_direction)->UseRealTime();
+
+/// Seconds of the exchanges, and of derivation and interpretation beside them.
+void grow(benchmark::State& state, const char* name, int steps) {
+    SceneOptions options;
+    options.steps = steps;
+    const Scene scene = read_scene(std::string(ESPALIER_SOURCE_DIR "/environments/") + name, options);
+    double exchange = 0, rest = 0;
+    for (auto _ : state) {
+        exchange = rest = 0;
+        World world(scene);
+        world.start();
+        while (!world.at_end()) {
+            world.step();
+            exchange += world.times().exchange;
+            rest += world.times().derive + world.times().interpret;
+        }
+    }
+    state.counters["work"] = exchange;
+    state.counters["yardstick"] = rest;
+}
+
+void ulam(benchmark::State& state) {
+    grow(state, "ulam.toml", 80);
+}
+BENCHMARK(ulam)->UseRealTime();
+
+using Measure = Row::Measure;
+using Goal = Row::Goal;
+const Row collided{"13,000 collisions, against sorting their places",
+                   "collisions/real_time",
+                   "sorted_places/real_time",
+                   Measure::time,
+                   Goal::at_most,
+                   4};
+const Row cells{"Ulam's cells for 80 steps: their exchanges, against derivation and interpretation",
+                "ulam/real_time",
+                "",
+                Measure::counters,
+                Goal::at_most,
+                0.6};
+const Row chords{"light of 5,000 balls from 128 directions by chords, against all pairs for one direction",
+                 "light_by_chords/real_time",
+                 "pairs_of_one_direction/real_time",
+                 Measure::time,
+                 Goal::at_most,
+                 3};
+const Row areas{"the same by areas",
+                "light_by_areas/real_time",
+                "pairs_of_one_direction/real_time",
+                Measure::time,
+                Goal::at_most,
+                8};
+
+}  // namespace
+}  // namespace espalier::bench

@@ -1,0 +1,107 @@
+#include "formats/usd_instances.h"
+
+#include "formats/usd_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace espalier::formats::usd {
+
+Instancers::Instancers(const ExportJob& job, UsdMaterials& materials) : job_(job), nodes_(job.options) {
+    for (const RecordedFrame* frame : job.frames) nodes_.add_organs(job.run.geometry(*frame));
+    std::map<std::uint32_t, std::map<NodeShape, std::size_t, ByKey>> numbers;
+    for (const GrowthNode& node : nodes_.all()) {
+        NodeShape rounded = node.organ;
+        rounded.round();
+        std::vector<Shape>& shapes = shapes_[node.part.plant];
+        const auto [known, is_new] = numbers[node.part.plant].emplace(std::move(rounded), shapes.size());
+        shape_of_.push_back(known->second);
+        if (!is_new || node.organ.rgb.empty()) continue;
+        const bool of_one_colour = std::all_of(node.organ.rgb.begin(), node.organ.rgb.end(),
+                                               [&](const Rgb& rgb) { return rgb == node.organ.rgb[0]; });
+        shapes.push_back(
+            {&node.organ, of_one_colour ? materials.name({node.organ.rgb[0], node.organ.texture}) : std::string()});
+        vertices_ += node.organ.points.size();
+        triangles_ += node.organ.triangles.size();
+    }
+}
+
+void Instancers::append_to(std::string& text, std::uint32_t plant, const std::string& path) const {
+    const auto shapes = shapes_.find(plant);
+    if (shapes == shapes_.end()) return;
+    text += "        def PointInstancer \"organs\"\n        {\n";
+    std::vector<std::string> prototypes;
+    for (std::size_t i = 0; i < shapes->second.size(); ++i) {
+        prototypes.push_back(fmt::format("<{}/organs/shapes/shape_{}>", path, i));
+    }
+    text += fmt::format("            rel prototypes = [{}]\n", fmt::join(prototypes, ", "));
+    append_places(text, plant);
+    append_shapes(text, plant);
+    text += "        }\n";
+}
+
+void Instancers::append_shapes(std::string& text, std::uint32_t plant) const {
+    text += "            def Scope \"shapes\"\n            {\n";
+    const std::vector<Shape>& shapes = shapes_.at(plant);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const NodeShape& shape = *shapes[i].shape;
+        fmt::format_to(std::back_inserter(text),
+                       "                def Mesh \"shape_{}\" (\n                    prepend apiSchemas = "
+                       "[\"MaterialBindingAPI\"]\n                )\n                {{\n"
+                       "                    uniform bool doubleSided = true\n"
+                       "                    uniform token subdivisionScheme = \"none\"\n"
+                       "                    rel material:binding = </world/materials/{}>\n",
+                       i, shapes[i].material.empty() ? UsdMaterials::of_colours : shapes[i].material);
+        const auto add = [&](const char* declaration, const char* interpolation, std::string value) {
+            Samples samples(declaration, interpolation);
+            samples.add(0, std::move(value));
+            samples.append_to(text, 20);
+        };
+        add("int[] faceVertexCounts", "", numbers(std::vector<int>(shape.triangles.size(), 3)));
+        add("int[] faceVertexIndices", "", corners(shape.triangles));
+        add("point3f[] points", "", vectors(shape.points));
+        add("normal3f[] normals", "vertex", vectors(shape.normals));
+        add("texCoord2f[] primvars:st", "vertex", places(shape.uvs));
+        add("color3f[] primvars:displayColor", "uniform", colours(shape.rgb));
+        add("float3[] extent", "", extent(shape.points, 0));
+        text += "                }\n";
+    }
+    text += "            }\n";
+}
+
+void Instancers::append_places(std::string& text, std::uint32_t plant) const {
+    struct Places {
+        std::vector<std::size_t> shapes, ids;
+        std::vector<glm::vec3> positions, scales;
+        std::vector<glm::quat> turns;
+    };
+    std::vector<Places> frames(job_.frames.size());
+    for (std::size_t i = 0; i < nodes_.all().size(); ++i) {
+        const GrowthNode& node = nodes_.all()[i];
+        if (node.part.plant != plant) continue;
+        for (const auto& [frame, pose] : node.poses) {
+            frames[frame].shapes.push_back(shape_of_[i]);
+            frames[frame].ids.push_back(i);
+            frames[frame].positions.push_back(pose.translation);
+            frames[frame].scales.push_back(pose.scale);
+            frames[frame].turns.push_back(pose.rotation);
+        }
+    }
+    Samples shapes("int[] protoIndices", ""), ids("int64[] ids", ""), positions("point3f[] positions", ""),
+        scales("float3[] scales", ""), turns("quath[] orientations", "");
+    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+        const int step = job_.frames[frame]->step;
+        shapes.add(step, numbers(frames[frame].shapes));
+        ids.add(step, numbers(frames[frame].ids));
+        positions.add(step, vectors(frames[frame].positions));
+        scales.add(step, vectors(frames[frame].scales));
+        turns.add(step, list(frames[frame].turns, [](std::string& to, const glm::quat& q) {
+                      fmt::format_to(std::back_inserter(to), "({}, {}, {}, {})", q.w, q.x, q.y, q.z);
+                  }));
+    }
+    for (const Samples* samples : {&shapes, &ids, &positions, &scales, &turns}) samples->append_to(text);
+}
+
+}  // namespace espalier::formats::usd
