@@ -66,7 +66,8 @@ TEST_CASE_METHOD(Workplace, "analyse gives a field's profile over depth as a tab
     REQUIRE(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("water-y.csv"));
     const std::string table = text_of(path() / "tables/water-y.csv");
-    CHECK_THAT(table, Contains("step,y,mean,deviation,minimum,maximum\n2,-0.25,0.25,0,0.25,0.25\n2,-0.15,0.25,0,0.25,0.25\n"));
+    CHECK_THAT(table,
+               Contains("step,y,mean,deviation,minimum,maximum\n2,-0.25,0.25,0,0.25,0.25\n2,-0.15,0.25,0,0.25,0.25\n"));
     CHECK(std::count(table.begin(), table.end(), '\n') == 4);
     CHECK_THAT(run("analyse run --field watr").err, Contains("did you mean 'water'"));
     CHECK(run("analyse run --field water --leaf L").code != 0);

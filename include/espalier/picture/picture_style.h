@@ -52,13 +52,13 @@ struct PictureStyle {
 
 /// From where a camera looks at the middle of what it frames.
 struct CameraPlace {
-    double azimuth = 30, elevation = 12;  ///< degrees; azimuth 0 looks against z, elevation 90 from above
-    double zoom = 1;                      ///< 1: everything fits
-    double twist = 0;                     ///< degrees that the camera is turned about where it looks
-    std::optional<double> view_angle = std::nullopt;     ///< degrees from the lower edge to the upper; none: 24
-    bool is_parallel = false;             ///< without perspective
-    bool front_if_flat = true;            ///< what lies in a plane across z is seen from the front
-    bool turns = false;                   ///< everything fits from every azimuth, at one distance
+    double azimuth = 30, elevation = 12;              ///< degrees; azimuth 0 looks against z, elevation 90 from above
+    double zoom = 1;                                  ///< 1: everything fits
+    double twist = 0;                                 ///< degrees that the camera is turned about where it looks
+    std::optional<double> view_angle = std::nullopt;  ///< degrees from the lower edge to the upper; none: 24
+    bool is_parallel = false;                         ///< without perspective
+    bool front_if_flat = true;                        ///< what lies in a plane across z is seen from the front
+    bool turns = false;                               ///< everything fits from every azimuth, at one distance
 };
 
 }  // namespace espalier::picture
