@@ -66,6 +66,8 @@ const std::vector<Kind>& kinds() {
         {"processes", "the environment of the plants: [environment.<name>] process = \"...\"", parts_of<ProcessType>},
         {"symbols", "the symbols of the turtle and what they do", symbol_parts},
         {"recorders", "the files of a run: [timeline]", parts_of<RecorderType>},
+        {"stages", "what changes a plant's geometry before it is recorded: [[plant.stage]] stage = \"...\"",
+         parts_of<GeometryStageType>},
         {"exporters", "formats of `espalier export`",
          [] {
              open_looking_half();

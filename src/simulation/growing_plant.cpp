@@ -25,6 +25,7 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
       model_(&source_of(*from.model)),
       insertions_(from),
       symbols_(std::move(symbols)),
+      stage_key_(settings.seed, settings.plant, Stream::stage),
       has_pictures_(derivation.has_homomorphism()) {
     note_derived();
 }
@@ -71,6 +72,11 @@ void GrowingPlant::interpret() {
     const Derivation* pictures = has_pictures_ ? &derivation : nullptr;
     espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number}, result);
     asks_ = result.asks();
+    if (description->stages.empty()) return;
+    Interpretation& staged = staged_.for_writing();
+    staged = result;
+    StagedPlant plant{staged.geometry, *string, stage_key_};
+    apply(description->stages, plant);
 }
 
 void GrowingPlant::prefetch_values() const {
@@ -97,7 +103,7 @@ PlantFrame GrowingPlant::frame(std::vector<Quantity> quantities) const {
             description->name,
             &model(),
             string.share(),
-            interpretation.share(),
+            description->stages.empty() ? interpretation.share() : staged_.share(),
             std::move(quantities),
             description->palette.get(),
             description->view ? description->view->background.get() : nullptr};

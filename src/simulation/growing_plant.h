@@ -53,6 +53,8 @@ public:
     bool stopped = false;
     Reusable<ModuleString> string;
     Reusable<Interpretation> interpretation;
+    /// For recorders: the interpretation as the geometry stages leave it.
+    const Interpretation& drawn() const { return *(description->stages.empty() ? interpretation : staged_); }
     PlantMemory memory;
 
 private:
@@ -64,6 +66,8 @@ private:
     std::shared_ptr<const SymbolTable> symbols_;
     Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory
     bool keeps_previous_ = false;
+    Reusable<Interpretation> staged_;
+    RandomKey stage_key_;
     bool has_pictures_;
     bool asks_ = false;
 };

@@ -4,17 +4,9 @@
 #include <bit>
 
 namespace espalier::simulation {
+namespace {
 
-// Of small strings always as if there were two that fit: when memory gets scarce there will be.
-void PlantMemory::set_strings(const ModuleString* before, std::size_t modules_before, const ModuleString& now,
-                              std::size_t working) {
-    const bool is_small = !before || modules_before <= most_of_small || now.size() <= most_of_small;
-    const std::size_t content = now.content() + (is_small ? now.content() : before->content());
-    // Columns have up to an eighth more room than they need: much memory at once stays untouched, little does not.
-    strings = content + (is_small ? content / 8 : 0) + working;
-}
-
-void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plants) {
+std::size_t bytes_of(const Interpretation& interpretation) {
     // Memory that grows by doubling.
     const auto held = [](const auto& column) {
         return column.empty() ? 0 : std::bit_ceil(column.size()) * sizeof(column[0]);
@@ -26,11 +18,30 @@ void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plan
     };
     const PlantGeometry& geometry = interpretation.geometry;
     const DrawnMesh& mesh = geometry.mesh;
+    return written(geometry.internodes) + written(interpretation.queries) + written(interpretation.answers) +
+           held(interpretation.directions) + held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) +
+           held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) +
+           held(geometry.textures);
+}
+
+}  // namespace
+
+// Of small strings always as if there were two that fit: when memory gets scarce there will be.
+void PlantMemory::set_strings(const ModuleString* before, std::size_t modules_before, const ModuleString& now,
+                              std::size_t working) {
+    const bool is_small = !before || modules_before <= most_of_small || now.size() <= most_of_small;
+    const std::size_t content = now.content() + (is_small ? now.content() : before->content());
+    // Columns have up to an eighth more room than they need: much memory at once stays untouched, little does not.
+    strings = content + (is_small ? content / 8 : 0) + working;
+}
+
+void PlantMemory::set_drawn(const Interpretation& interpretation, bool many_plants) {
     const std::size_t query = sizeof(Answer) + 2 * sizeof(double) + (many_plants ? sizeof(Query) : 0);
-    drawn = written(geometry.internodes) + written(interpretation.queries) + written(interpretation.answers) +
-            held(interpretation.directions) + held(geometry.polygons) + held(geometry.vertices) +
-            held(geometry.organs) + held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) +
-            held(geometry.labels) + held(geometry.textures) + interpretation.queries.size() * query;
+    drawn = bytes_of(interpretation) + interpretation.queries.size() * query;
+}
+
+void PlantMemory::add_staged(const Interpretation& staged) {
+    drawn += bytes_of(staged);
 }
 
 void PlantMemory::set_recorded(const RecordedMemory& now, std::size_t before) {

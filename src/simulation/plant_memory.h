@@ -23,6 +23,8 @@ struct PlantMemory {
                      std::size_t working);
     /// Of many plants the queries are copied.
     void set_drawn(const Interpretation& interpretation, bool many_plants);
+    /// After set_drawn(): the copy that geometry stages have changed.
+    void add_staged(const Interpretation& staged);
     /// After set_drawn(): what recording this step takes, the frame before being still on its way.
     void set_recorded(const RecordedMemory& now, std::size_t before);
     void add(const PlantMemory& plant);

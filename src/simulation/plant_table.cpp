@@ -141,6 +141,7 @@ public:
         [[maybe_unused]] const Insertions must_fit(plant);
         plant.turtle = read_turtle(table.table("turtle"), plant.view ? plant.view->turtle : TurtleSettings());
         plant.turtle.pose = read_pose(table);
+        for (Settings stage : table.tables("stage")) plant.stages.push_back(read_geometry_stage(stage));
         const auto stream = static_cast<std::uint32_t>(
             table.integer_or("stream", static_cast<std::int64_t>(plants_.size()), Range::between(0, 4294967295.0)));
         const std::vector<glm::dvec3> places = read_places(table, seed_, stream);

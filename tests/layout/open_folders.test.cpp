@@ -1,6 +1,7 @@
 // A file in an open folder is all a new part needs: what lies there and what is registered must be the same.
 #include "espalier/environment/environment_process.h"
 #include "espalier/formats/exporter.h"
+#include "espalier/geometry/geometry_stage.h"
 
 #include "catch.h"
 #include "sources.h"
@@ -45,6 +46,16 @@ TEST_CASE("every process explains itself", "[layout]") {
         INFO(name);
         CHECK(!process->summary.empty());
         CHECK(!process->help.empty());
+    }
+}
+
+TEST_CASE("every file of geometry/stages registers the geometry stage it is named after and explains it", "[layout]") {
+    CHECK(!parts_in("src/geometry/stages").empty());
+    CHECK(parts_in("src/geometry/stages") == names_of<espalier::GeometryStageType>());
+    for (const auto& [name, stage] : espalier::registered<espalier::GeometryStageType>()) {
+        INFO(name);
+        CHECK(!stage->summary.empty());
+        CHECK(!stage->help.empty());
     }
 }
 

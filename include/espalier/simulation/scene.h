@@ -3,6 +3,7 @@
 
 #include "espalier/base/settings.h"
 #include "espalier/environment/environment.h"
+#include "espalier/geometry/geometry_stage.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/language/reader.h"
 #include "espalier/timeline/frame_selection.h"
@@ -36,6 +37,7 @@ struct Plant {
     std::shared_ptr<const Palette> palette = {};  ///< what colour indices look like; null if unknown
     std::shared_ptr<const View> view = {};        ///< its view file; null if it has none
     std::vector<Insertion> insertions = {};       ///< in the order in which those of one step are made
+    GeometryStages stages = {};                   ///< what is drawn goes through them before it is recorded
 };
 
 /// The model of a file, or of a text in the same language, ready to grow. Throws UserError with every mistake found.

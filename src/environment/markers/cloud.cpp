@@ -1,0 +1,194 @@
+#include "environment/markers/cloud.h"
+
+#include "espalier/environment/shape.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+namespace espalier::environment {
+namespace {
+
+constexpr std::uint32_t most_tries = 20000;
+
+/// How many points, from `number` or `density`, and where their random numbers come from.
+class Filling {
+public:
+    Filling(const Settings& table, const EnvironmentContext& context, std::size_t which, std::size_t most)
+        : table_(table), most_(most) {
+        const auto seed = static_cast<std::uint64_t>(table.integer_or("seed", 0, Range::not_negative()));
+        key_ = RandomKey(mix(context.seed, seed), static_cast<std::uint32_t>(which), Stream::process, 0x6d61726bU);
+        if (table.has("number") && table.has("density")) {
+            throw UserError(table.place("number"), "give either 'number' or 'density' of the points, not both");
+        }
+    }
+
+    std::size_t count(double volume) const {
+        if (table_.has("number")) {
+            const auto count = table_.integer("number", Range::positive());
+            return checked(static_cast<double>(count), "number");
+        }
+        return checked(std::round(table_.number_or("density", 20, Range::positive()) * volume), "density");
+    }
+
+    RandomSamples samples(std::size_t point) const { return {key_, point, 0}; }
+
+private:
+    std::size_t checked(double count, const char* key) const {
+        if (count < 1) {
+            throw UserError(table_.place(key), fmt::format("the cloud has no points: raise '{}' or enlarge it", key));
+        }
+        if (count > static_cast<double>(most_)) {
+            throw UserError(table_.place(key),
+                            fmt::format("{:.0f} points are more than the memory of the process holds ({}): lower "
+                                        "'{}', or raise --memory",
+                                        count, most_, key));
+        }
+        return static_cast<std::size_t>(count);
+    }
+
+    Settings table_;
+    std::size_t most_;
+    RandomKey key_;
+};
+
+/// `count` points of a box, each the first of its samples that `accepts`. Throws if one finds no place.
+template <class Accepts>
+std::vector<glm::dvec3> fill(const Box& box, std::size_t count, const Filling& filling, const Accepts& accepts,
+                             const Place& place) {
+    std::vector<glm::dvec3> points(count);
+    std::atomic<bool> failed = false;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end() && !failed; ++i) {
+            RandomSamples samples = filling.samples(i);
+            std::uint32_t tries = 0;
+            do {
+                const double x = samples.uniform(), y = samples.uniform(), z = samples.uniform();
+                points[i] = box.lower + glm::dvec3(x, y, z) * (box.upper - box.lower);
+            } while (!accepts(points[i]) && ++tries < most_tries);
+            if (tries == most_tries) failed = true;
+        }
+    });
+    if (failed) throw UserError(place, "the shape encloses next to nothing of its box: no point finds a place in it");
+    return points;
+}
+
+/// A layer of the unit ball times the radii (Brzoska 2019, section 5.2.1).
+std::vector<glm::dvec3> ellipsoid(const Settings& table, const Filling& filling) {
+    const glm::dvec3 radii = table.vector("radii");
+    for (int k = 0; k < 3; ++k) {
+        if (!(radii[k] > 0) || !std::isfinite(radii[k])) {
+            throw UserError(table.place("radii"), "'radii' must be three lengths above 0 (m): across, up, across");
+        }
+    }
+    const double below = table.number_or("below", 0, Range::between(0, 1));
+    const double above = table.number_or("above", 0, Range::between(0, 1));
+    const double lower = -1 + 2 * below, upper = 1 - 2 * above;
+    if (!(lower < upper)) {
+        throw UserError(table.place("below"), "'below' and 'above' cut off the whole cloud; their sum must be below 1");
+    }
+    const glm::dvec3 base = table.vector_or("base", {0, 0, 0});
+    const std::size_t count = filling.count(radii.x * radii.y * radii.z * ball_layer_volume(lower, upper));
+    const auto in_ball = [](const glm::dvec3& point) {
+        return point.x * point.x + point.y * point.y + point.z * point.z <= 1;
+    };
+    std::vector<glm::dvec3> points =
+        fill({{-1, lower, -1}, {1, upper, 1}}, count, filling, in_ball, table.place("radii"));
+    for (glm::dvec3& point : points) point = base + radii * (point - glm::dvec3(0, lower, 0));
+    return points;
+}
+
+Box bounds_of(const Shape& shape, const Settings& table, const EnvironmentContext& context) {
+    const std::optional<Box> box = shape.bounds() ? shape.bounds() : context.domain;
+    if (!box) throw UserError(table.place("shape"), "this shape has no end: give the scene a domain");
+    return *box;
+}
+
+/// The share of the box that the shape fills, by a million points.
+double filled_share(const Shape& shape, const Box& box, const Filling& filling, const Place& place) {
+    constexpr std::size_t tries = 1000000;
+    std::atomic<std::size_t> hits = 0;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tries, 10000), [&](const auto& range) {
+        std::size_t here = 0;
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            RandomSamples samples = filling.samples(i);
+            const double x = samples.uniform(), y = samples.uniform(), z = samples.uniform();
+            here += shape.inside(box.lower + glm::dvec3(x, y, z) * (box.upper - box.lower));
+        }
+        hits += here;
+    });
+    if (hits == 0) throw UserError(place, "the shape encloses nothing");
+    return static_cast<double>(hits) / tries;
+}
+
+std::vector<glm::dvec3> in_shape(Settings table, const Filling& filling, const EnvironmentContext& context) {
+    Settings description = table.table("shape");
+    const std::shared_ptr<const Shape> shape = read_shape(description);
+    description.reject_unread();
+    const Box box = bounds_of(*shape, table, context);
+    const glm::dvec3 edges = box.upper - box.lower;
+    const double share = filled_share(*shape, box, filling, table.place("shape"));
+    const std::size_t count = filling.count(edges.x * edges.y * edges.z * share);
+    const auto inside = [&](const glm::dvec3& point) { return shape->inside(point); };
+    return fill(box, count, filling, inside, table.place("shape"));
+}
+
+std::vector<glm::dvec3> listed(const Settings& table) {
+    std::vector<glm::dvec3> points = table.vectors("points");
+    if (points.empty()) throw UserError(table.place("points"), "'points' is empty: the cloud has no points");
+    for (const glm::dvec3& point : points) {
+        if (!std::isfinite(point.x + point.y + point.z)) {
+            throw UserError(table.place("points"), "'points' has a coordinate that is not a number");
+        }
+    }
+    return points;
+}
+
+std::vector<glm::dvec3> read_cloud(const Settings& table, const EnvironmentContext& context, std::size_t which,
+                                   std::size_t most) {
+    const int kinds = table.has("radii") + table.has("shape") + table.has("points");
+    if (kinds != 1) {
+        throw UserError(table.place(), "a cloud needs one of 'radii' (an ellipsoid), 'shape' and 'points'");
+    }
+    if (table.has("points")) return listed(table);
+    const Filling filling(table, context, which, most);
+    return table.has("radii") ? ellipsoid(table, filling) : in_shape(table, filling, context);
+}
+
+}  // namespace
+
+double ball_layer_volume(double lower, double upper) {
+    const auto below = [](double z) { return std::numbers::pi * (z - z * z * z / 3); };
+    return below(upper) - below(lower);
+}
+
+std::vector<glm::dvec3> read_clouds(const Settings& table, const EnvironmentContext& context, std::size_t most) {
+    const bool is_one = table.is_table("cloud");
+    const std::vector<Settings> clouds = is_one ? std::vector{table.table("cloud")} : table.tables("cloud");
+    if (clouds.empty()) {
+        throw UserError(table.place("cloud"), "there is no cloud: cloud = { radii = [2, 3, 2], base = [0, 1, 0] }");
+    }
+    std::vector<glm::dvec3> points;
+    for (std::size_t i = 0; i < clouds.size(); ++i) {
+        const std::vector<glm::dvec3> more = read_cloud(clouds[i], context, i, most - points.size());
+        clouds[i].reject_unread();
+        points.insert(points.end(), more.begin(), more.end());
+    }
+    return points;
+}
+
+const char* const cloud_help =
+    R"(cloud     { ... }, or several as [[environment.<name>.cloud]]: attraction points in
+            radii = [across, up, across] m: an ellipsoid, with `base` (m, [0, 0, 0]), the middle of its lower end, and
+            `below`, `above` (0), the shares of its height that are cut off at its ends;
+            shape = { shape = "...", ... }: any solid of `espalier list shapes`; or
+            points = [[x, y, z], ...]
+            density  20 points/m3, or number: how many points; seed (0): another cloud of the same kind
+)";
+
+}  // namespace espalier::environment

@@ -1,0 +1,62 @@
+// pipe-radii: internodes as thick as what they bear asks for.
+// The pipe model of Shinozaki, Yoda, Hozumi & Kira 1964 with the exponent of MacDonald 1983; forks as in Brzoska 2019,
+// section 5.1: a branch much thinner than its bearer starts with its own radius.
+#include "espalier/geometry/geometry_stage.h"
+
+#include "geometry/internode_bearers.h"
+
+#include <cmath>
+
+namespace espalier::geometry {
+namespace {
+
+class PipeRadii final : public GeometryStage {
+public:
+    explicit PipeRadii(Settings& settings)
+        : exponent_(settings.number_or("exponent", 2.5, Range::between(0.5, 10))),
+          tip_(settings.number_or("tip", 0.005, Range::positive())),
+          factor_(settings.number_or("factor", 1, Range::positive())),
+          join_(settings.number_or("join", 0.5, Range::between(0, 1))) {}
+
+    void apply(StagedPlant& plant) const override {
+        Column<Internode>& internodes = plant.geometry.internodes;
+        const std::vector<std::uint32_t> bearers = internode_bearers(plant.geometry, plant.string);
+        const std::vector<double> radii = node_radii(bearers);
+        for (std::size_t i = 0; i < internodes.size(); ++i) {
+            const double own = radii[i], borne_by = bearers[i] == no_bearer ? own : radii[bearers[i]];
+            internodes[i].tip_radius = own;
+            internodes[i].base_radius = own < join_ * borne_by ? own : borne_by;
+            internodes[i].pixels = 0;
+        }
+        plant.geometry.in_pixels = false;
+    }
+
+private:
+    /// At the tip of each internode: r^n is the sum over what it bears, and ends have the radius `tip`.
+    std::vector<double> node_radii(const std::vector<std::uint32_t>& bearers) const {
+        std::vector<double> powers(bearers.size(), 0);  // of r / tip
+        for (std::size_t i = bearers.size(); i-- > 0;) {
+            if (powers[i] == 0) powers[i] = 1;
+            if (bearers[i] != no_bearer) powers[bearers[i]] += powers[i];
+        }
+        for (double& value : powers) value = factor_ * tip_ * std::pow(value, 1 / exponent_);
+        return powers;
+    }
+
+    double exponent_, tip_, factor_, join_;
+};
+
+const Registered<GeometryStageType> entry{
+    {"pipe-radii",
+     "radii by the pipe model: r^n of an internode is the sum over those it bears (Shinozaki et al. 1964)",
+     R"(exponent  2.5; n, between 0.5 and 10; 2 preserves the area of cross-sections, trees lie between 2 and 3
+tip       0.005 m; the radius of internodes that bear none
+factor    1; thickness: all radii are multiplied by it
+join      0.5; a branch whose radius is below this share of its bearer's begins with its own radius, others begin with
+          the bearer's; 0: all do, 1: only branches as thick as their bearer do
+Widths that the model sets are replaced.
+)",
+     construct<PipeRadii>}};
+
+}  // namespace
+}  // namespace espalier::geometry
