@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,8 @@ struct ColonizingNode {
 };
 
 struct ColonizationRules {
-    double influence = 1;    ///< m; from farther no point attracts
-    double cosine = -1;      ///< of half the angle of perception about the heading
+    double influence = std::numeric_limits<double>::infinity();  ///< m; from farther no point attracts
+    double cosine = -1;                                          ///< of half the angle of perception about the heading
     bool perceived = false;  ///< points go to the nearest of the nodes that perceive them, not of all
 };
 

@@ -55,7 +55,7 @@ private:
 
 ColonizationRules read_rules(const Settings& settings) {
     ColonizationRules rules;
-    rules.influence = settings.number("influence", Range::positive());
+    if (settings.has("influence")) rules.influence = settings.number("influence", Range::positive());
     const double perception = settings.number_or("perception", 360, {0, 360, true});
     rules.cosine = perception < 360 ? std::cos(glm::radians(perception / 2)) : -1;
     rules.perceived = settings.choice_or("contest", "nearest", {"nearest", "perceived"}) == "perceived";
@@ -101,13 +101,13 @@ public:
             if (!(answers[i][0] < 0)) answers[i][0] = answer(won[i], answers[i]);
             if (answers[i][0] <= 0) continue;
             ++winners_;
-            won_[queries[i].plant] += answers[i][0];
+            if (queries[i].plant < won_.size()) won_[queries[i].plant] += answers[i][0];
         }
         if (!queries.empty() && winners_ == 0) tell_the_end(world.step);
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
-        return {{"won", won_[plant]},
+        return {{"won", plant < won_.size() ? won_[plant] : 0},
                 {"left", static_cast<double>(points_.left())},
                 {"in_reach", static_cast<double>(in_reach_)},
                 {"winners", static_cast<double>(winners_)}};
@@ -187,7 +187,7 @@ of all plants, if that is within `influence` and sees the point in its angle of 
 mean of the unit vectors to its points, plus the tropism. Grow a node of its own in that direction: @R(x, y, z) F(D).
 A node whose direction is the one it was last answered wins nothing, because it has grown there.
 
-influence  required, m; points attract no nodes that are farther away; inf: all
+influence  m; points attract no nodes that are farther away; default: all attract
 kill       required, m, at most `influence`; or { begin, end, steps }: it changes along a sigmoid in so many steps
 perception 360 degrees; the full angle of a cone about the turtle's heading; points outside do not attract
 contest    "nearest": a point belongs to the nearest node, whether or not that perceives it;
