@@ -2,6 +2,7 @@
 #include "catch.h"
 #include "environment/markers/cloud.h"
 #include "experiments/growth.h"
+#include "geometry/internode_bearers.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -89,4 +90,159 @@ TEST_CASE("the L-system's nodes are those of the algorithm, one by one", "[colon
         expected = sorted(expected);
         for (std::size_t i = 0; i < grown.size(); ++i) REQUIRE(glm::distance(grown[i], expected[i]) < 1e-9);
     }
+}
+
+namespace {
+
+const char* const crown = "cloud = { radii = [1.5, 1.5, 1.5], base = [0, 0.3, 0], density = 120 }";
+
+World grown_scene(const std::string& scene) {
+    World world(read_scene_text(scene, "scene.toml", source_path("")));
+    world.start();
+    while (!world.at_end()) world.step();
+    return world;
+}
+
+std::vector<glm::dvec3> tips(const World& world, std::size_t plant = 0) {
+    std::vector<glm::dvec3> tips;
+    for (const Internode& internode : world.interpretation(plant).geometry.internodes) tips.push_back(internode.tip);
+    return tips;
+}
+
+std::vector<std::uint32_t> bearers(const World& world) {
+    return geometry::internode_bearers(world.interpretation(0).geometry, world.string(0));
+}
+
+std::size_t ends(const World& world) {
+    std::vector<char> bears(tips(world).size(), 0);
+    for (const std::uint32_t bearer : bearers(world)) {
+        if (bearer != geometry::no_bearer) bears[bearer] = 1;
+    }
+    return static_cast<std::size_t>(std::count(bears.begin(), bears.end(), 0));
+}
+
+/// The way from the base to each end, through the tree and straight: the mean of their ratio.
+double tortuosity(const World& world) {
+    const auto& internodes = world.interpretation(0).geometry.internodes;
+    const std::vector<std::uint32_t> on = bearers(world);
+    std::vector<double> ways(internodes.size(), 0);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < internodes.size(); ++i) {
+        const double length = glm::distance(internodes[i].base, internodes[i].tip);
+        ways[i] = length + (on[i] == geometry::no_bearer ? 0 : ways[on[i]]);
+        const double chord = glm::length(internodes[i].tip);
+        if (ways[i] < 10 * length || chord == 0) continue;
+        sum += ways[i] / chord;
+        ++count;
+    }
+    return sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+TEST_CASE("the farther points are removed, the fewer ends the tree has", "[colonization]") {
+    std::size_t before = 1000000;
+    for (const double kill : {0.2, 0.3, 0.5, 0.8}) {
+        const std::size_t now = ends(grown_scene(scene_text({1, kill, 0.15}, crown, 30)));
+        CHECK(now < before);
+        before = now;
+    }
+}
+
+TEST_CASE("the farther points attract, the straighter the branches", "[colonization]") {
+    double before = 0;
+    for (const double influence : {1.5, 0.7, 0.5, 0.42}) {
+        const double now = tortuosity(grown_scene(scene_text({influence, 0.25, 0.1}, crown, 60)));
+        CHECK(now > before);
+        before = now;
+    }
+}
+
+TEST_CASE("every internode has the length D, and the tree of an age is the beginning of an older one",
+          "[colonization]") {
+    const World younger = grown_scene(scene_text({}, crown, 15)), older = grown_scene(scene_text({}, crown, 25));
+    for (const Internode& internode : older.interpretation(0).geometry.internodes) {
+        REQUIRE(glm::distance(internode.base, internode.tip) == Approx(0.2));
+    }
+    const auto all = sorted(tips(older)), some = sorted(tips(younger));
+    CHECK(all.size() > some.size());
+    for (const glm::dvec3& tip : some) {
+        REQUIRE(std::any_of(all.begin(), all.end(), [&](const glm::dvec3& other) { return other == tip; }));
+    }
+}
+
+TEST_CASE("no internode turns from its bearer by more than half the angle of perception", "[colonization]") {
+    const World world = grown_scene(scene_text({1, 0.3, 0.2, std::cos(glm::radians(45.0)), glm::dvec3(0)}, crown, 30));
+    const auto& internodes = world.interpretation(0).geometry.internodes;
+    const std::vector<std::uint32_t> on = bearers(world);
+    for (std::size_t i = 0; i < on.size(); ++i) {
+        if (on[i] == geometry::no_bearer) continue;
+        const glm::dvec3 along = internodes[i].tip - internodes[i].base;
+        const glm::dvec3 before = internodes[on[i]].tip - internodes[on[i]].base;
+        REQUIRE(glm::dot(glm::normalize(along), glm::normalize(before)) >= std::cos(glm::radians(45.0)) - 1e-9);
+    }
+}
+
+TEST_CASE("two plants compete: together they have the space that each would have alone", "[colonization]") {
+    const auto scene = [](const std::string& places) {
+        return "[simulation]\nsteps = 40\n[[plant]]\nmodel = 'models/colonization/tree.l'\npositions = " + places +
+               "\ndefine = { NODE_DISTANCE = 0.2 }\n[environment.markers]\nprocess = 'markers'\ninfluence = 1\n"
+               "kill = 0.4\ncloud = { radii = [2, 1, 2], number = 3000 }\n";
+    };
+    const World both = grown_scene(scene("[[-1, 0, 0], [1, 0, 0]]")), left = grown_scene(scene("[[-1, 0, 0]]"));
+    const std::size_t together = tips(both, 0).size() + tips(both, 1).size(), alone = tips(left).size();
+    CHECK(tips(both, 0).size() < 0.75 * static_cast<double>(alone));
+    CHECK(static_cast<double>(together) == Approx(static_cast<double>(alone)).epsilon(0.2));
+    for (const glm::dvec3& a : tips(both, 0)) {
+        for (const glm::dvec3& b : tips(both, 1)) REQUIRE(glm::distance(a, b) > 0.05);
+    }
+}
+
+namespace {
+
+World organized(const std::map<std::string, double>& settings, double lambda, int years) {
+    SceneOptions options;
+    options.steps = 2 * years;
+    for (const auto& [name, value] : settings) {
+        options.overrides.emplace_back("plant.0.define." + name, std::to_string(value));
+    }
+    options.overrides.emplace_back("environment.resource.lambda", std::to_string(lambda));
+    World world(read_scene(source_path("environments/self-organizing.toml"), options));
+    world.start();
+    while (!world.at_end()) world.step();
+    return world;
+}
+
+/// Of the length of all internodes, that of the main axis.
+double share_of_trunk(const World& world) {
+    double trunk = 0;
+    for (const Internode& internode : world.interpretation(0).geometry.internodes) {
+        if (internode.order == 0) trunk += glm::distance(internode.base, internode.tip);
+    }
+    return trunk / total_length(world.interpretation(0).geometry);
+}
+
+}  // namespace
+
+TEST_CASE("a self-organizing tree has the more of a trunk the larger lambda is", "[colonization]") {
+    double before = 0;
+    for (const double lambda : {0.42, 0.5, 0.54, 0.6}) {
+        const double now = share_of_trunk(organized({}, lambda, 10));
+        CHECK(now > before);
+        before = now;
+    }
+}
+
+TEST_CASE("the higher the limit of shedding, the fewer internodes a self-organizing tree keeps", "[colonization]") {
+    std::size_t before = 1000000;
+    for (const double limit : {0.0, 0.12, 0.16, 0.2}) {
+        const std::size_t now = tips(organized({{"SHED_BELOW", limit}}, 0.5, 12)).size();
+        CHECK(now < before);
+        before = now;
+    }
+}
+
+TEST_CASE("buds that need light leave the shade below: the tree without it has more internodes", "[colonization]") {
+    CHECK(tips(organized({{"LIGHT", 0}}, 0.5, 12)).size() > tips(organized({}, 0.5, 12)).size());
 }
