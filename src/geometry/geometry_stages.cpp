@@ -1,6 +1,7 @@
 #include "espalier/geometry/geometry_stage.h"
 
 #include "base/text.h"
+#include "geometry/drawn_bounds.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,6 +25,7 @@ std::shared_ptr<const GeometryStage> read_geometry_stage(Settings& table) {
 
 void apply(const GeometryStages& stages, StagedPlant& plant) {
     for (const auto& stage : stages) stage->apply(plant);
+    if (!stages.empty()) plant.geometry.bounds = drawn_bounds(plant.geometry);
 }
 
 }  // namespace espalier::geometry
