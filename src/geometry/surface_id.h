@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace espalier::turtle {
+namespace espalier::geometry {
 
 /// The first code point of UTF-8 text; a byte that begins none stands for itself.
 inline std::uint32_t surface_id(std::string_view text) {
@@ -17,4 +17,10 @@ inline std::uint32_t surface_id(std::string_view text) {
     return result;
 }
 
-}  // namespace espalier::turtle
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::surface_id;
+
+}  // namespace espalier

@@ -1,7 +1,7 @@
 // Discs, spheres, outlines and surfaces where the turtle is.
 #include "espalier/turtle/symbol.h"
 
-#include "turtle/surface_id.h"
+#include "geometry/surface_id.h"
 
 namespace espalier::turtle {
 namespace {

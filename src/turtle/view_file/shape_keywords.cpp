@@ -1,7 +1,7 @@
 #include "base/text.h"
 #include "geometry/side_files/side_files.h"
+#include "geometry/surface_id.h"
 #include "language/side_files/side_files.h"
-#include "turtle/surface_id.h"
 #include "turtle/view_file/reader.h"
 
 #include <fmt/format.h>
