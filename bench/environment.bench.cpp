@@ -2,12 +2,14 @@
 #include "espalier/simulation/world.h"
 
 #include "environment/exchange_plants.h"
+#include "environment/markers/colonization.h"
 #include "table.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <benchmark/benchmark.h>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -136,6 +138,86 @@ void ulam(benchmark::State& state) {
 }
 BENCHMARK(ulam)->UseRealTime();
 
+/// A tree of 25,000 points and 40 iterations: what the process does in all steps, beside asking every node for every
+/// point. Every step's nodes are those of the colony.
+class Colony {
+public:
+    explicit Colony(std::size_t points) {
+        RandomSamples samples({1, 2, Stream::process}, 3, 4);
+        side_ = std::cbrt(static_cast<double>(points) / 25'000);
+        while (points_.size() < points) {
+            const double x = samples.uniform() - 0.5, y = samples.uniform(), z = samples.uniform() - 0.5;
+            points_.push_back(10 * side_ * glm::dvec3(x, y, z));
+        }
+    }
+
+    template <class Step>
+    void grow(Step&& step) const {
+        std::vector<environment::ColonizingNode> nodes{{0, {0, 0, 0}}};
+        for (int i = 0; i < 40; ++i) {
+            const std::vector<environment::Colonization::Won> won = step(nodes);
+            const std::size_t count = nodes.size();
+            for (std::size_t k = 0; k < count; ++k) {
+                if (won[k].count == 0 || glm::length(won[k].sum) < 1e-9) continue;
+                const glm::dvec3 direction = glm::normalize(won[k].sum);
+                nodes.push_back({nodes.size(), nodes[k].position + length() * direction, direction});
+            }
+        }
+    }
+
+    const std::vector<glm::dvec3>& points() const { return points_; }
+    double length() const { return 0.25 * side_; }
+    static constexpr double influence = 1.5, kill = 0.5;
+
+private:
+    double side_ = 1;
+    std::vector<glm::dvec3> points_;
+};
+
+void colonize(benchmark::State& state) {
+    const Colony colony(static_cast<std::size_t>(state.range(0)));
+    for (auto _ : state) {
+        environment::Colonization points(colony.points(), {Colony::influence});
+        colony.grow([&](const std::vector<environment::ColonizingNode>& nodes) {
+            points.set_nodes(nodes);
+            points.remove_within(Colony::kill);
+            return points.won();
+        });
+    }
+    state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(colonize)->Arg(25'000)->Arg(100'000)->Arg(1'000'000)->UseRealTime();
+
+void ask_every_node(benchmark::State& state) {
+    const Colony colony(25'000);
+    for (auto _ : state) {
+        std::vector<glm::dvec3> points = colony.points();
+        colony.grow([&](const std::vector<environment::ColonizingNode>& nodes) {
+            std::vector<environment::Colonization::Won> won(nodes.size());
+            std::vector<glm::dvec3> left;
+            for (const glm::dvec3& point : points) {
+                std::size_t nearest = 0;
+                double least = INFINITY;
+                for (std::size_t k = 0; k < nodes.size(); ++k) {
+                    const glm::dvec3 towards = point - nodes[k].position;
+                    const double square = glm::dot(towards, towards);
+                    if (square >= least) continue;
+                    least = square;
+                    nearest = k;
+                }
+                if (least <= Colony::kill * Colony::kill) continue;
+                left.push_back(point);
+                if (least > Colony::influence * Colony::influence) continue;
+                ++won[nearest].count;
+                won[nearest].sum += (point - nodes[nearest].position) / std::sqrt(least);
+            }
+            points = std::move(left);
+            return won;
+        });
+    }
+}
+BENCHMARK(ask_every_node)->UseRealTime();
+
 using Measure = Row::Measure;
 using Goal = Row::Goal;
 const Row collided{"13,000 collisions, against sorting their places",
@@ -162,6 +244,19 @@ const Row areas{"the same by areas",
                 Measure::time,
                 Goal::at_most,
                 8};
+
+const Row colonized{"space colonization of 25,000 points in 40 iterations, against asking every node for every point",
+                    "colonize/25000/real_time",
+                    "ask_every_node/real_time",
+                    Measure::time,
+                    Goal::at_most,
+                    0.1};
+const Row linear{"a point of a million, against one of 25,000",
+                 "colonize/1000000/real_time",
+                 "colonize/25000/real_time",
+                 Measure::time_per_item,
+                 Goal::at_most,
+                 1.5};
 
 }  // namespace
 }  // namespace espalier::bench
