@@ -239,6 +239,7 @@ const char* scene_help() {
   folder       a second folder in which side files are looked for
   stream       the plant's number in the scene; selects the random numbers
   insert       ["X(1)@5", "X@9:F.3"]: modules put into the string of a step, at its beginning or before a module
+  stage        [[plant.stage]] with stage = "...": changes the recorded geometry: `espalier list stages`
   turtle       overrides the view file: { angle = 45 (degrees), line_width (none), line_width_increment = 0, colour = 128,
                  colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
                  tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0,
