@@ -18,15 +18,31 @@ std::string file_name(const RecordedRun& run) {
     return name;
 }
 
-}  // namespace
-
-std::filesystem::path ExportJob::path(const std::string& extension) const {
-    return folder / fmt::format("{}.{}", name.empty() ? file_name(run) : name, extension);
+/// The stem with what the job's names say of a mesh, and a number if they are taken.
+std::filesystem::path file_of(const ExportJob& job, std::string stem, const std::string& extension,
+                              const MeshName& mesh) {
+    if (mesh.piece > 0) stem += fmt::format("-{}", mesh.piece);
+    if (job.counts && mesh.triangles > 0) stem += fmt::format("-{}-{}", mesh.vertices, mesh.triangles);
+    const auto is_taken = [&](const std::string& name) {
+        return std::filesystem::exists(job.folder / fmt::format("{}.{}", name, extension)) ||
+               (!mesh.companion.empty() &&
+                std::filesystem::exists(job.folder / fmt::format("{}.{}", name, mesh.companion)));
+    };
+    std::string name = stem;
+    for (int number = 2; job.keep && is_taken(name); ++number) name = fmt::format("{}-{}", stem, number);
+    return job.folder / fmt::format("{}.{}", name, extension);
 }
 
-std::filesystem::path ExportJob::path(const RecordedFrame& frame, const std::string& extension) const {
-    if (!name.empty() && frames.size() == 1) return path(extension);
-    return folder / fmt::format("{}-{:04}.{}", name.empty() ? file_name(run) : name, frame.step, extension);
+}  // namespace
+
+std::filesystem::path ExportJob::path(const std::string& extension, const MeshName& mesh) const {
+    return file_of(*this, name.empty() ? file_name(run) : name, extension, mesh);
+}
+
+std::filesystem::path ExportJob::path(const RecordedFrame& frame, const std::string& extension,
+                                      const MeshName& mesh) const {
+    if (!name.empty() && frames.size() == 1) return path(extension, mesh);
+    return file_of(*this, fmt::format("{}-{:04}", name.empty() ? file_name(run) : name, frame.step), extension, mesh);
 }
 
 std::string format_of_extension(const std::string& extension) {

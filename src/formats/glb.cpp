@@ -17,7 +17,8 @@ namespace {
 
 // Of the standard: component types and what a buffer view is for.
 constexpr const char* instancing = "EXT_mesh_gpu_instancing";
-constexpr int unsigned_int = 5125, float_number = 5126, vertex_buffer = 34962, index_buffer = 34963;
+constexpr int unsigned_short = 5123, unsigned_int = 5125, float_number = 5126, vertex_buffer = 34962,
+              index_buffer = 34963;
 
 Glb::Json json_of(const glm::vec3& v) {
     return {v.x, v.y, v.z};
@@ -63,14 +64,20 @@ std::optional<std::size_t> Glb::texture(const std::string& file) {
     const auto [at, is_new] = texture_number_.emplace(file, std::nullopt);
     if (!is_new || file.empty()) return at->second;
     const std::string png = png_of(run_, file);
-    if (png.empty()) return at->second;
+    if (png.empty()) {
+        missing_.push_back(file);
+        return at->second;
+    }
     images_.push_back({{"bufferView", add_view(png.data(), png.size(), 0)},
                        {"mimeType", "image/png"},
                        {"name", std::filesystem::path(file).stem().string()}});
     textures_.push_back({{"source", images_.size() - 1}});  // without a sampler it repeats
-    constexpr std::size_t colour_type = 25;                 // of a PNG; bit 2: it has an alpha channel
-    if (png[colour_type] & 4) cut_out_.insert(textures_.size() - 1);
+    if (is_transparent(png)) cut_out_.insert(textures_.size() - 1);
     return at->second = textures_.size() - 1;
+}
+
+std::string Glb::hint() const {
+    return hint_of_missing(missing_);
 }
 
 std::size_t Glb::material(const MeshMaterial& look) {
@@ -87,6 +94,16 @@ std::size_t Glb::material(const MeshMaterial& look) {
     material["pbrMetallicRoughness"] = std::move(surface);
     materials_.push_back(std::move(material));
     return material_number_[look] = materials_.size() - 1;
+}
+
+// Of 16 bits where they suffice; the largest number of such indices is none of the standard's.
+std::size_t Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
+    const Json none = Json::object();
+    if (vertices > std::numeric_limits<std::uint16_t>::max()) {
+        return add_accessor(indices.data(), indices.size(), unsigned_int, "SCALAR", index_buffer, none);
+    }
+    const std::vector<std::uint16_t> small(indices.begin(), indices.end());
+    return add_accessor(small.data(), small.size(), unsigned_short, "SCALAR", index_buffer, none);
 }
 
 std::size_t Glb::add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
@@ -107,10 +124,9 @@ std::size_t Glb::add_mesh(const std::vector<glm::vec3>& points, const std::vecto
     }
     Json primitives = Json::array();
     for (const auto& [number, list] : corners) {
-        primitives.push_back(
-            {{"attributes", attributes},
-             {"indices", add_accessor(list.data(), list.size(), unsigned_int, "SCALAR", index_buffer, none)},
-             {"material", material(materials[number])}});
+        primitives.push_back({{"attributes", attributes},
+                              {"indices", add_indices(list, points.size())},
+                              {"material", material(materials[number])}});
     }
     meshes_.push_back({{"primitives", std::move(primitives)}});
     return meshes_.size() - 1;

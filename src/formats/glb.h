@@ -37,6 +37,8 @@ public:
                  const std::vector<glm::vec4>& values, const char* interpolation = "LINEAR");
 
     Json& nodes() { return nodes_; }
+    /// Of textures that are missing.
+    std::string hint() const;
     /// The whole file; `roots` are the nodes of the scene. Throws RunError beyond 4 GiB.
     std::string bytes(const std::vector<std::size_t>& roots) const;
 
@@ -44,6 +46,7 @@ private:
     template <class T>
     std::size_t add_accessor(const T* values, std::size_t count, int component_type, const char* type, int target,
                              Json bounds);
+    std::size_t add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices);
     std::size_t add_view(const void* bytes, std::size_t size, int target);
     std::size_t material(const MeshMaterial& look);
     /// Embedded as PNG; nothing if it is no picture.
@@ -56,7 +59,8 @@ private:
     std::filesystem::path run_;
     std::map<MeshMaterial, std::size_t> material_number_;
     std::map<std::string, std::optional<std::size_t>> texture_number_;
-    std::set<std::size_t> cut_out_;  ///< textures whose pictures are partly transparent
+    std::vector<std::string> missing_;  ///< textures
+    std::set<std::size_t> cut_out_;     ///< textures whose pictures are partly transparent
     std::map<std::vector<float>, std::size_t> times_;
     std::string binary_;
     bool has_instances_ = false;

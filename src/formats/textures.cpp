@@ -5,6 +5,7 @@
 #include "archive/meshes/texture_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -46,20 +47,53 @@ std::string material_name(const MeshMaterial& material) {
     return fmt::format("{}_{}", colour, plain(std::filesystem::path(material.texture).stem().string()));
 }
 
-const std::string& TextureCopies::name(const std::string& file) {
-    const auto [at, is_new] = names_.emplace(file, "");
+bool is_transparent(const std::string& png) {
+    constexpr std::size_t colour_type = 25;  // bit 2: there is an alpha channel
+    return png.size() > colour_type && (png[colour_type] & 4) != 0;
+}
+
+std::string hint_of_missing(const std::vector<std::string>& textures) {
+    if (textures.empty()) return "";
+    return fmt::format(
+        "no picture is in the texture file{} '{}': what wears it has its colour alone; put the file there, as a path "
+        "or "
+        "beside the run",
+        textures.size() > 1 ? "s" : "", fmt::join(textures, "', '"));
+}
+
+std::string joined_hints(const std::vector<std::string>& hints) {
+    std::string text;
+    for (const std::string& hint : hints) {
+        if (!hint.empty()) text += (text.empty() ? "" : "\n") + hint;
+    }
+    return text;
+}
+
+const TextureCopy& TextureCopies::copy(const std::string& file) {
+    const auto [at, is_new] = copies_.emplace(file, TextureCopy());
     if (!is_new || file.empty()) return at->second;
     const std::string png = png_of(job_.run.folder(), file);
-    if (png.empty()) return at->second;
-    const std::string stem = plain(std::filesystem::path(file).stem().string());
-    std::string name = plain(fmt::format("{}-{}.png", job_.run.scene(), stem));
-    const auto is_taken = [&] {
-        return std::any_of(names_.begin(), names_.end(), [&](const auto& known) { return known.second == name; });
-    };
-    for (int number = 2; is_taken(); ++number)
-        name = plain(fmt::format("{}-{}-{}.png", job_.run.scene(), stem, number));
+    if (png.empty()) {
+        missing_.push_back(file);
+        return at->second;
+    }
+    const std::string name = free_name(file, png);
     write_text(job_.folder / name, png);
-    return at->second = name;
+    return at->second = {name, is_transparent(png)};
+}
+
+std::string TextureCopies::free_name(const std::string& file, const std::string& png) const {
+    const std::string stem = plain(std::filesystem::path(file).stem().string());
+    const auto is_taken = [&](const std::string& name) {
+        const bool is_ours =
+            std::any_of(copies_.begin(), copies_.end(), [&](const auto& known) { return known.second.name == name; });
+        if (is_ours || !job_.keep || !std::filesystem::exists(job_.folder / name)) return is_ours;
+        return read_text(job_.folder / name) != png;
+    };
+    std::string name = plain(fmt::format("{}-{}.png", job_.run.scene(), stem));
+    for (int number = 2; is_taken(name); ++number)
+        name = plain(fmt::format("{}-{}-{}.png", job_.run.scene(), stem, number));
+    return name;
 }
 
 }  // namespace espalier::formats

@@ -11,7 +11,7 @@ namespace espalier::formats {
 const std::string& UsdMaterials::name(const MeshMaterial& look) {
     const auto [at, is_new] = names_.emplace(look, "");
     if (!is_new) return at->second;
-    const std::string& copy = copies_.name(look.texture);
+    const std::string& copy = copies_.copy(look.texture).name;
     if (copy.empty()) return at->second;
     at->second = fmt::format("texture_{}", looks_.size());
     looks_.emplace_back(&at->first, copy);

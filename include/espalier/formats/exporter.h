@@ -23,6 +23,13 @@ struct ExportedFile {
     std::string hint{};  ///< what would be better, if anything
 };
 
+/// What a file's name says of its mesh.
+struct MeshName {
+    std::size_t vertices = 0, triangles = 0;
+    std::size_t piece = 0;    ///< from 1; 0 where there is one only
+    std::string companion{};  ///< the extension of a file of the same name, whose name must be free too
+};
+
 struct ExportJob {
     const RecordedRun& run;
     std::span<const RecordedFrame* const> frames;  ///< at least one
@@ -32,14 +39,20 @@ struct ExportJob {
     std::string name{};  ///< of the files; empty: the scene's, and the step of a frame that has a file of its own
 
     // Of formats that know of such things.
-    double steps_per_second = 24;  ///< of growth as an animation
-    bool grouped = false;          ///< growth: organs that are born and die together are one object
-    bool instances = false;        ///< organs that look alike are one shape in many places
-    bool mesh_axes = false;        ///< axes are meshes where the format has curves
+    double steps_per_second = 24;   ///< of growth as an animation
+    bool grouped = false;           ///< growth: organs that are born and die together are one object
+    bool instances = false;         ///< organs that look alike are one shape in many places
+    bool mesh_axes = false;         ///< axes are meshes where the format has curves
+    std::size_t most_vertices = 0;  ///< of a mesh, which is otherwise cut into pieces; 0: any number
+
+    // Of names.
+    bool counts = false;  ///< names say the numbers of vertices and triangles
+    bool keep = false;    ///< a file that is there stays, and the new one has a number behind its name
 
     /// A file of the whole job, or of a frame.
-    std::filesystem::path path(const std::string& extension) const;
-    std::filesystem::path path(const RecordedFrame& frame, const std::string& extension) const;
+    std::filesystem::path path(const std::string& extension, const MeshName& mesh = {}) const;
+    std::filesystem::path path(const RecordedFrame& frame, const std::string& extension,
+                               const MeshName& mesh = {}) const;
 };
 
 /// Files appear complete or not at all; equal runs give equal bytes.

@@ -27,7 +27,6 @@ void print_file(const ExportedFile& file) {
     if (file.vertices > 0) line += fmt::format(": {} vertices, {} triangles", file.vertices, file.triangles);
     if (!file.noun.empty()) line += fmt::format("{} {} {}", file.vertices > 0 ? "," : ":", file.elements, file.noun);
     fmt::print("{}\n", line);
-    if (!file.hint.empty()) fmt::print(stderr, "{}\n", file.hint);
 }
 
 Json json_of(const ExportedFile& file) {
@@ -59,6 +58,15 @@ public:
             ->check(CLI::Range(0.0, 1e6))
             ->capture_default_str();
         app()
+            .add_option("--triangles", options_.triangles,
+                        "obj, ply, stl, gltf, usd: make coarser what is seen least, until so many are left")
+            ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31));
+        app()
+            .add_option("--split", most_vertices_,
+                        "obj, gltf: several meshes, ply, stl: several files, of at most so many vertices each; 65535 "
+                        "for indices of 16 bits")
+            ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 31));
+        app()
             .add_option("--up", up_, "the vertical axis: y or z")
             ->check(CLI::IsMember({"y", "z"}))
             ->capture_default_str();
@@ -70,6 +78,8 @@ public:
                        "gltf: in animations, what is born and dies at the same steps is one object");
         app().add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
         app().add_flag("--mesh-axes", mesh_axes_, "usd: axes as meshes, with --sides and textures, and not as curves");
+        app().add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
+        app().add_flag("--keep", keep_, "never replace a file: a new one is numbered, as in tree-2.obj");
         app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the names of the files as JSON");
         app().footer(R"(The run is not grown again. Lengths are in metres. Files appear complete or not at all.
@@ -81,6 +91,8 @@ Examples:
   espalier export output/two-trees --format stl --plant left --sides 16 --up z
   espalier export output/two-roots --format rsml,mtg,csv
   espalier export output/forest --format ply --simplify 0.002        fewer triangles; their number is printed
+  espalier export output/two-trees --format obj --triangles 5000     so many, to a tenth
+  espalier export output/two-trees --format gltf --split 65535       meshes for programs with indices of 16 bits
 `espalier list exporters` describes the content of each format.)");
     }
 
@@ -97,10 +109,11 @@ Examples:
             } else if (!quiet_) {
                 print_file(file);
             }
+            if (!quiet_ && !file.hint.empty()) fmt::print(stderr, "{}\n", file.hint);
         };
-        export_run(
-            {recorded, frames, options_, target.folder, report, target.name, rate_, grouped_, instances_, mesh_axes_},
-            target.formats);
+        export_run({recorded, frames, options_, target.folder, report, target.name, rate_, grouped_, instances_,
+                    mesh_axes_, most_vertices_, counts_, keep_},
+                   target.formats);
         if (wants_json()) {
             fmt::print("{}\n", Json{{"files", files}}.dump(2, ' ', false, Json::error_handler_t::replace));
         }
@@ -131,7 +144,8 @@ private:
     std::vector<std::string> formats_;
     std::string step_ = "last", plant_, up_ = "y";
     double rate_ = 24;
-    bool grouped_ = false, instances_ = false, mesh_axes_ = false, quiet_ = false;
+    bool grouped_ = false, instances_ = false, mesh_axes_ = false, counts_ = false, keep_ = false, quiet_ = false;
+    std::size_t most_vertices_ = 0;
     MeshOptions options_;
 };
 

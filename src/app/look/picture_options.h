@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -45,6 +47,9 @@ PictureSize picture_size(const std::string& option, const std::string& text);
 PictureBackground picture_background(const std::string& text);
 /// "water", "water:volume", "water:slice", "water:slice=z0.5", "water:iso", "water:iso=0.3".
 FieldLook field_look(const std::string& text);
+
+/// "#rrggbb".
+std::optional<std::array<std::uint8_t, 3>> hex_colour(const std::string& text);
 
 /// The whole text as a finite number.
 std::optional<double> finite_number(const std::string& text);

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "archive/meshes/axis_tree.h"
+#include "archive/meshes/reduction.h"
 #include "archive/meshes/tubes.h"
 
 #include <fmt/format.h>
@@ -28,15 +29,22 @@ public:
           vertex_of_(geometry.points.size()),
           part_of_(geometry.points.size(), 0) {}
 
-    void add_tubes() {
+    std::vector<PlannedTube> planned_tubes() const {
+        std::vector<PlannedTube> tubes;
         for (const AxisPath& path : axis_paths(geometry_, options_)) {
-            TubeLine tube = tube_line(geometry_, path.points, options_.simplify, thinnest_);
-            const std::uint16_t texture = geometry_.textures[path.row];
-            tube.wears_texture = texture != 0;
-            if (tube.nodes.size() < 2) continue;
-            require_room(tube.nodes.size() * static_cast<std::size_t>(options_.sides + 1));
-            begin_part(path.row);
-            add_tube(tube, texture);
+            TubeLine line = tube_line(geometry_, path.points, options_.simplify, thinnest_);
+            line.wears_texture = geometry_.textures[path.row] != 0;
+            if (line.nodes.size() >= 2) tubes.push_back({std::move(line), options_.sides, path.row});
+        }
+        return tubes;
+    }
+
+    void add(const std::vector<PlannedTube>& tubes) {
+        for (const PlannedTube& tube : tubes) {
+            if (tube.sides == 0) continue;
+            require_room(tube.line.nodes.size() * static_cast<std::size_t>(tube.sides + 1));
+            begin_part(tube.row);
+            add_tube(tube);
             end_part();
         }
     }
@@ -53,6 +61,11 @@ public:
             add_polygon(cell, row);
         }
         end_part();
+    }
+
+    // Before the tubes are swept.
+    void reduce(std::vector<PlannedTube>& tubes, std::size_t triangles) {
+        archive::reduce(tubes, mesh_, geometry_.of_points, triangles);
     }
 
     FrameMesh take() {
@@ -108,14 +121,15 @@ private:
         return {geometry_.of_cells.rgb.empty() ? Rgb{255, 255, 255} : rgb, geometry_.texture_files[texture]};
     }
 
-    void add_tube(const TubeLine& line, std::uint16_t texture) {
+    void add_tube(const PlannedTube& planned) {
+        const std::uint16_t texture = geometry_.textures[planned.row];
         std::vector<std::uint32_t> materials;
         std::vector<Rgb> colours;
-        for (const TubeNode& node : line.nodes) {
+        for (const TubeNode& node : planned.line.nodes) {
             colours.push_back(colour_of(geometry_.of_points, static_cast<std::size_t>(node.row)));
             materials.push_back(material(worn(colours.back(), texture)));
         }
-        const Tube tube = sweep(line, options_.sides);
+        const Tube tube = sweep(planned.line, planned.sides);
         const auto origin = static_cast<std::uint32_t>(mesh_.points.size());
         for (const TubeVertex& vertex : tube.vertices) {
             mesh_.points.push_back(upright(vertex.position, options_.up));
@@ -204,14 +218,21 @@ float thinnest_radius(const RecordedGeometry& geometry) {
 
 FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
-    builder.add_tubes();
-    builder.add_surfaces();
+    std::vector<PlannedTube> tubes = builder.planned_tubes();
+    if (options.triangles) {
+        builder.add_surfaces();
+        builder.reduce(tubes, *options.triangles);
+        builder.add(tubes);
+    } else {
+        builder.add(tubes);
+        builder.add_surfaces();
+    }
     return builder.take();
 }
 
 FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
-    builder.add_tubes();
+    builder.add(builder.planned_tubes());
     return builder.take();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -195,6 +196,35 @@ TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_
     for (TubeNode& node : nodes) node.radius = std::max(node.radius, least);
     if (nodes.size() > 2 && tolerance > 0) nodes = simplified(nodes, geometry.of_points, tolerance);
     return {std::move(nodes)};
+}
+
+std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points) {
+    const std::vector<TubeNode>& nodes = line.nodes;
+    struct Piece {
+        std::size_t from, to;
+        double most;  ///< the error of the node that split it off
+    };
+    constexpr double stays = std::numeric_limits<double>::infinity();
+    std::vector<double> errors(nodes.size(), stays);
+    std::vector<Piece> pieces{{0, nodes.size() - 1, stays}};
+    while (!pieces.empty()) {
+        const auto [from, to, most] = pieces.back();
+        pieces.pop_back();
+        std::size_t worst = from;
+        double error = -1;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            double off = deviation(nodes[i], nodes[from], nodes[to]);
+            if (!same_look(of_points, nodes[i].row, nodes[i + 1].row)) off = std::max(off, double(nodes[i].radius));
+            if (off <= error) continue;
+            error = off;
+            worst = i;
+        }
+        if (worst == from) continue;
+        errors[worst] = std::min(error, most);
+        pieces.push_back({from, worst, errors[worst]});
+        pieces.push_back({worst, to, errors[worst]});
+    }
+    return errors;
 }
 
 Tube sweep(const TubeLine& line, int sides) {

@@ -27,6 +27,10 @@ struct TubeLine {
 TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
                    float thinnest);
 
+/// How far middle line and radius stray once a node and all that stray less have left; infinite at both ends. Where the
+/// colour changes it is the radius at least.
+std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points);
+
 struct TubeVertex {
     glm::vec3 position, normal;
     glm::vec2 uv;        ///< once round, and metres along the axis; circumferences if it wears a texture
@@ -42,6 +46,11 @@ struct Tube {
     std::vector<TubeVertex> vertices;
     std::vector<TubeTriangle> triangles;
 };
+
+/// How many `sweep` makes of so many nodes: pieces and two caps.
+constexpr std::size_t swept_triangles(std::size_t nodes, int sides) {
+    return 2 * nodes * static_cast<std::size_t>(sides);
+}
 
 /// Two nodes at least. Every edge belongs to two triangles once vertices in one place are taken for one.
 Tube sweep(const TubeLine& line, int sides);

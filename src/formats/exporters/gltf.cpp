@@ -2,8 +2,11 @@
 #include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
+#include "archive/meshes/mesh_pieces.h"
 #include "formats/glb.h"
 #include "formats/growth_nodes.h"
+#include "formats/mesh_files.h"
+#include "formats/textures.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -24,19 +27,33 @@ glm::vec4 quaternion(const glm::quat& q) {
     return {q.x, q.y, q.z, q.w};
 }
 
-/// Every plant a node with a mesh.
+/// Every plant a node with a mesh, or with one for each piece.
 ExportedFile write_frame(const ExportJob& job, const RecordedFrame& frame) {
     const FrameMesh mesh = mesh_of(job.run.geometry(frame), standing(job.options));
     Glb glb(job.run.folder());
     std::vector<std::size_t> roots;
-    for (const auto& [plant, own] : by_plant(mesh)) {
+    std::size_t vertices = 0;
+    const auto add = [&](const FrameMesh& own, const std::string& name) {
+        vertices += own.points.size();
         const std::size_t shape =
             glb.add_mesh(own.points, own.normals, own.uvs, own.triangles, own.material_of, mesh.materials);
-        roots.push_back(glb.add_node({{"name", job.run.plants()[plant].name}, {"mesh", shape}}));
+        roots.push_back(glb.add_node({{"name", name}, {"mesh", shape}}));
+    };
+    for (const auto& [plant, own] : by_plant(mesh)) {
+        const std::string& name = job.run.plants()[plant].name;
+        if (job.most_vertices == 0) {
+            add(own, name);
+            continue;
+        }
+        std::size_t piece = 0;
+        for (const FrameMesh& part : pieces_of(own, {.vertices = job.most_vertices})) {
+            add(part, ++piece > 1 ? fmt::format("{}_{}", name, piece) : name);
+        }
     }
-    const auto path = job.path(frame, "glb");
+    const auto path = job.path(frame, "glb", {vertices, mesh.triangles.size(), 0, ""});
     write_text(path, glb.bytes(roots));
-    return {path, mesh.points.size(), mesh.triangles.size(), 0, ""};
+    return {path, vertices, mesh.triangles.size(),
+            0,    "",       joined_hints({hint_of_triangles(job, mesh.triangles.size()), glb.hint()})};
 }
 
 /// One property of a node through time.
@@ -116,9 +133,9 @@ public:
             roots.push_back(
                 glb_.add_node({{"name", job_.run.plants()[plant].name}, {"children", std::move(children)}}));
         }
-        const auto path = job_.path(frame_, "glb");
+        const auto path = job_.path(frame_, "glb", {vertices_, triangles_, 0, ""});
         write_text(path, glb_.bytes(roots));
-        return {path, vertices_, triangles_, organs_, "instances"};
+        return {path, vertices_, triangles_, organs_, "instances", glb_.hint()};
     }
 
 private:
@@ -188,13 +205,15 @@ public:
             roots.push_back(
                 glb_.add_node({{"name", job_.run.plants()[plant].name}, {"children", std::move(children)}}));
         }
-        const auto path = job_.path("glb");
+        const auto path = job_.path("glb", {vertices_, triangles_, 0, ""});
         write_text(path, glb_.bytes(roots));
-        if (job_.grouped) return {path, vertices_, triangles_, number, "groups that appear"};
-        ExportedFile file{path, vertices_, triangles_, number, "moving internodes and organs"};
+        if (job_.grouped) return {path, vertices_, triangles_, number, "groups that appear", glb_.hint()};
+        ExportedFile file{path, vertices_, triangles_, number, "moving internodes and organs", glb_.hint()};
         constexpr std::size_t many = 2000;
         if (number > many) {
-            file.hint = "many programs are slow with so many objects: --grouped makes one of what is born together";
+            file.hint = joined_hints(
+                {file.hint,
+                 "many programs are slow with so many objects: --grouped makes one of what is born together"});
         }
         return file;
     }
@@ -315,6 +334,12 @@ public:
 
     void write(const ExportJob& job) const override {
         const RecordedFrame& frame = *job.frames[0];
+        if (job.frames.size() > 1) {
+            refuse_triangles_and_split(job, "things that move have shapes of their own; export one --step");
+        } else if (job.instances) {
+            refuse_triangles_and_split(
+                job, "organs that are one shape in many places stay as they are; leave out --instances");
+        }
         if (job.frames.size() > 1) return job.report(Growth(job).write());
         job.report(job.instances ? Instances(job, frame).write() : write_frame(job, frame));
     }

@@ -2,7 +2,9 @@
 #include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
+#include "archive/meshes/mesh_pieces.h"
 #include "archive/meshes/surface_mesh.h"
+#include "formats/mesh_files.h"
 #include "formats/textures.h"
 
 #include <fmt/format.h>
@@ -25,24 +27,34 @@ std::string mtl(const FrameMesh& mesh, TextureCopies& textures) {
         fmt::format_to(std::back_inserter(text),
                        "newmtl {}\nKa 0 0 0\nKd {:.6f} {:.6f} {:.6f}\nKs 0 0 0\nd 1\nillum 1\n",
                        numbered_name(material, i), red / 255.0, green / 255.0, blue / 255.0);
-        const std::string& copy = textures.name(material.texture);
-        if (!copy.empty()) text += "map_Kd " + copy + "\n";
+        const TextureCopy& copy = textures.copy(material.texture);
+        if (!copy.name.empty()) text += "map_Kd " + copy.name + "\n";
+        if (copy.is_transparent) text += "map_d " + copy.name + "\n";
     }
     return text;
 }
 
 class ObjText {
 public:
-    ObjText(const RecordedRun& run, const FrameMesh& mesh) : run_(run), mesh_(mesh) {}
+    ObjText(const RecordedRun& run, const std::string& library)
+        : run_(run), text_(fmt::format("# made by espalier; metres\nmtllib {}\n", library)) {}
 
-    std::string text(const std::string& library) {
-        text_ = fmt::format("# made by espalier; metres\nmtllib {}\n", library);
-        for (const glm::vec3& p : mesh_.points) add("v {} {} {}\n", p.x, p.y, p.z);
-        for (const glm::vec2& uv : mesh_.uvs) add("vt {} {}\n", uv.x, uv.y);
-        for (const glm::vec3& n : mesh_.normals) add("vn {} {} {}\n", n.x, n.y, n.z);
-        for (std::size_t i = 0; i < mesh_.parts.size(); ++i) add_part(i);
-        return std::move(text_);
+    /// An object for each plant. A piece of one that is not its first has its number behind its name.
+    void add_mesh(const FrameMesh& mesh, std::size_t piece = 1) {
+        for (const glm::vec3& p : mesh.points) add("v {} {} {}\n", p.x, p.y, p.z);
+        for (const glm::vec2& uv : mesh.uvs) add("vt {} {}\n", uv.x, uv.y);
+        for (const glm::vec3& n : mesh.normals) add("vn {} {} {}\n", n.x, n.y, n.z);
+        for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+            const std::uint32_t plant = mesh.parts[i].plant;
+            if (i == 0 || plant != mesh.parts[i - 1].plant) {
+                add("o {}{}\n", run_.plants()[plant].name, piece > 1 ? fmt::format("_{}", piece) : "");
+            }
+            add_part(mesh, mesh.parts[i]);
+        }
+        vertices_ += mesh.points.size();
     }
+
+    const std::string& text() const { return text_; }
 
 private:
     template <class... Values>
@@ -50,27 +62,23 @@ private:
         fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
     }
 
-    void add_part(std::size_t number) {
-        const MeshPart& part = mesh_.parts[number];
-        if (number == 0 || part.plant != mesh_.parts[number - 1].plant) {
-            add("o {}\n", run_.plants()[part.plant].name);
-        }
-        add("g {}\n", part_name(run_, part, number));
+    void add_part(const FrameMesh& mesh, const MeshPart& part) {
+        add("g {}\n", part_name(run_, part, groups_++));
         for (std::size_t i = 0; i < part.triangles; ++i) {
             const std::size_t triangle = part.first_triangle + i;
-            const std::uint32_t material = mesh_.material_of[triangle];
-            if (i == 0 || material != mesh_.material_of[triangle - 1]) {
-                add("usemtl {}\n", numbered_name(mesh_.materials[material], material));
+            const std::uint32_t material = mesh.material_of[triangle];
+            if (i == 0 || material != mesh.material_of[triangle - 1]) {
+                add("usemtl {}\n", numbered_name(mesh.materials[material], material));
             }
             text_ += 'f';
-            for (const std::uint32_t corner : mesh_.triangles[triangle]) add(" {0}/{0}/{0}", corner + 1);
+            for (const std::uint32_t corner : mesh.triangles[triangle]) add(" {0}/{0}/{0}", vertices_ + corner + 1);
             text_ += '\n';
         }
     }
 
     const RecordedRun& run_;
-    const FrameMesh& mesh_;
     std::string text_;
+    std::size_t vertices_ = 0, groups_ = 0;  ///< written so far
 };
 
 class Obj final : public Exporter {
@@ -81,11 +89,36 @@ public:
         TextureCopies textures(job);
         for (const RecordedFrame* frame : job.frames) {
             const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, extension()), library = job.path(*frame, "mtl");
+            const std::vector<Object> objects = objects_of(job, mesh);
+            std::size_t vertices = 0;
+            for (const Object& object : objects) vertices += object.mesh.points.size();
+            const auto path = job.path(*frame, extension(), {vertices, mesh.triangles.size(), 0, "mtl"});
+            const auto library = std::filesystem::path(path).replace_extension("mtl");
+            ObjText text(job.run, library.filename().string());
+            for (const Object& object : objects) text.add_mesh(object.mesh, object.piece);
             write_text(library, mtl(mesh, textures));
-            write_text(path, ObjText(job.run, mesh).text(library.filename().string()));
-            job.report({path, mesh.points.size(), mesh.triangles.size(), 0, ""});
+            write_text(path, text.text());
+            job.report({path, vertices, mesh.triangles.size(), 0, "",
+                        joined_hints({hint_of_triangles(job, mesh.triangles.size()), textures.hint()})});
         }
+    }
+
+private:
+    struct Object {
+        FrameMesh mesh;
+        std::size_t piece;
+    };
+
+    static std::vector<Object> objects_of(const ExportJob& job, const FrameMesh& mesh) {
+        if (job.most_vertices == 0) return {{mesh, 1}};
+        std::vector<Object> objects;
+        for (const auto& [plant, own] : by_plant(mesh)) {
+            std::size_t piece = 0;
+            for (FrameMesh& part : pieces_of(own, {.vertices = job.most_vertices})) {
+                objects.push_back({std::move(part), ++piece});
+            }
+        }
+        return objects;
     }
 };
 

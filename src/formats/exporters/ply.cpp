@@ -1,9 +1,9 @@
 // Binary PLY: vertices with normal, texture coordinates and colour; triangles with plant and part.
-#include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
 #include "formats/bytes.h"
+#include "formats/mesh_files.h"
 
 #include <fmt/format.h>
 
@@ -45,14 +45,7 @@ class Ply final : public Exporter {
 public:
     std::string extension() const override { return "ply"; }
 
-    void write(const ExportJob& job) const override {
-        for (const RecordedFrame* frame : job.frames) {
-            const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, extension());
-            write_text(path, ply(mesh));
-            job.report({path, mesh.points.size(), mesh.triangles.size(), 0, ""});
-        }
-    }
+    void write(const ExportJob& job) const override { write_meshes(job, extension(), true, ply); }
 };
 
 const Registered<ExporterType> entry{

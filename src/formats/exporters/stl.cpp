@@ -1,10 +1,10 @@
 // Binary STL: the triangles alone. Tubes are closed; leaves are as thin as they were recorded.
 #include "espalier/base/error.h"
-#include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
 #include "archive/meshes/surface_mesh.h"
 #include "formats/bytes.h"
+#include "formats/mesh_files.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -40,14 +40,7 @@ class Stl final : public Exporter {
 public:
     std::string extension() const override { return "stl"; }
 
-    void write(const ExportJob& job) const override {
-        for (const RecordedFrame* frame : job.frames) {
-            const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
-            const auto path = job.path(*frame, extension());
-            write_text(path, stl(mesh));
-            job.report({path, 3 * mesh.triangles.size(), mesh.triangles.size(), 0, ""});
-        }
-    }
+    void write(const ExportJob& job) const override { write_meshes(job, extension(), false, stl); }
 };
 
 const Registered<ExporterType> entry{

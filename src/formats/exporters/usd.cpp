@@ -1,10 +1,12 @@
 // USD as text: growth as time samples. A plant has curves with widths for its axes and a mesh for its surfaces.
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
 #include "archive/meshes/axis_tree.h"
 #include "archive/meshes/surface_mesh.h"
 #include "archive/meshes/tubes.h"
+#include "formats/mesh_files.h"
 #include "formats/usd_instances.h"
 #include "formats/usd_materials.h"
 #include "formats/usd_text.h"
@@ -177,6 +179,7 @@ public:
         return text + "}\n";
     }
 
+    std::string hint() const { return materials_.hint(); }
     std::size_t vertices() const {
         std::size_t sum = instancers_ ? instancers_->vertices() : 0;
         for (const PlantSamples& plant : plants_) sum += plant.vertices();
@@ -233,15 +236,34 @@ private:
     std::optional<Instancers> instancers_;
 };
 
+void require_one_mesh(const ExportJob& job) {
+    if (job.most_vertices > 0) {
+        throw UserError(fmt::format("--split {}: USD counts vertices in 32 bits; obj, gltf, ply and stl are split",
+                                    job.most_vertices));
+    }
+    if (job.frames.size() > 1) {
+        refuse_triangles_and_split(job, "every step would have other triangles; export one --step");
+    } else if (job.instances) {
+        refuse_triangles_and_split(job,
+                                   "organs that are one shape in many places stay as they are; leave out --instances");
+    } else if (!job.mesh_axes) {
+        refuse_triangles_and_split(job, "axes are curves in USD; --mesh-axes makes them triangles");
+    }
+}
+
 class Usd final : public Exporter {
 public:
     std::string extension() const override { return "usda"; }
 
     void write(const ExportJob& job) const override {
+        require_one_mesh(job);
         const UsdFile file(job);
-        const auto path = job.frames.size() == 1 ? job.path(*job.frames[0], extension()) : job.path(extension());
+        const MeshName name{file.vertices(), file.triangles(), 0, ""};
+        const auto path =
+            job.frames.size() == 1 ? job.path(*job.frames[0], extension(), name) : job.path(extension(), name);
         write_text(path, file.text());
-        job.report({path, file.vertices(), file.triangles(), job.frames.size(), "time samples"});
+        job.report({path, file.vertices(), file.triangles(), job.frames.size(), "time samples",
+                    joined_hints({hint_of_triangles(job, file.triangles()), file.hint()})});
     }
 };
 

@@ -1,0 +1,279 @@
+#include "archive/meshes/reduction.h"
+
+#include "espalier/base/random.h"
+
+#include "archive/meshes/organ_levels.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace espalier::archive {
+namespace {
+
+constexpr double slack = 0.05;  ///< by how much fewer triangles there may be than asked for
+constexpr double longest_growth = 2;
+constexpr int fewest_sides = 3;
+
+/// The half side of a square of this area: how far the outline moves where such a thing goes.
+double outline_error(double area) {
+    return std::sqrt(area) / 2;
+}
+
+class Reduction {
+public:
+    Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points)
+        : tubes_(tubes), organs_(organs) {
+        for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points);
+        for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
+        add_removals();
+    }
+
+    void run(std::size_t target) {
+        const auto fewest =
+            std::max<std::size_t>(1, static_cast<std::size_t>((1 - slack) * static_cast<double>(target)));
+        while (count_ > target && !moves_.empty()) {
+            const Move move = moves_.top();
+            moves_.pop();
+            const std::size_t saving = saving_of(move);
+            if (saving == 0 || count_ - saving < fewest) continue;
+            count_ -= saving;
+            apply(move);
+        }
+        write_tubes();
+        write_organs();
+    }
+
+private:
+    enum class Effect { node, side, tube, level, organ };
+    /// The smallest error first; of equal ones, which comes first is decided by chance.
+    struct Move {
+        double error;
+        std::uint64_t lot;
+        Effect effect;
+        std::size_t index;
+
+        bool operator<(const Move& other) const {
+            return std::tie(error, lot, effect, index) > std::tie(other.error, other.lot, other.effect, other.index);
+        }
+    };
+    struct TubeState {
+        std::vector<std::pair<double, std::size_t>> leaving;  ///< nodes by their errors, the next one last
+        std::vector<bool> gone;
+        std::size_t nodes;
+        float thickest;
+    };
+    struct OrganState {
+        const std::vector<OrganLevel>* levels;
+        double size, area;
+        std::size_t next = 0;  ///< of the levels
+        std::size_t triangles;
+        bool gone = false;
+    };
+
+    void add_tube(std::size_t i, const RecordedAttributes& of_points) {
+        const TubeLine& line = tubes_[i].line;
+        TubeState& state = states_.emplace_back();
+        state.nodes = line.nodes.size();
+        state.gone.assign(state.nodes, false);
+        state.thickest = 0;
+        double length = 0, area = 0;
+        for (std::size_t k = 0; k < state.nodes; ++k) {
+            state.thickest = std::max(state.thickest, line.nodes[k].radius);
+            if (k == 0) continue;
+            const double piece = glm::distance(line.nodes[k - 1].position, line.nodes[k].position);
+            length += piece;
+            area += piece * (double(line.nodes[k - 1].radius) + line.nodes[k].radius);
+        }
+        const std::vector<double> errors = node_errors(line, of_points);
+        for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(errors[k], k);
+        std::sort(state.leaving.rbegin(), state.leaving.rend());
+        count_ += swept_triangles(state.nodes, tubes_[i].sides);
+        push_node(i);
+        push_side(i);
+        push(outline_error(area), Effect::tube, i);
+    }
+
+    void add_organ(std::size_t i) {
+        const MeshPart& organ = organs_.parts[i];
+        double area = 0;
+        for (std::size_t k = 0; k < organ.triangles; ++k) {
+            const auto [a, b, c] = organs_.triangles[organ.first_triangle + k];
+            area +=
+                glm::length(glm::cross(organs_.points[b] - organs_.points[a], organs_.points[c] - organs_.points[a])) /
+                2;
+        }
+        organ_states_.push_back({&shapes_.of(organs_, organ), organ_size(organs_, organ), area, 0, organ.triangles});
+        count_ += organ.triangles;
+        push_level(i);
+    }
+
+    // The fewer are left of a kind, the larger is what goes with the next: those that stay have grown.
+    void add_removals() {
+        for (const auto& [kind, members] : kinds()) {
+            std::vector<std::pair<std::uint64_t, std::size_t>> drawn;
+            for (const std::size_t i : members) drawn.emplace_back(mix(organs_.parts[i].identity), i);
+            std::sort(drawn.begin(), drawn.end());
+            for (std::size_t rank = 0; rank < drawn.size(); ++rank) {
+                const std::size_t i = drawn[rank].second;
+                const double left = static_cast<double>(drawn.size() - rank) / static_cast<double>(drawn.size());
+                push(outline_error(organ_states_[i].area / left), Effect::organ, i);
+            }
+        }
+    }
+
+    std::map<std::pair<std::uint32_t, std::string>, std::vector<std::size_t>> kinds() const {
+        std::map<std::pair<std::uint32_t, std::string>, std::vector<std::size_t>> result;
+        for (std::size_t i = 0; i < organs_.parts.size(); ++i) {
+            result[{organs_.parts[i].plant, organs_.parts[i].symbol}].push_back(i);
+        }
+        return result;
+    }
+
+    void push(double error, Effect effect, std::size_t index) { moves_.push({error, mix(index), effect, index}); }
+
+    void push_node(std::size_t i) {
+        if (!states_[i].leaving.empty()) push(states_[i].leaving.back().first, Effect::node, i);
+    }
+
+    // A polygon of one corner less lies so far inside the circle.
+    void push_side(std::size_t i) {
+        const int sides = tubes_[i].sides - 1;
+        if (sides < fewest_sides) return;
+        push(states_[i].thickest * (1 - std::cos(std::numbers::pi / sides)), Effect::side, i);
+    }
+
+    void push_level(std::size_t i) {
+        const OrganState& organ = organ_states_[i];
+        if (organ.next < organ.levels->size()) push((*organ.levels)[organ.next].error * organ.size, Effect::level, i);
+    }
+
+    std::size_t saving_of(const Move& move) const {
+        const std::size_t i = move.index;
+        switch (move.effect) {
+            case Effect::node:
+                return swept_triangles(1, tubes_[i].sides);
+            case Effect::side:
+                return tubes_[i].sides == 0 ? 0 : swept_triangles(states_[i].nodes, 1);
+            case Effect::tube:
+                return swept_triangles(states_[i].nodes, tubes_[i].sides);
+            case Effect::level:
+                return organ_states_[i].gone ? 0 : organ_states_[i].triangles - level(i).triangles.size();
+            default:
+                return organ_states_[i].triangles;
+        }
+    }
+
+    const OrganLevel& level(std::size_t i) const { return (*organ_states_[i].levels)[organ_states_[i].next]; }
+
+    void apply(const Move& move) {
+        const std::size_t i = move.index;
+        if (move.effect == Effect::node) {
+            states_[i].gone[states_[i].leaving.back().second] = true;
+            states_[i].leaving.pop_back();
+            --states_[i].nodes;
+            push_node(i);
+        } else if (move.effect == Effect::side) {
+            --tubes_[i].sides;
+            push_side(i);
+        } else if (move.effect == Effect::tube) {
+            tubes_[i].sides = 0;
+        } else if (move.effect == Effect::level) {
+            organ_states_[i].triangles = level(i).triangles.size();
+            ++organ_states_[i].next;
+            push_level(i);
+        } else {
+            organ_states_[i].gone = true;
+        }
+    }
+
+    void write_tubes() {
+        for (std::size_t i = 0; i < tubes_.size(); ++i) {
+            std::vector<TubeNode> left;
+            for (std::size_t k = 0; k < states_[i].gone.size(); ++k) {
+                if (!states_[i].gone[k]) left.push_back(tubes_[i].line.nodes[k]);
+            }
+            tubes_[i].line.nodes = std::move(left);
+        }
+    }
+
+    void write_organs() {
+        FrameMesh left;
+        left.materials = organs_.materials;
+        for (const auto& [kind, members] : kinds()) {
+            const float growth = growth_of(members);
+            for (const std::size_t i : members) {
+                if (!organ_states_[i].gone) write_organ(i, growth, left);
+            }
+        }
+        organs_ = std::move(left);
+    }
+
+    float growth_of(const std::vector<std::size_t>& members) const {
+        double all = 0, left = 0;
+        for (const std::size_t i : members) {
+            all += organ_states_[i].area;
+            if (!organ_states_[i].gone) left += organ_states_[i].area;
+        }
+        return static_cast<float>(left > 0 ? std::min(longest_growth, std::sqrt(all / left)) : 1);
+    }
+
+    // Organs grow from their first vertex, where they stand on the plant.
+    void write_organ(std::size_t i, float growth, FrameMesh& left) const {
+        const MeshPart& organ = organs_.parts[i];
+        const OrganState& state = organ_states_[i];
+        constexpr std::uint32_t unknown = std::numeric_limits<std::uint32_t>::max();
+        std::vector<std::uint32_t> number(organ.vertices, unknown);
+        MeshPart& moved = left.parts.emplace_back(organ);
+        moved.first_vertex = left.points.size();
+        moved.first_triangle = left.triangles.size();
+        for (std::size_t k = 0; k < state.triangles; ++k) {
+            std::array<std::uint32_t, 3> corners{};
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::size_t vertex = state.next > 0
+                                               ? (*state.levels)[state.next - 1].triangles[k][c]
+                                               : organs_.triangles[organ.first_triangle + k][c] - organ.first_vertex;
+                if (number[vertex] == unknown) {
+                    number[vertex] = static_cast<std::uint32_t>(left.points.size());
+                    copy_vertex(organ.first_vertex, organ.first_vertex + vertex, growth, left);
+                }
+                corners[c] = number[vertex];
+            }
+            left.triangles.push_back(corners);
+            left.material_of.push_back(organs_.material_of[organ.first_triangle + (state.next > 0 ? 0 : k)]);
+        }
+        moved.vertices = left.points.size() - moved.first_vertex;
+        moved.triangles = state.triangles;
+    }
+
+    void copy_vertex(std::size_t base, std::size_t vertex, float growth, FrameMesh& to) const {
+        to.points.push_back(organs_.points[base] + growth * (organs_.points[vertex] - organs_.points[base]));
+        to.normals.push_back(organs_.normals[vertex]);
+        to.uvs.push_back(organs_.uvs[vertex]);
+        to.rgb.push_back(organs_.rgb[vertex]);
+    }
+
+    std::vector<PlannedTube>& tubes_;
+    FrameMesh& organs_;
+    OrganLevels shapes_;
+    std::vector<TubeState> states_;
+    std::vector<OrganState> organ_states_;
+    std::priority_queue<Move> moves_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
+            std::size_t triangles) {
+    Reduction(tubes, organs, of_points).run(triangles);
+}
+
+}  // namespace espalier::archive

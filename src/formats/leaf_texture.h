@@ -1,0 +1,39 @@
+// A picture of many leaves for one card: coloured ellipses over a transparent ground (after the particles of Reeves &
+// Blau 1985).
+#pragma once
+
+#include "base/png_file.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace espalier::formats {
+
+struct LeafTexture {
+    std::size_t blobs = 60;
+    std::array<std::uint8_t, 3> rgb{74, 122, 42};
+    std::size_t size = 512;  ///< pixels along a side
+    double coverage = 0.35;  ///< share of the picture that the blobs would cover side by side
+    double variation = 0.2;  ///< largest change of a blob's brightness, as a share
+    std::uint64_t seed = 0;
+};
+
+struct LeafPicture {
+    OpacityPicture picture;
+    std::size_t overlapping = 0;  ///< blobs for which no free place was found
+};
+
+/// Blobs lie apart while there is room, each inside the picture. The colour of transparent pixels is that of leaves, so
+/// that filtered edges do not darken.
+LeafPicture leaf_picture(const LeafTexture& texture);
+
+}  // namespace espalier::formats
+
+namespace espalier {
+
+using formats::leaf_picture;
+using formats::LeafPicture;
+using formats::LeafTexture;
+
+}  // namespace espalier
