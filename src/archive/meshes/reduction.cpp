@@ -22,6 +22,11 @@ constexpr double slack = 0.05;  ///< by how much fewer triangles there may be th
 constexpr double longest_growth = 2;
 constexpr int fewest_sides = 3;
 
+/// Of a polygon within a circle of radius 1, seen from all directions (Cauchy: the perimeter by pi).
+double mean_width(int sides) {
+    return 2 * sides * std::sin(std::numbers::pi / std::max(sides, 1)) / std::numbers::pi;
+}
+
 /// The half side of a square of this area: how far the outline moves where such a thing goes.
 double outline_error(double area) {
     return std::sqrt(area) / 2;
@@ -52,7 +57,7 @@ public:
     }
 
 private:
-    enum class Effect { node, side, tube, level, organ };
+    enum class Effect { caps, node, side, tube, level, organ };
     /// The smallest error first; of equal ones, which comes first is decided by chance.
     struct Move {
         double error;
@@ -68,6 +73,7 @@ private:
         std::vector<std::pair<double, std::size_t>> leaving;  ///< nodes by their errors, the next one last
         std::vector<bool> gone;
         std::size_t nodes;
+        int sides;  ///< at first
         float thickest;
     };
     struct OrganState {
@@ -82,6 +88,7 @@ private:
         const TubeLine& line = tubes_[i].line;
         TubeState& state = states_.emplace_back();
         state.nodes = line.nodes.size();
+        state.sides = tubes_[i].sides;
         state.gone.assign(state.nodes, false);
         state.thickest = 0;
         double length = 0, area = 0;
@@ -95,7 +102,8 @@ private:
         const std::vector<double> errors = node_errors(line, of_points);
         for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(errors[k], k);
         std::sort(state.leaving.rbegin(), state.leaving.rend());
-        count_ += swept_triangles(state.nodes, tubes_[i].sides);
+        count_ += triangles_of_tube(i);
+        push(0, Effect::caps, i);
         push_node(i);
         push_side(i);
         push(outline_error(area), Effect::tube, i);
@@ -158,12 +166,14 @@ private:
     std::size_t saving_of(const Move& move) const {
         const std::size_t i = move.index;
         switch (move.effect) {
+            case Effect::caps:
+                return 4;
             case Effect::node:
-                return swept_triangles(1, tubes_[i].sides);
+                return 2 * static_cast<std::size_t>(tubes_[i].sides);
             case Effect::side:
-                return tubes_[i].sides == 0 ? 0 : swept_triangles(states_[i].nodes, 1);
+                return tubes_[i].sides == 0 ? 0 : 2 * states_[i].nodes;
             case Effect::tube:
-                return swept_triangles(states_[i].nodes, tubes_[i].sides);
+                return triangles_of_tube(i);
             case Effect::level:
                 return organ_states_[i].gone ? 0 : organ_states_[i].triangles - level(i).triangles.size();
             default:
@@ -171,11 +181,17 @@ private:
         }
     }
 
+    std::size_t triangles_of_tube(std::size_t i) const {
+        return swept_triangles(states_[i].nodes, tubes_[i].sides, tubes_[i].caps);
+    }
+
     const OrganLevel& level(std::size_t i) const { return (*organ_states_[i].levels)[organ_states_[i].next]; }
 
     void apply(const Move& move) {
         const std::size_t i = move.index;
-        if (move.effect == Effect::node) {
+        if (move.effect == Effect::caps) {
+            tubes_[i].caps = Caps::lean;
+        } else if (move.effect == Effect::node) {
             states_[i].gone[states_[i].leaving.back().second] = true;
             states_[i].leaving.pop_back();
             --states_[i].nodes;
@@ -194,11 +210,16 @@ private:
         }
     }
 
+    // Tubes of fewer sides are as wide as before in the mean.
     void write_tubes() {
         for (std::size_t i = 0; i < tubes_.size(); ++i) {
             std::vector<TubeNode> left;
+            if (tubes_[i].sides == 0) continue;
+            const auto widening = static_cast<float>(mean_width(states_[i].sides) / mean_width(tubes_[i].sides));
             for (std::size_t k = 0; k < states_[i].gone.size(); ++k) {
-                if (!states_[i].gone[k]) left.push_back(tubes_[i].line.nodes[k]);
+                if (states_[i].gone[k]) continue;
+                left.push_back(tubes_[i].line.nodes[k]);
+                left.back().radius *= widening;
             }
             tubes_[i].line.nodes = std::move(left);
         }

@@ -34,7 +34,7 @@ public:
         for (const AxisPath& path : axis_paths(geometry_, options_)) {
             TubeLine line = tube_line(geometry_, path.points, options_.simplify, thinnest_);
             line.wears_texture = geometry_.textures[path.row] != 0;
-            if (line.nodes.size() >= 2) tubes.push_back({std::move(line), options_.sides, path.row});
+            if (line.nodes.size() >= 2) tubes.push_back({std::move(line), options_.sides, Caps::round, path.row});
         }
         return tubes;
     }
@@ -129,7 +129,7 @@ private:
             colours.push_back(colour_of(geometry_.of_points, static_cast<std::size_t>(node.row)));
             materials.push_back(material(worn(colours.back(), texture)));
         }
-        const Tube tube = sweep(planned.line, planned.sides);
+        const Tube tube = sweep(planned.line, planned.sides, planned.caps);
         const auto origin = static_cast<std::uint32_t>(mesh_.points.size());
         for (const TubeVertex& vertex : tube.vertices) {
             mesh_.points.push_back(upright(vertex.position, options_.up));

@@ -87,8 +87,11 @@ std::vector<glm::dvec3> tangents_of(const std::vector<TubeNode>& nodes) {
 
 class Sweeper {
 public:
-    Sweeper(const TubeLine& line, int sides)
-        : nodes_(line.nodes), wears_texture_(line.wears_texture), sides_(static_cast<std::uint32_t>(sides)) {}
+    Sweeper(const TubeLine& line, int sides, Caps caps)
+        : nodes_(line.nodes),
+          wears_texture_(line.wears_texture),
+          sides_(static_cast<std::uint32_t>(sides)),
+          caps_(caps) {}
 
     Tube tube() {
         const std::vector<glm::dvec3> tangents = tangents_of(nodes_);
@@ -148,15 +151,17 @@ private:
     void add_cap(std::uint32_t node, const glm::dvec3& outward) {
         const auto centre = static_cast<std::uint32_t>(tube_.vertices.size());
         const glm::vec3 normal(outward);
-        tube_.vertices.push_back({nodes_[node].position, normal, {0.5f, 0.5f}, node});
+        if (caps_ == Caps::round) tube_.vertices.push_back({nodes_[node].position, normal, {0.5f, 0.5f}, node});
+        const auto first = static_cast<std::uint32_t>(tube_.vertices.size());
         for (std::uint32_t side = 0; side < sides_; ++side) {
             const double angle = 2 * std::numbers::pi * side / sides_;
             const glm::vec2 uv(0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle));
             tube_.vertices.push_back({tube_.vertices[ring(node) + side].position, normal, uv, node});
         }
         const std::uint32_t owner = std::max(node, 1u);
-        for (std::uint32_t side = 0; side < sides_; ++side) {
-            std::uint32_t here = centre + 1 + side, next = centre + 1 + (side + 1) % sides_;
+        const bool is_lean = caps_ == Caps::lean;  // then the centre is the first corner
+        for (std::uint32_t side = is_lean ? 1 : 0; side < (is_lean ? sides_ - 1 : sides_); ++side) {
+            std::uint32_t here = first + side, next = first + (side + 1) % sides_;
             if (node == 0) std::swap(here, next);
             tube_.triangles.push_back({{centre, here, next}, owner});
         }
@@ -165,6 +170,7 @@ private:
     const std::vector<TubeNode>& nodes_;
     bool wears_texture_;
     std::uint32_t sides_;
+    Caps caps_;
     Tube tube_;
 };
 
@@ -227,8 +233,8 @@ std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& 
     return errors;
 }
 
-Tube sweep(const TubeLine& line, int sides) {
-    return Sweeper(line, sides).tube();
+Tube sweep(const TubeLine& line, int sides, Caps caps) {
+    return Sweeper(line, sides, caps).tube();
 }
 
 }  // namespace espalier::archive

@@ -47,13 +47,16 @@ struct Tube {
     std::vector<TubeTriangle> triangles;
 };
 
+/// Caps are fans around their middle, or from their first corner, which takes two triangles less.
+enum class Caps { round, lean };
+
 /// How many `sweep` makes of so many nodes: pieces and two caps.
-constexpr std::size_t swept_triangles(std::size_t nodes, int sides) {
-    return 2 * nodes * static_cast<std::size_t>(sides);
+constexpr std::size_t swept_triangles(std::size_t nodes, int sides, Caps caps) {
+    return 2 * nodes * static_cast<std::size_t>(sides) - (caps == Caps::lean ? 4 : 0);
 }
 
 /// Two nodes at least. Every edge belongs to two triangles once vertices in one place are taken for one.
-Tube sweep(const TubeLine& line, int sides);
+Tube sweep(const TubeLine& line, int sides, Caps caps = Caps::round);
 
 }  // namespace espalier::archive
 
