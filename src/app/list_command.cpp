@@ -1,5 +1,6 @@
 #include "espalier/environment/shape.h"
 #include "espalier/formats/exporter.h"
+#include "espalier/language/model_settings.h"
 #include "espalier/simulation/scene.h"
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
@@ -13,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace espalier::app {
@@ -135,16 +137,67 @@ void print_folders(const Parts& models) {
     }
 }
 
+// A model with mistakes is listed all the same; `espalier check` tells of them.
+std::vector<ModelSetting> settings_of(const fs::path& model) {
+    try {
+        return ModelSettings::read(model).list();
+    } catch (const UserError&) {
+        return {};
+    }
+}
+
+void print_settings(const std::vector<ModelSetting>& settings) {
+    std::vector<std::vector<std::string>> rows{{"setting", "default", "range", "unit", "meaning"}};
+    for (const ModelSetting& setting : settings) {
+        rows.push_back({setting.name, setting.text, setting.range(), setting.unit, setting.summary});
+    }
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const auto& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    }
+    fmt::print("\n");
+    std::string group;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        if (r > 0 && settings[r - 1].group != group) fmt::print("  {}\n", group = settings[r - 1].group);
+        fmt::print("    ");
+        for (std::size_t i = 0; i + 1 < rows[r].size(); ++i) fmt::print("{:{}}  ", rows[r][i], widths[i]);
+        fmt::print("{}\n", rows[r].back());
+    }
+}
+
+Json json_of(const ModelSetting& setting) {
+    const auto end = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+    return {{"name", setting.name},          {"default", setting.value},
+            {"lowest", end(setting.lowest)}, {"highest", end(setting.highest)},
+            {"whole", setting.whole},        {"unit", setting.unit},
+            {"group", setting.group},        {"summary", setting.summary}};
+}
+
+void print_models_as_json(const Parts& models) {
+    Json list = json_of(models);
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        list[i]["settings"] = Json::array();
+        for (const ModelSetting& setting : settings_of(models[i].name)) list[i]["settings"].push_back(json_of(setting));
+    }
+    print_json(list);
+}
+
+void print_model(const PartDescription& model) {
+    print_part(model);
+    const std::vector<ModelSetting> settings = settings_of(model.name);
+    if (!settings.empty()) print_settings(settings);
+}
+
 int list_models(const ListArguments& arguments) {
     const Parts all = models_of(model_library(arguments.models));
     const Parts folder = arguments.name.empty() ? all : of_folder(all, arguments.name);
     const Parts models = folder.empty() ? only(all, arguments.name, arguments.kind) : folder;
     if (arguments.json) {
-        print_json(models);
+        print_models_as_json(models);
     } else if (!folder.empty()) {
         print_folders(models);
     } else {
-        for (const PartDescription& model : models) print_part(model);
+        for (const PartDescription& model : models) print_model(model);
     }
     return exit_code::done;
 }
@@ -159,7 +212,7 @@ int list(const ListArguments& arguments) {
     if (arguments.kind.empty()) {
         Parts overview;
         for (const Kind& kind : kinds()) overview.push_back({kind.name, kind.summary, ""});
-        arguments.json ? print_json(overview) : print_parts(overview);
+        arguments.json ? print_json(json_of(overview)) : print_parts(overview);
         return exit_code::done;
     }
     const Kind* kind = find_kind(arguments.kind);
@@ -171,7 +224,7 @@ int list(const ListArguments& arguments) {
     Parts parts = kind->parts();
     if (!arguments.name.empty()) parts = only(parts, arguments.name, arguments.kind);
     if (arguments.json) {
-        print_json(parts);
+        print_json(json_of(parts));
     } else if (parts.size() == 1) {
         print_part(parts.front());
     } else {

@@ -103,11 +103,15 @@ void print_parts(const std::vector<PartDescription>& parts) {
     for (const PartDescription& part : parts) fmt::print("  {:{}}  {}\n", part.name, width, part.summary);
 }
 
-void print_json(const std::vector<PartDescription>& parts) {
+Json json_of(const std::vector<PartDescription>& parts) {
     Json list = Json::array();
     for (const PartDescription& part : parts) {
         list.push_back({{"name", part.name}, {"summary", part.summary}, {"help", part.help}});
     }
+    return list;
+}
+
+void print_json(const Json& list) {
     fmt::print("{}\n", list.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 

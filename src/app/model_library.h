@@ -1,6 +1,8 @@
 // The models that come with Espalier: where they are, and what each says of itself.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,6 +31,7 @@ PartDescription describe_file(const std::filesystem::path& file);
 void print_part(const PartDescription& part);
 /// Names and summaries in two columns.
 void print_parts(const std::vector<PartDescription>& parts);
-void print_json(const std::vector<PartDescription>& parts);
+nlohmann::ordered_json json_of(const std::vector<PartDescription>& parts);
+void print_json(const nlohmann::ordered_json& list);
 
 }  // namespace espalier::app

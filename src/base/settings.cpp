@@ -75,6 +75,13 @@ std::int64_t integer_of(const Node& node, std::string_view key, Range range) {
     return node.integer;
 }
 
+bool flag_of(const Node& node, std::string_view key) {
+    const bool computed = node.computed && node.type == Type::integer && (node.integer == 0 || node.integer == 1);
+    if (computed) return node.integer == 1;
+    if (node.type != Type::boolean) wrong_type(node, key, "true or false");
+    return node.boolean;
+}
+
 const std::string& text_of(const Node& node, std::string_view key) {
     if (node.type != Type::text) wrong_type(node, key, "a text");
     return node.text;
@@ -161,8 +168,7 @@ std::int64_t Settings::integer_or(std::string_view key, std::int64_t fallback, R
 
 bool Settings::flag_or(std::string_view key, bool fallback) const {
     const Node* node = node_->read(key);
-    if (node && node->type != Type::boolean) wrong_type(*node, key, "true or false");
-    if (node) return node->boolean;
+    if (node) return flag_of(*node, key);
     node_->remember_default(key, Node::make(fallback));
     return fallback;
 }
@@ -270,6 +276,10 @@ std::string Settings::value_text(std::string_view key) const {
         default:
             wrong_type(node, key, "a number or a text");
     }
+}
+
+void Settings::ignore() const {
+    node_->mark_read_below();
 }
 
 void Settings::reject_unread() const {

@@ -67,6 +67,13 @@ std::string what_may_stand(const std::string& name, std::vector<std::string> kno
     return fmt::format("; what can stand here: {}", fmt::join(known, ", "));
 }
 
+void mark_below(const Node& node) {
+    for (const auto& item : node.items) {
+        item->was_read = true;
+        mark_below(*item);
+    }
+}
+
 void collect_unread_below(const Node& node, std::vector<Diagnostic>& diagnostics) {
     const bool is_table = node.type == Node::Type::table;
     std::vector<std::string> known;
@@ -149,6 +156,11 @@ void Node::put(const std::string& key, std::shared_ptr<Node> value) {
     }
     names.push_back(key);
     items.push_back(std::move(value));
+}
+
+void Node::mark_read_below() {
+    const std::lock_guard lock(marks());
+    mark_below(*this);
 }
 
 void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {

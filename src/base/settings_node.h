@@ -24,6 +24,7 @@ struct Settings::Node {
     std::vector<std::shared_ptr<Node>> items;  ///< of an array; of a table, beside `names`
     std::vector<std::string> names;
     bool was_read = false;
+    bool computed = false;  ///< by an expression
     /// Keys asked for and absent, with the defaults used: candidates for "did you mean", and part of what was resolved.
     std::vector<std::pair<std::string, std::shared_ptr<Node>>> defaults;
 
@@ -38,6 +39,7 @@ struct Settings::Node {
     Node& require(std::string_view key, const char* expected);
     void remember_default(std::string_view key, std::shared_ptr<Node> value);
     void put(const std::string& key, std::shared_ptr<Node> value);
+    void mark_read_below();
     void collect_unread(std::vector<Diagnostic>& diagnostics) const;
     std::string to_json() const;
 };

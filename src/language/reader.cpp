@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/characters.h"
+#include "language/definitions.h"
 #include "language/other_language.h"
 #include "language/parser/model.h"
 #include "language/preprocessor/preprocessor.h"
@@ -40,6 +41,7 @@ std::shared_ptr<const Model> read(std::string text, const std::string& name, con
     try {
         const std::uint32_t file = sources.add(name, std::move(text));
         const language::Preprocessed source = language::preprocess(sources, file, folder, options, mistakes);
+        language::settings_of(source, sources, mistakes);
         language::parse_model(source, sources, mistakes, *model);
     } catch (const language::TooManyMistakes&) {
         // Those found so far are reported.

@@ -91,15 +91,21 @@ std::vector<glm::dvec3> read_places(const Settings& table, std::uint64_t seed, s
     return places;
 }
 
-Defines read_defines(const Settings& table) {
-    Defines defines;
-    for (const std::string& name : table.keys()) defines[name] = table.value_text(name);
-    return defines;
-}
-
 Arithmetic read_arithmetic(const Settings& table) {
     const std::string name = table.choice_or("arithmetic", "double", {"double", "cpfg"});
     return arithmetic_called(name).value();
+}
+
+GeometryStages read_stages(const Settings& table) {
+    GeometryStages stages;
+    for (Settings stage : table.tables("stage")) {
+        if (stage.flag_or("when", true)) {
+            stages.push_back(read_geometry_stage(stage));
+        } else {
+            stage.ignore();
+        }
+    }
+    return stages;
 }
 
 struct ModelKey {
@@ -141,7 +147,7 @@ public:
         [[maybe_unused]] const Insertions must_fit(plant);
         plant.turtle = read_turtle(table.table("turtle"), plant.view ? plant.view->turtle : TurtleSettings());
         plant.turtle.pose = read_pose(table);
-        for (Settings stage : table.tables("stage")) plant.stages.push_back(read_geometry_stage(stage));
+        plant.stages = read_stages(table);
         const auto stream = static_cast<std::uint32_t>(
             table.integer_or("stream", static_cast<std::int64_t>(plants_.size()), Range::between(0, 4294967295.0)));
         const std::vector<glm::dvec3> places = read_places(table, seed_, stream);
@@ -201,6 +207,12 @@ private:
 };
 
 }  // namespace
+
+Defines read_defines(const Settings& table) {
+    Defines defines;
+    for (const std::string& name : table.keys()) defines[name] = table.value_text(name);
+    return defines;
+}
 
 std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes) {
     std::vector<Plant> plants;

@@ -28,6 +28,9 @@ private:
     std::vector<Diagnostic> diagnostics_;
 };
 
+/// Replacements of a model's #defines: the table `define` of a plant.
+Defines read_defines(const Settings& table);
+
 /// Reads every plant of the scene, in order. Plants with the same model, defines and view share one CompiledModel.
 std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes);
 

@@ -6,6 +6,7 @@
 #include "animation_file.h"
 #include "base/text.h"
 #include "environment_file.h"
+#include "expressions.h"
 #include "plant_table.h"
 
 #include <fmt/format.h>
@@ -163,6 +164,7 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     if (options.seed) scene.overrides.emplace_back("simulation.seed", std::to_string(*options.seed));
     for (const auto& [key, value] : scene.overrides) root.set(key, value);
 
+    evaluate_expressions(root);
     Mistakes mistakes;
     mistakes.attempt([&] { reject_unknown_tables(root); });
     mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
@@ -238,6 +240,8 @@ const char* scene_help() {
   materials    the same with materials (.mat)
   folder       a second folder in which side files are looked for
   stream       the plant's number in the scene; selects the random numbers
+  stage        [[plant.stage]] tables, which change what is drawn: { stage = "...", when = true }; with when = false a
+               stage is left out. `espalier list stages`
   insert       ["X(1)@5", "X@9:F.3"]: modules put into the string of a step, at its beginning or before a module
   stage        [[plant.stage]] with stage = "...": changes the recorded geometry: `espalier list stages`
   turtle       overrides the view file: { angle = 45 (degrees), line_width (none), line_width_increment = 0, colour = 128,
@@ -263,6 +267,9 @@ const char* scene_help() {
   every        1; steps between frames; the last step is always a frame
   keyframes    [step, ...]: these frames; together with `first` or `every`, besides theirs
   animation    animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
+
+influence = "= 3 * LENGTH": a text that begins with = is an expression in the #defines of a model: of its own plant in
+[[plant.stage]] and [plant.turtle], of the first plant in [simulation], [environment] and [timeline]. Flags may be 0 or 1.
 )";
 }
 

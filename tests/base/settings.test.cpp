@@ -3,8 +3,10 @@
 #include "catch.h"
 
 #include <functional>
+#include <map>
 
 using namespace espalier;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -128,4 +130,39 @@ TEST_CASE("lists of tables and keys that a reader only looks for are offered whe
     CHECK_FALSE(scene.has("every"));
     CHECK(scene.integer_or("every", 1) == 1);
     CHECK_THAT(scene.resolved_json(), Catch::Contains("\"every\": 1") || Catch::Contains("\"every\":1"));
+}
+
+TEST_CASE("texts that begin with '=' are replaced by what they are worth", "[base]") {
+    const Settings settings = Settings::parse_toml(
+        "a = '= x'\nb = [1, '=y', ['= x']]\nflag = '= one'\nname = 'x = y'\n[[c]]\nd = '= half'\n", "s.toml");
+    const auto evaluate = [](std::string_view text) {
+        const std::map<std::string_view, double> values{{" x", 3}, {"y", -2}, {" one", 1}, {" half", 0.5}};
+        return values.at(text);
+    };
+    settings.replace_expressions(evaluate);
+    CHECK(settings.integer("a") == 3);
+    CHECK(settings.number("a") == 3);
+    CHECK_THROWS_WITH(settings.numbers("b"), Contains("'b' must be a number, not an array"));
+    CHECK(settings.flag_or("flag", false));
+    CHECK_THROWS_WITH(settings.flag_or("a", false), Contains("s.toml:1:") && Contains("true or false"));
+    CHECK(settings.text("name") == "x = y");
+    CHECK(settings.tables("c").front().number("d") == 0.5);
+    CHECK_THAT(settings.resolved_json(), Contains("\"d\": 0.5"));
+}
+
+TEST_CASE("every expression that has no value is told of, with its key and place", "[base]") {
+    const Settings settings = Settings::parse_toml("a = '= x'\n[t]\nb = [0, '= y']\n", "s.toml");
+    const auto refuse = [](std::string_view text) -> double { throw UserError("no" + std::string(text)); };
+    try {
+        settings.replace_expressions(refuse);
+        FAIL("expected an error");
+    } catch (const UserError& error) {
+        REQUIRE(error.diagnostics().size() == 2);
+        CHECK(to_string(error.diagnostics()[0].place) == "s.toml:1:1");
+        CHECK(error.diagnostics()[0].message == "the expression of 'a': no x");
+        CHECK(to_string(error.diagnostics()[1].place) == "s.toml:3:9");
+        CHECK(error.diagnostics()[1].message == "the expression of 'b': no y");
+    }
+    settings.ignore();
+    CHECK_NOTHROW(settings.reject_unread());
 }

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <memory>
@@ -89,11 +90,18 @@ public:
     /// The value is read as TOML, or taken as text if it is not. Throws UserError if the path leads nowhere sensible.
     void set(std::string_view dotted_key, std::string_view value);
 
+    /// Replaces texts that begin with '=', here and below, by what `evaluate` makes of the rest. A flag may be computed
+    /// as 0 or 1. Throws UserError naming the keys of all expressions that `evaluate` refuses without a place.
+    using Evaluate = std::function<double(std::string_view expression)>;
+    void replace_expressions(const Evaluate& evaluate) const;
+
     /// One value as a program gives it; relative paths are relative to the current folder.
     void put(std::string_view key, SettingValue value);
     /// A table of its own with the same values, none of them read. In messages `name` stands where a file's would.
     Settings copy(const std::string& name) const;
 
+    /// Marks everything here and below as read: a table that is not used may hold anything.
+    void ignore() const;
     /// Throws UserError listing every key that was not read, here and below, with the nearest name that was asked for.
     void reject_unread() const;
 

@@ -5,7 +5,6 @@
 #include "base/characters.h"
 #include "base/text.h"
 #include "language/preprocessor/comments.h"
-#include "language/preprocessor/macros.h"
 
 #include <fmt/format.h>
 
@@ -40,6 +39,7 @@ public:
     Preprocessed run(std::uint32_t file, const std::filesystem::path& folder, Overrides overrides) {
         read_file(file, folder);
         if (overrides == Overrides::must_be_known) reject_unknown_overrides(file);
+        result_.macros = std::move(macros_);
         return std::move(result_);
     }
 
@@ -251,6 +251,7 @@ private:
             macro.parameters = parameters(name, rest, i);
         }
         macro.body = trimmed(rest.substr(i));
+        if (!macro.function_like) document(name);
         const Macro* before = macros_.find(name);
         if (before && before->overridden) {
             if (!macro.function_like) return;
@@ -263,6 +264,18 @@ private:
                               fmt::format("'{}' is defined a second time, differently (first in {})", name, where));
         }
         macros_.define(name, std::move(macro));
+    }
+
+    void document(const std::string& name) {
+        std::optional<SettingComment> comment = setting_comment(sources_.line(at_));
+        if (!comment) return;
+        std::string group;
+        for (Location above = at_; group.empty() && above.line > 1;) {
+            --above.line;
+            group = heading_of(sources_.line(above));
+        }
+        std::erase_if(result_.documented, [&](const DocumentedMacro& other) { return other.name == name; });
+        result_.documented.push_back({name, at_, std::move(*comment), std::move(group)});
     }
 
     std::vector<std::string> parameters(const std::string& name, std::string_view rest, std::size_t& i) {

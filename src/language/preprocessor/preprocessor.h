@@ -3,18 +3,31 @@
 
 #include "espalier/language/reader.h"
 
+#include "language/preprocessor/macros.h"
+#include "language/preprocessor/setting_comment.h"
 #include "language/source.h"
 
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace espalier::language {
+
+/// A macro whose comment says which numbers it may be.
+struct DocumentedMacro {
+    std::string name;
+    Location at;
+    SettingComment comment;
+    std::string group;  ///< the heading above it
+};
 
 struct Preprocessed {
     MappedText text;
     /// Every name the files define or ask for.
     std::set<std::string> macro_names;
+    Macros macros = {};  ///< as they are at the end
+    std::vector<DocumentedMacro> documented = {};
 };
 
 /// Whether `ReadOptions::defines` may hold names that a file never mentions.

@@ -1,0 +1,20 @@
+// What macros are worth as numbers, and whether those that are settings stay in their ranges.
+#pragma once
+
+#include "espalier/language/model_settings.h"
+
+#include "language/preprocessor/preprocessor.h"
+#include "language/source.h"
+
+#include <string_view>
+#include <vector>
+
+namespace espalier::language {
+
+/// The value of an expression in which names are macros. Throws SyntaxError if it has no finite value.
+double value_of(std::string_view expression, const Preprocessed& source);
+
+/// The documented macros with their values. Those whose value is no number of their range are mistakes.
+std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources& sources, Mistakes& mistakes);
+
+}  // namespace espalier::language
