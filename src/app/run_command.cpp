@@ -1,10 +1,7 @@
 #include "run_command.h"
 
-#include "espalier/simulation/simulation.h"
-
 #include "child.h"
 #include "command.h"
-#include "end_signals.h"
 #include "options.h"
 #include "progress.h"
 
@@ -136,26 +133,24 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
     return words;
 }
 
-int run_command(const RunArguments& arguments) {
-    silent = arguments.quiet;
-    give_back_what_is_large();
-    // The first signal asks, the second kills.
-    const EndSignals signals(request_interrupt, /*only_once=*/true);
+InterruptibleRun::InterruptibleRun(bool quiet) : signals_(request_interrupt, /*only_once=*/true) {
+    silent = quiet;
     // Progress that nobody reads any more must not end a run.
     std::signal(SIGPIPE, SIG_IGN);
+}
+
+const std::atomic<bool>& InterruptibleRun::interrupted() {
+    return interrupt;
+}
+
+RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output) {
+    give_back_what_is_large();
     std::optional<tbb::global_control> threads;
     if (arguments.threads > 0) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));
     }
-    const ReadLog inputs;
-    const Scene scene = scene_of(arguments);
-    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
-    require_end(scene);
-
     RunOptions options;
-    std::optional<DefaultOutput> unnamed;
-    if (arguments.output.empty()) unnamed.emplace(scene.name);
-    options.output = unnamed ? unnamed->path() : arguments.output;
+    options.output = output;
     options.overwrite = arguments.overwrite;
     options.checkpoint_every = arguments.checkpoint_every;
     options.resume = arguments.resume;
@@ -165,13 +160,22 @@ int run_command(const RunArguments& arguments) {
     options.inputs = &inputs;
     options.interrupt = &interrupt;
     if (!arguments.quiet) options.warn = print_warnings;
-    RunResult result;
-    {
-        ProgressReport report(arguments.quiet);
-        options.progress = [&](const Progress& progress) { report(progress); };
-        result = run(scene, options);
-    }
-    print_result(arguments, scene, options.output, result);
+    ProgressReport report(arguments.quiet);
+    options.progress = [&](const Progress& progress) { report(progress); };
+    return run(scene, options);
+}
+
+int run_command(const RunArguments& arguments) {
+    const InterruptibleRun interruptible(arguments.quiet);
+    const ReadLog inputs;
+    const Scene scene = scene_of(arguments);
+    if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
+    require_end(scene);
+    std::optional<DefaultOutput> unnamed;
+    if (arguments.output.empty()) unnamed.emplace(scene.name);
+    const fs::path output = unnamed ? unnamed->path() : arguments.output;
+    const RunResult result = grow(arguments, scene, inputs, output);
+    print_result(arguments, scene, output, result);
     return result.interrupted ? exit_code::interrupted : exit_code::done;
 }
 

@@ -1,8 +1,12 @@
 // What the command line asks of a run: commands that start runs share it.
 #pragma once
 
+#include "espalier/simulation/simulation.h"
+
+#include "end_signals.h"
 #include "model_arguments.h"
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -46,6 +50,21 @@ private:
 
 /// The scene that the arguments name. Throws UserError.
 Scene scene_of(const RunArguments& arguments);
+
+/// While it lives, the first Ctrl-C asks for an end after the step at hand, and the second ends the program.
+class InterruptibleRun {
+public:
+    explicit InterruptibleRun(bool quiet);
+
+    static const std::atomic<bool>& interrupted();
+
+private:
+    EndSignals signals_;
+};
+
+/// Grows the scene and records it in a folder; progress and warnings go to standard error. `inputs` is what was read.
+RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs,
+               const std::filesystem::path& output);
 
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);

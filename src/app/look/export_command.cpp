@@ -4,6 +4,7 @@
 #include "app/command.h"
 #include "base/text.h"
 #include "frame_option.h"
+#include "mesh_file_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,7 +39,7 @@ Json json_of(const ExportedFile& file) {
 class ExportCommand final : public Command {
 public:
     explicit ExportCommand(CLI::App& program)
-        : Command(program, "export", "write a recorded run as files of other programs") {
+        : Command(program, "export", "write a recorded run as files of other programs"), mesh_(app(), "--sides", 8) {
         app().add_option("run", folder_, "the folder of a run")->required();
         app()
             .add_option("--format", formats_, fmt::format("one or several of {}", fmt::join(known_formats(), ", ")))
@@ -49,36 +50,11 @@ public:
                          "a folder, or a file whose extension selects the format; default: RUN/export");
         app().add_option("--plant", plant_, "draw or write only this plant, by its name in the scene");
         app()
-            .add_option("--sides", options_.sides, "number of corners of the rings of tubes")
-            ->check(CLI::Range(3, 256))
-            ->capture_default_str();
-        app()
-            .add_option("--simplify", options_.simplify,
-                        "leave out nodes of axes if middle line and radius change by at most so many metres")
-            ->check(CLI::Range(0.0, 1e6))
-            ->capture_default_str();
-        app()
-            .add_option("--triangles", options_.triangles,
-                        "obj, ply, stl, gltf, usd: make coarser what is seen least, until so many are left")
-            ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31));
-        app()
-            .add_option("--split", most_vertices_,
-                        "obj, gltf: several meshes, ply, stl: several files, of at most so many vertices each; 65535 "
-                        "for indices of 16 bits")
-            ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 31));
-        app()
-            .add_option("--up", up_, "the vertical axis: y or z")
-            ->check(CLI::IsMember({"y", "z"}))
-            ->capture_default_str();
-        app()
             .add_option("--rate", rate_, "gltf, usd: steps per second of growth as an animation")
             ->check(CLI::Range(0.01, 1000.0))
             ->capture_default_str();
         app().add_flag("--grouped", grouped_,
                        "gltf: in animations, what is born and dies at the same steps is one object");
-        app().add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
-        app().add_flag("--mesh-axes", mesh_axes_, "usd: axes as meshes, with --sides and textures, and not as curves");
-        app().add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
         app().add_flag("--keep", keep_, "never replace a file: a new one is numbered, as in tree-2.obj");
         app().add_flag("--quiet", quiet_, "print errors only");
         add_json_flag("print the names of the files as JSON");
@@ -98,8 +74,6 @@ Examples:
 
     int run() override {
         const RecordedRun recorded(folder_);
-        if (!plant_.empty()) options_.plant = recorded.plant(plant_);
-        options_.up = up_[0];
         const std::vector<const RecordedFrame*> frames = chosen_frames(recorded, step_);
         const Target target = this->target();
         Json files = Json::array();
@@ -111,9 +85,13 @@ Examples:
             }
             if (!quiet_ && !file.hint.empty()) fmt::print(stderr, "{}\n", file.hint);
         };
-        export_run({recorded, frames, options_, target.folder, report, target.name, rate_, grouped_, instances_,
-                    mesh_axes_, most_vertices_, counts_, keep_},
-                   target.formats);
+        ExportJob job{recorded, frames, {}, target.folder, report, target.name};
+        mesh_.put_into(job);
+        if (!plant_.empty()) job.options.plant = recorded.plant(plant_);
+        job.steps_per_second = rate_;
+        job.grouped = grouped_;
+        job.keep = keep_;
+        export_run(job, target.formats);
         if (wants_json()) {
             fmt::print("{}\n", Json{{"files", files}}.dump(2, ' ', false, Json::error_handler_t::replace));
         }
@@ -142,11 +120,10 @@ private:
 
     std::filesystem::path folder_, output_;
     std::vector<std::string> formats_;
-    std::string step_ = "last", plant_, up_ = "y";
+    std::string step_ = "last", plant_;
     double rate_ = 24;
-    bool grouped_ = false, instances_ = false, mesh_axes_ = false, counts_ = false, keep_ = false, quiet_ = false;
-    std::size_t most_vertices_ = 0;
-    MeshOptions options_;
+    bool grouped_ = false, keep_ = false, quiet_ = false;
+    MeshFileOptions mesh_;
 };
 
 const RegisteredCommand<ExportCommand> export_entry{42};

@@ -1,0 +1,49 @@
+#include "mesh_file_options.h"
+
+#include <fmt/format.h>
+
+namespace espalier::app {
+
+MeshFileOptions::MeshFileOptions(CLI::App& command, const std::string& sides_name, int sides, const std::string& group)
+    : sides_(sides) {
+    const std::string before = command.option_defaults()->get_group();
+    command.option_defaults()->group(group);
+    command.add_option(sides_name, sides_, "number of corners of the rings of tubes")
+        ->check(CLI::Range(3, 256))
+        ->capture_default_str();
+    command
+        .add_option("--simplify", simplify_,
+                    "leave out nodes of axes if middle line and radius change by at most so many metres")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    command
+        .add_option("--triangles", triangles_,
+                    "obj, ply, stl, gltf, usd: make coarser what is seen least, until so many are left")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31));
+    command
+        .add_option("--split", most_vertices_,
+                    "obj, gltf: several meshes, ply, stl: several files, of at most so many vertices each; 65535 "
+                    "for indices of 16 bits")
+        ->check(CLI::Range(std::size_t{3}, std::size_t{1} << 31));
+    command.add_option("--up", up_, "the vertical axis: y or z")
+        ->check(CLI::IsMember({"y", "z"}))
+        ->capture_default_str();
+    command.add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
+    command.add_flag("--mesh-axes", mesh_axes_,
+                     fmt::format("usd: axes as meshes, with {} and textures, and not as curves", sides_name));
+    command.add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
+    command.option_defaults()->group(before);
+}
+
+void MeshFileOptions::put_into(ExportJob& job) const {
+    job.options.sides = sides_;
+    job.options.simplify = simplify_;
+    job.options.triangles = triangles_;
+    job.options.up = up_[0];
+    job.most_vertices = most_vertices_;
+    job.instances = instances_;
+    job.mesh_axes = mesh_axes_;
+    job.counts = counts_;
+}
+
+}  // namespace espalier::app

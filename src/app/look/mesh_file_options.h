@@ -1,0 +1,30 @@
+// Options of the commands that write meshes.
+#pragma once
+
+#include "espalier/formats/exporter.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace espalier::app {
+
+class MeshFileOptions {
+public:
+    /// `sides_name` is the name of the option that says how many corners the rings of tubes have, `group` the heading
+    /// of all in the command's help.
+    MeshFileOptions(CLI::App& command, const std::string& sides_name, int sides, const std::string& group = "Options");
+
+    /// What was said of the meshes; files are none's yet.
+    void put_into(ExportJob& job) const;
+
+private:
+    int sides_;
+    double simplify_ = 0;
+    std::optional<std::size_t> triangles_;
+    std::size_t most_vertices_ = 0;
+    std::string up_ = "y";
+    bool instances_ = false, mesh_axes_ = false, counts_ = false;
+};
+
+}  // namespace espalier::app

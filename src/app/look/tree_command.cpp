@@ -1,0 +1,262 @@
+// tree: grows a tree from a handful of settings and writes its mesh.
+#include "espalier/archive/recorded_run.h"
+#include "espalier/base/error.h"
+#include "espalier/base/file.h"
+#include "espalier/formats/exporter.h"
+
+#include "app/command.h"
+#include "app/model_library.h"
+#include "app/options.h"
+#include "app/program_data.h"
+#include "app/progress.h"
+#include "app/run_command.h"
+#include "app/temporary_folder.h"
+#include "base/text.h"
+#include "frame_option.h"
+#include "mesh_file_options.h"
+#include "setting_values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <random>
+
+namespace espalier::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* scene_file = "environments/tree.toml";
+constexpr int fewest_sides = 3;  // few vertices, as in Brzoska 2019, section 5.1
+
+/// What can be said of the tree, and how: found where the program's scenes and models are.
+struct TreeKind {
+    fs::path scene = here_or_with_program(scene_file);
+    SettingValues values{ModelSettings::read(model_of(scene)).list()};
+
+    static fs::path model_of(const fs::path& scene) {
+        const std::vector<Settings> plants = Settings::read_toml(scene).tables("plant");
+        if (plants.empty()) throw UserError(fmt::format("{}: no [[plant]] in this scene", scene.string()));
+        return plants.front().path("model");
+    }
+
+    fs::path preset_folder() const { return scene.parent_path() / "presets"; }
+    std::vector<std::string> presets() const {
+        std::vector<std::string> names;
+        std::error_code none;
+        for (const auto& entry : fs::directory_iterator(preset_folder(), none)) {
+            if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+        }
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+    fs::path preset(const std::string& name) const {
+        const std::vector<std::string> names = presets();
+        if (std::find(names.begin(), names.end(), name) != names.end()) return preset_folder() / (name + ".toml");
+        throw UserError(fmt::format("there is no preset '{}'{}; the presets are {}", name, did_you_mean(name, names),
+                                    fmt::join(names, ", ")));
+    }
+};
+
+/// The file itself, or the first of oak-2.toml, oak-3.toml, ... that is not there.
+fs::path unused(const fs::path& file) {
+    fs::path free = file;
+    for (int number = 2; fs::exists(free); ++number) {
+        free = file.parent_path() / fmt::format("{}-{}{}", file.stem().string(), number, file.extension().string());
+    }
+    return free;
+}
+
+std::uint64_t random_seed() {
+    return std::random_device{}() & 0x7fffffffU;
+}
+
+std::optional<std::uint64_t> parse_seed(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    if (text == "new") return random_seed();
+    std::int64_t seed = -1;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error == std::errc() && end == text.data() + text.size() && seed >= 0) return static_cast<std::uint64_t>(seed);
+    throw UserError(fmt::format("--seed {}: expected a whole number of at least 0, or new", text));
+}
+
+class Tree final : public Command {
+public:
+    explicit Tree(CLI::App& program)
+        : Command(program, "tree", "grow a tree from a few settings, and write its mesh"),
+          mesh_(app(), "--rings", fewest_sides, "Mesh") {
+        app().add_option("--output", output_,
+                         "file, whose extension selects the format; default: tree-VERTICES-TRIANGLES.obj");
+        app().add_option("--preset", preset_, "a named table of settings, listed below");
+        app().add_option("--settings", settings_, "a file with settings: crown-width = 6 in a line of its own");
+        app().add_option("--save-settings", saved_, "write all settings, and the seed, to a file for --settings");
+        app().add_option("--seed", seed_, "of all random numbers, or new: a random one, which is printed");
+        app().add_option("--run", run_, "keep the run in this folder; default: it is removed");
+        app()
+            .add_option("--threads", arguments_.threads, "number of threads; default: all cores")
+            ->check(CLI::Range(1, 4096));
+        app().add_flag("--quiet", arguments_.quiet, "print errors only");
+        add_json_flag("print the result as JSON");
+        // The model is read only if somebody asks for a tree.
+        app().preparse_callback([this](std::size_t) { add_settings(); });
+    }
+
+    int run() override {
+        if (!kind_) throw UserError(unreadable_);
+        const auto begin = std::chrono::steady_clock::now();
+        const Target target = this->target();
+        collect_values();
+        const InterruptibleRun interruptible(arguments_.quiet);
+        std::optional<TemporaryFolder> temporary;
+        if (run_.empty()) temporary.emplace("tree");
+        const fs::path folder = run_.empty() ? temporary->path() / "run" : run_;
+        const std::uint64_t seed = grow_in(folder);
+        if (InterruptibleRun::interrupted()) return exit_code::interrupted;
+        const Json files = write(folder, target);
+        save_settings(seed);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        tell(files, seed, seconds.count());
+        return exit_code::done;
+    }
+
+private:
+    struct Target {
+        fs::path folder;
+        std::string name;
+        std::string format;
+        bool counts;
+    };
+
+    // A mistake in the scene or its model is told when the command runs: here only mistakes of options are.
+    void add_settings() {
+        try {
+            kind_.emplace();
+        } catch (const UserError& error) {
+            unreadable_ = error.what();
+            app().allow_extras();
+            return;
+        }
+        for (const ModelSetting& setting : kind_->values.settings()) {
+            const std::string meaning =
+                fmt::format("{} ({}{}{}; default {})", setting.summary, setting.range(),
+                            setting.unit.empty() ? "" : " ", setting.unit, format_general(setting.value));
+            app()
+                .add_option_function<std::string>(
+                    "--" + option_name(setting),
+                    [this, &setting](const std::string& text) { said_.emplace_back(&setting, text); }, meaning)
+                ->type_name("NUMBER")
+                ->group(setting.group.empty() ? "Settings" : setting.group);
+        }
+        app().footer(footer());
+    }
+
+    std::string footer() const {
+        std::string text =
+            fmt::format("{} settings, each with its range, unit and default.", kind_->values.settings().size());
+        const std::vector<std::string> presets = kind_->presets();
+        std::size_t width = 0;
+        for (const std::string& name : presets) width = std::max(width, name.size());
+        if (!presets.empty()) text += "\nPresets:\n";
+        for (const std::string& name : presets) {
+            text += fmt::format("  {:{}}  {}\n", name, width, describe_file(kind_->preset(name)).summary);
+        }
+        return text + R"(
+An option counts more than --settings, and that more than --preset. A file that is there stays: a new one is numbered.
+Examples:
+  espalier tree --output oak.obj
+  espalier tree --crown-width 8 --gnarly 0.9 --seed new --save-settings oak.toml
+  espalier tree --settings oak.toml --age 12 --output young.glb
+Ctrl-C ends the growth after the step at hand, and no file is written.)";
+    }
+
+    Target target() const {
+        if (output_.empty()) return {"", "tree", "obj", true};
+        const std::string format = format_of_extension(output_.extension().string());
+        if (!format.empty()) return {output_.parent_path(), output_.stem().string(), format, false};
+        throw UserError(fmt::format(
+            "--output {}: the extension must be that of a format: .obj, .glb, .usda, .ply, .stl", output_.string()));
+    }
+
+    void collect_values() {
+        SettingValues& values = kind_->values;
+        if (!preset_.empty()) values.read(kind_->preset(preset_));
+        if (!settings_.empty()) values.read(settings_);
+        for (const auto& [setting, text] : said_) values.set(*setting, text);
+    }
+
+    // Returns the seed.
+    std::uint64_t grow_in(const fs::path& folder) {
+        arguments_.model.file = kind_->scene;
+        arguments_.output = folder;
+        arguments_.seed = parse_seed(seed_);
+        if (!arguments_.seed) arguments_.seed = kind_->values.seed();
+        for (const auto& [name, value] : kind_->values.defines()) {
+            arguments_.overrides.emplace_back("plant.0.define." + name, value);
+        }
+        // Only the last frame of a run that nobody keeps is read.
+        if (run_.empty()) arguments_.overrides.emplace_back("timeline.every", "1000000000");
+        const ReadLog inputs;
+        const Scene scene = scene_of(arguments_);
+        if (!arguments_.quiet) print_warnings(scene.notes.diagnostics);
+        grow(arguments_, scene, inputs, folder);
+        return scene.seed;
+    }
+
+    Json write(const fs::path& folder, const Target& target) const {
+        const RecordedRun run(folder);
+        const std::vector<const RecordedFrame*> frames = chosen_frames(run, "last");
+        if (internodes_of(run.geometry(*frames.front())).empty()) {
+            throw UserError(
+                "no internode has grown, and nothing was written: see the warnings, or choose more steps, a larger "
+                "crown, a longer stem, or another seed");
+        }
+        Json files = Json::array();
+        const auto report = [&](const ExportedFile& file) {
+            files.push_back({{"path", file.path.string()}, {"vertices", file.vertices}, {"triangles", file.triangles}});
+            if (!arguments_.quiet && !file.hint.empty()) fmt::print(stderr, "{}\n", file.hint);
+        };
+        ExportJob job{run, frames, {}, target.folder, report, target.name};
+        mesh_.put_into(job);
+        job.counts = job.counts || target.counts;
+        job.keep = true;
+        export_run(job, std::vector{target.format});
+        return files;
+    }
+
+    void save_settings(std::uint64_t seed) const {
+        if (!saved_.empty()) write_text(unused(saved_), kind_->values.table(seed));
+    }
+
+    void tell(const Json& files, std::uint64_t seed, double seconds) const {
+        if (wants_json()) {
+            const Json result = {{"files", files}, {"seed", seed}, {"seconds", seconds}};
+            fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
+            return;
+        }
+        if (seed_ == "new") fmt::print("seed {}\n", seed);
+        if (arguments_.quiet) return;
+        for (const Json& file : files) {
+            fmt::print("{}: {} vertices, {} triangles, {}\n", file["path"].get<std::string>(),
+                       grouped(file["vertices"].get<std::size_t>()), grouped(file["triangles"].get<std::size_t>()),
+                       duration_text(seconds));
+        }
+    }
+
+    std::optional<TreeKind> kind_;  ///< none: `unreadable_` says why
+    std::string unreadable_;
+    std::vector<std::pair<const ModelSetting*, std::string>> said_;
+    RunArguments arguments_;
+    std::string preset_, seed_;
+    fs::path output_, settings_, saved_, run_;
+    MeshFileOptions mesh_;
+};
+
+const RegisteredCommand<Tree> tree_entry{18};
+
+}  // namespace
+}  // namespace espalier::app

@@ -1,0 +1,242 @@
+// `espalier tree` from outside: options from a model's settings, files that are never replaced.
+#include "espalier/archive/recorded_run.h"
+
+#include "catch.h"
+#include "program.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A place with a small tree of its own: a cloud of points above a stem of one internode.
+struct Nursery : Workplace {
+    Nursery() {
+        for (const char* folder : {"environments/presets", "models/colonization"}) {
+            fs::create_directories(path() / folder);
+        }
+        write("models/colonization/tree.l", R"(/* --- Crown --- */
+#define AGE 8        /* iterations; 0..400 whole; steps */
+#define WIDTH 3      /* width of the crown; 0.5..40; m */
+#define HEIGHT 1     /* where the crown begins; 0..500; m */
+/* --- Stem --- */
+#define TIP_RADIUS 0.01 /* of the thinnest twigs; 0.001..1; m */
+#define STEM 1       /* internodes below the crown; 0..9 whole */
+#define REACH (WIDTH / 2)
+environment cloud;
+lsystem: 1
+derivation length: AGE
+axiom: F(STEM * HEIGHT) ?cloud(0, 0, 0, 0)
+?cloud(n, x, y, z) : n > 0 --> ?cloud(0, x, y, z) [@R(x, y, z) F(0.25) ?cloud(0, 0, 0, 0)]
+homomorphism
+F(l) : l == 0 --> *
+endlsystem
+)");
+        write("environments/tree.toml", R"([simulation]
+seed = 5
+[[plant]]
+model = "../models/colonization/tree.l"
+[[plant.stage]]
+stage = "pipe-radii"
+tip = "= TIP_RADIUS"
+[environment.cloud]
+process = "markers"
+influence = "= REACH"
+kill = 0.3
+[environment.cloud.cloud]
+radii = ["= WIDTH / 2", 1, "= WIDTH / 2"]
+base = [0, "= HEIGHT", 0]
+number = 300
+)");
+        write("environments/presets/weeping.toml", "# A tree that weeps\nwidth = 5\nage = 6\n");
+        write("environments/presets/young.toml", "# A young tree\nage = 3\n");
+    }
+
+    std::vector<std::string> files(const std::string& extension) const {
+        std::vector<std::string> found;
+        for (const auto& entry : fs::directory_iterator(path())) {
+            if (entry.path().extension() == extension) found.push_back(entry.path().filename().string());
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+    std::string text(const std::string& file) const { return text_of(path() / file); }
+};
+
+std::size_t lines_that_begin(const std::string& beginning, const std::string& text) {
+    std::istringstream lines(text);
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) count += line.starts_with(beginning);
+    return count;
+}
+
+/// Where the internodes of a kept run's last frame end.
+std::set<std::array<float, 3>> nodes(const fs::path& folder) {
+    const espalier::RecordedRun run(folder);
+    std::set<std::array<float, 3>> found;
+    for (const auto& internode : internodes_of(run.geometry(run.frames().back()))) {
+        found.insert({internode.tip.x, internode.tip.y, internode.tip.z});
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Nursery, "the settings of the model are options, in groups, with range, unit and default", "[tree]") {
+    const Outcome help = run("tree --help");
+    CHECK(help.code == 0);
+    CHECK_THAT(help.out, Contains("Crown:\n") && Contains("Stem:\n") &&
+                             Contains("of the thinnest twigs (0.001..1 m; default 0.01)") &&
+                             Contains("iterations (0..400 whole steps; default 8)"));
+    CHECK_THAT(help.out, Contains("5 settings") && Contains("weeping  A tree that weeps"));
+    CHECK(help.out.find("Crown:") < help.out.find("--width"));
+    CHECK(help.out.find("Stem:") < help.out.find("--tip-radius"));
+}
+
+TEST_CASE_METHOD(Nursery, "a tree is written as OBJ whose name says how many vertices and triangles it has", "[tree]") {
+    const Outcome outcome = run("tree");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const std::vector<std::string> files = this->files(".obj");
+    REQUIRE(files.size() == 1);
+    const std::string obj = text(files[0]);
+    const std::size_t vertices = lines_that_begin("v ", obj), triangles = lines_that_begin("f ", obj);
+    CHECK(triangles > 100);
+    CHECK(files[0] == fmt::format("tree-{}-{}.obj", vertices, triangles));
+    CHECK_THAT(outcome.out,
+               Contains(files[0]) && Contains(" vertices, ") && Contains(" triangles, ") && Contains(" s\n"));
+    CHECK_THAT(outcome.err, Contains("step 8/8"));
+    CHECK(run("tree --quiet").out.empty());
+    CHECK(this->files(".obj").size() == 2);  // the same tree again, numbered
+}
+
+TEST_CASE_METHOD(Nursery, "a file that is there stays, whatever the format", "[tree]") {
+    for (const std::string extension : {"obj", "glb", "usda", "ply", "stl"}) {
+        const std::string command = "tree --quiet --age 3 --output oak." + extension;
+        REQUIRE(run(command).code == 0);
+        const std::string first = text("oak." + extension);
+        CHECK(!first.empty());
+        REQUIRE(run(command + " --width 5").code == 0);
+        CHECK(text("oak." + extension) == first);
+        CHECK(text("oak-2." + extension) != first);
+    }
+    CHECK_THAT(run("tree --output oak.bmp").err, Contains("--output oak.bmp") && Contains(".obj"));
+    CHECK(run("tree --quiet --counts --age 3 --output counted.obj").code == 0);
+    CHECK(lines_that_begin("counted-", files(".obj").front()) == 1);
+}
+
+TEST_CASE_METHOD(Nursery, "a new seed keeps the settings and changes the tree", "[tree]") {
+    const Outcome first = run("tree --seed new --width 4 --save-settings a.toml --output a.obj");
+    const Outcome second = run("tree --seed new --width 4 --save-settings b.toml --output b.obj");
+    REQUIRE(first.code == 0);
+    CHECK_THAT(first.out, Contains("seed "));
+    const std::string a = text("a.toml"), b = text("b.toml");
+    const auto settings = [](const std::string& table) { return table.substr(table.find("\n# Crown")); };
+    CHECK(settings(a) == settings(b));
+    CHECK_THAT(a, Contains("width = 4  # width of the crown; 0.5..40 m\n"));
+    CHECK(a != b);
+    CHECK(text("a.obj") != text("b.obj"));
+    // The file grows the same tree again, also with another seed.
+    CHECK(run("tree --settings a.toml --output again.obj").code == 0);
+    CHECK(text("again.obj").substr(text("again.obj").find("\nv ")) == text("a.obj").substr(text("a.obj").find("\nv ")));
+    CHECK(run("tree --settings a.toml --seed 1 --output other.obj").code == 0);
+    CHECK(text("other.obj") != text("again.obj"));
+    CHECK(run("tree --quiet --age 2 --save-settings a.toml").code == 0);
+    CHECK(text("a.toml") == a);
+    CHECK_THAT(text("a-2.toml"), Contains("age = 2 ") && Contains("seed = 5\n"));
+}
+
+TEST_CASE_METHOD(Nursery, "options count more than a file of settings, and that more than a preset", "[tree]") {
+    write("wide.toml", "width = 7\n");
+    CHECK(run("tree --preset weeping --settings wide.toml --height 2 --quiet --save-settings all.toml").code == 0);
+    CHECK_THAT(text("all.toml"), Contains("\nwidth = 7 ") && Contains("\nage = 6 ") && Contains("\nheight = 2 "));
+}
+
+TEST_CASE_METHOD(Nursery, "tree explains what it cannot do", "[tree]") {
+    const auto refused = [&](const std::string& arguments, const std::string& words) {
+        const Outcome outcome = run("tree " + arguments);
+        INFO(outcome.err);
+        CHECK(outcome.code == 1);
+        CHECK(outcome.err.find(words) != std::string::npos);
+    };
+    refused("--preset weping", "there is no preset 'weping' (did you mean 'weeping'?); the presets are weeping, young");
+    refused("--width 50", "--width (width of the crown) must be a number between 0.5 and 40 m, not 50");
+    refused("--width broad", "--width (width of the crown) must be a number between 0.5 and 40 m, not broad");
+    refused("--age 2.5", "--age (iterations) must be a whole number between 0 and 400 steps, not 2.5");
+    refused("--widht 4", "espalier tree has no option '--widht' (did you mean '--width'?)");
+    refused("--seed old", "--seed old: expected a whole number");
+    write("wrong.toml", "age = 4\nwidht = 4\n");
+    refused("--settings wrong.toml", "wrong.toml:2:1: there is no setting 'widht' (did you mean 'width'?)");
+    write("far.toml", "age = 4\nwidth = 0.1\n");
+    refused("--settings far.toml", "far.toml:2:1: 'width' (width of the crown) must be a number between 0.5 and 40 m");
+    CHECK(files(".obj").empty());
+    fs::remove(path() / "models/colonization/tree.l");
+    refused("--width 4", "tree.l");
+}
+
+TEST_CASE_METHOD(Nursery, "a tree that cannot grow says why, and nothing is written without an internode", "[tree]") {
+    // The crown begins far above the stem.
+    const Outcome bare = run("tree --height 400 --stem 0");
+    INFO(bare.err);
+    CHECK(bare.code == 1);
+    CHECK_THAT(bare.err, Contains("in the reach of a node") && Contains("no internode has grown"));
+    CHECK(files(".obj").empty());
+    const Outcome stem = run("tree --age 40 --output stem.obj");
+    CHECK(stem.code == 0);
+    CHECK_THAT(stem.err, Contains("growth has ended"));
+    CHECK(files(".obj").size() == 1);
+}
+
+TEST_CASE_METHOD(Nursery, "a tree of one age is a part of the tree a year later", "[tree]") {
+    REQUIRE(run("tree --quiet --age 5 --run five").code == 0);
+    REQUIRE(run("tree --quiet --age 6 --run six").code == 0);
+    const auto five = nodes(path() / "five"), six = nodes(path() / "six");
+    CHECK(five.size() > 20);
+    CHECK(six.size() > five.size());
+    CHECK(std::includes(six.begin(), six.end(), five.begin(), five.end()));
+    const Outcome again = run("tree --quiet --run five");
+    CHECK(again.code == 1);  // a run is not replaced either
+}
+
+TEST_CASE_METHOD(Nursery, "Ctrl-C ends the growth and leaves no file", "[tree]") {
+    const fs::path temporary = path() / "temporary";
+    fs::create_directories(temporary);
+    setenv("TMPDIR", temporary.c_str(), 1);
+    write("models/colonization/tree.l",
+          "#define AGE 9\nlsystem: 1\nderivation length: 1000000\naxiom: F(1)A\nF(x) --> F(x + 0.001)\nendlsystem\n");
+    write("environments/tree.toml", "[[plant]]\nmodel = \"../models/colonization/tree.l\"\n");
+    const auto begun = [&] { return !fs::is_empty(temporary) && text(".err").find("step") != std::string::npos; };
+    const Outcome outcome =
+        run_until({"tree", "--output", "oak.obj"}, begun, [](pid_t process) { kill(process, SIGINT); });
+    unsetenv("TMPDIR");
+    CHECK(outcome.code == 130);
+    CHECK(files(".obj").empty());
+    CHECK(fs::is_empty(temporary));
+}
+
+TEST_CASE_METHOD(Nursery, "the result as JSON names the files and the seed", "[tree]") {
+    const json result = json::parse(run("tree --json --quiet --age 3 --seed 17 --output oak.ply").out);
+    CHECK(result["seed"] == 17);
+    REQUIRE(result["files"].size() == 1);
+    CHECK(result["files"][0]["path"] == "oak.ply");
+    CHECK(result["files"][0]["triangles"] > 20);
+}
+
+TEST_CASE_METHOD(Nursery, "tubes have three sides unless told otherwise", "[tree]") {
+    const auto triangles = [&](const std::string& options) {
+        const std::string out = run("tree --json --quiet --age 3 " + options).out;
+        return json::parse(out)["files"][0]["triangles"].get<double>();
+    };
+    CHECK(triangles("--rings 6") > 1.8 * triangles(""));
+    CHECK(triangles("--rings 3") == triangles(""));
+    CHECK(triangles("--rings 12 --triangles 400") <= 440);
+}
