@@ -40,6 +40,26 @@ render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --z
 render light.png forest --size 720x450 --colour-by light --elevation 25 --scale-bar
 render water.png two-roots --size 800x600 --field water:iso=0.285 --field water:slice=x --azimuth 35
 render lychnis.png lychnis --size 640x480
+for preset in decurrent excurrent weeping shrub gnarly flat orchard; do
+    "$espalier" tree --preset "$preset" --run "$work/$preset" --output "$work/$preset.obj" --quiet
+    render "tree-$preset.png" "$preset" --size 320x320 --azimuth 20
+done
+for scene in hedge ivy root-flare; do
+    grow "$scene" "environments/$scene.toml"
+    render "$scene.png" "$scene" --size 320x300 --azimuth 15
+done
+self_organizing() { # PICTURE [OPTIONS]
+    grow "$1" environments/self-organizing.toml --set plant.0.define.YEARS=20 "${@:2}"
+    render "$1.png" "$1" --size 320x360 --azimuth 20
+}
+self_organizing lambda-46 --set environment.resource.lambda=0.46
+self_organizing lambda-50 --set environment.resource.lambda=0.5
+self_organizing lambda-56 --set environment.resource.lambda=0.56
+self_organizing space-only --set environment.resource.lambda=0.5 --set plant.0.define.LIGHT=0
+self_organizing light-only --set environment.resource.lambda=0.5 --set plant.0.define.SPACE=0 \
+    --set plant.0.define.YEARS=12
+self_organizing upwards --set environment.resource.lambda=0.5 --set plant.0.define.UPWARDS=0.6 \
+    --set plant.0.define.TOWARDS=0.2
 printf 'click 350 490\ndrag 500 300 530 290\n' >"$work/window.txt"
 "$espalier" view "$work/two-trees" --size 1100x700 --script "$work/window.txt" --screenshot "$work/view.png"
 with_palette view.png
