@@ -75,7 +75,7 @@ void GrowingPlant::interpret() {
     if (description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
-    StagedPlant plant{staged.geometry, *string, stage_key_};
+    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading};
     apply(description->stages, plant);
 }
 

@@ -19,6 +19,7 @@ struct StagedPlant {
     PlantGeometry& geometry;     ///< a copy, to be changed
     const ModuleString& string;  ///< that was interpreted: internodes name its modules
     RandomKey key;               ///< of the plant; take samples by Identity, so that an organ keeps them as others come
+    glm::dvec3 heading{0, 1, 0};  ///< of the turtle at the beginning
 };
 
 /// Constructors take (Settings&) and read their parameters; the scene rejects unread ones. Thread safe.

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace espalier::geometry {
@@ -20,7 +20,7 @@ public:
         if (!settings.has("direction")) return;
         direction_ = settings.vector("direction");
         const double size = glm::length(*direction_);
-        if (!(size > 0) || !(size < std::numeric_limits<double>::infinity())) {
+        if (!(size > 0) || !std::isfinite(size)) {
             throw UserError(settings.place("direction"), "'direction' of a stem must be finite and not zero");
         }
         *direction_ /= size;
@@ -30,7 +30,7 @@ public:
         PlantGeometry& geometry = plant.geometry;
         if (length_ == 0 || geometry.internodes.empty()) return;
         const Internode first = geometry.internodes[0];
-        const glm::dvec3 along = length_ * heading(first);
+        const glm::dvec3 along = length_ * direction_.value_or(plant.heading);
         const RigidMotion up{{1, 0, 0, 0}, {0, 0, 0}, along};
         for (Internode& internode : geometry.internodes) {
             internode.base = up.point(internode.base);
@@ -41,13 +41,6 @@ public:
     }
 
 private:
-    glm::dvec3 heading(const Internode& first) const {
-        const glm::dvec3 own = first.tip - first.base;
-        const double length = glm::length(own);
-        if (direction_) return *direction_;
-        return length > 0 ? own / length : glm::dvec3(0, 1, 0);
-    }
-
     /// A plant that begins with a branch gets an axis for its stem, which the first module draws and all branches see.
     void put_below(PlantGeometry& geometry, const Internode& first, const glm::dvec3& along) const {
         Internode piece = first;
@@ -80,7 +73,7 @@ const Registered<GeometryStageType> entry{
     {"stem", "a straight stem below the plant, which moves up by one vector (Brzoska 2019)",
      R"(length     required, m; 0: no stem
 pieces     1; internodes of equal length, 1 to 1000
-direction  that of the plant's first internode; [x, y, z] of any length: another
+direction  the heading with which the plant begins; [x, y, z] of any length: another
 The stem begins where the plant did and is as thick as the base of its first internode: put pipe-radii behind it to make
 it as thick as the crown asks for. The environment sees the plant without it. A plant without internodes gets none.
 )",
