@@ -22,16 +22,31 @@ public:
         Column<Internode>& internodes = plant.geometry.internodes;
         const std::vector<std::uint32_t> bearers = internode_bearers(plant.geometry, plant.string);
         const std::vector<double> radii = node_radii(bearers);
+        std::vector<bool> is_thin(internodes.size(), false);
         for (std::size_t i = 0; i < internodes.size(); ++i) {
             const double own = radii[i], borne_by = bearers[i] == no_bearer ? own : radii[bearers[i]];
+            is_thin[i] = own < join_ * borne_by;
             internodes[i].tip_radius = own;
-            internodes[i].base_radius = own < join_ * borne_by ? own : borne_by;
+            internodes[i].base_radius = is_thin[i] ? own : borne_by;
             internodes[i].pixels = 0;
         }
+        divide_axes(plant.geometry, bearers, is_thin);
         plant.geometry.in_pixels = false;
     }
 
 private:
+    /// A node of an axis has one radius, so an axis that goes on much thinner goes on as another.
+    static void divide_axes(PlantGeometry& geometry, const std::vector<std::uint32_t>& bearers,
+                            const std::vector<bool>& is_thin) {
+        std::vector<std::uint32_t> before;
+        for (const Internode& internode : geometry.internodes) before.push_back(internode.axis);
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const bool goes_on = bearers[i] != no_bearer && before[bearers[i]] == before[i];
+            if (!goes_on) continue;
+            geometry.internodes[i].axis = is_thin[i] ? geometry.axes++ : geometry.internodes[bearers[i]].axis;
+        }
+    }
+
     /// At the tip of each internode: r^n is the sum over what it bears, and ends have the radius `tip`.
     std::vector<double> node_radii(const std::vector<std::uint32_t>& bearers) const {
         std::vector<double> powers(bearers.size(), 0);  // of r / tip
@@ -53,7 +68,8 @@ const Registered<GeometryStageType> entry{
 tip       0.005 m; the radius of internodes that bear none
 factor    1; thickness: all radii are multiplied by it
 join      0.5; a branch whose radius is below this share of its bearer's begins with its own radius, others begin with
-          the bearer's; 0: all do, 1: only branches as thick as their bearer do
+          the bearer's; 0: all do, 1: only branches as thick as their bearer do. An axis that goes on that thin is
+          recorded as a line of its own from there on
 Widths that the model sets are replaced.
 )",
      construct<PipeRadii>}};

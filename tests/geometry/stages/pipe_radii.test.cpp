@@ -85,6 +85,23 @@ TEST_CASE("a branch much thinner than its bearer begins with its own radius", "[
     }
 }
 
+TEST_CASE("an axis that goes on much thinner than before goes on as another", "[geometry][stages]") {
+    Tree tree;
+    tree.grow({0, 1, 0}).grow({0, 1, 0}).open();
+    for (int lateral = 0; lateral < 9; ++lateral) tree.grow({1, 0, 0}).open().grow({0, 0, 1}).close();
+    tree.grow({1, 0, 0}).close().grow({0, 1, 0}).grow({0, 1, 0});
+    const std::size_t last = tree.size() - 1;
+    tree = piped({{"exponent", 2}, {"tip", 1}}, tree);
+    CHECK(tree[1].axis == 0);
+    CHECK(tree[2].base_radius == tree[1].tip_radius);
+    CHECK(tree[2].axis == 1);
+    CHECK(tree[last - 1].axis == 11);
+    CHECK(tree[last].axis == 11);
+    CHECK(tree[last - 1].base_radius == 1);
+    CHECK(tree.geometry.axes == 12);
+    CHECK(piped({{"exponent", 2}, {"tip", 1}, {"join", 0}}, small_tree()).geometry.axes == small_tree().geometry.axes);
+}
+
 TEST_CASE("radii by the pipe model replace widths in pixels", "[geometry][stages]") {
     Tree tree = small_tree();
     tree.geometry.in_pixels = true;
