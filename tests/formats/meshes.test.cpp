@@ -2,6 +2,7 @@
 #include "espalier/base/error.h"
 #include "espalier/formats/exporter.h"
 
+#include "archive/meshes/surface_mesh.h"
 #include "catch.h"
 #include "formats/exporting.h"
 
@@ -108,6 +109,27 @@ TEST_CASE("where an axis ends and others begin, its tube goes on along the strai
     std::size_t groups = 0;
     for (std::size_t at = obj.find("\ng "); at != std::string::npos; at = obj.find("\ng ", at + 1)) ++groups;
     CHECK(groups == 2);
+}
+
+TEST_CASE("at a fork the ring leans to the thicker branch, halfway from what bears it", "[export]") {
+    const glm::vec3 stem(0, 1, 0), left(-0.8f, 0.6f, 0), right(0.6f, 0.8f, 0);
+    const auto ring_normal = [&](double of_left, double of_right) {
+        HandmadePlant fork;
+        fork.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, {0, 1, 0}, 0);
+        fork.add_internode(2, 1, 1, 1, 1, {0, 1, 0}, {-0.8, 1.6, 0}, 0);
+        fork.add_internode(3, 1, 1, 2, 1, {0, 1, 0}, {0.6, 1.8, 0}, 0);
+        fork.interpretation.geometry.internodes[1].base_radius = of_left;
+        fork.interpretation.geometry.internodes[2].base_radius = of_right;
+        const ExportedPlant exported(fork, "csv");
+        const RecordedRun run(exported.folder.path);
+        const FrameMesh mesh = mesh_of(run.geometry(run.frame(0)), {});
+        const std::size_t ring = 9;  // the second of the tube, of eight corners
+        return glm::normalize(
+            glm::cross(mesh.points[ring + 2] - mesh.points[ring], mesh.points[ring + 4] - mesh.points[ring]));
+    };
+    CHECK(std::abs(glm::dot(ring_normal(0.1, 0.01), glm::normalize(stem + left))) == Approx(1));
+    CHECK(std::abs(glm::dot(ring_normal(0.01, 0.1), glm::normalize(stem + right))) == Approx(1));
+    CHECK(std::abs(glm::dot(ring_normal(0.1, 0.1), glm::normalize(stem + right))) == Approx(1));
 }
 
 TEST_CASE("a mesh stands on y, or on z if asked for", "[export]") {
