@@ -1,7 +1,9 @@
 #include "formats/leaf_texture.h"
 
+#include "espalier/base/error.h"
 #include "espalier/base/random.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -41,6 +43,12 @@ public:
         const double mean_square = (1 + shortest_share + shortest_share * shortest_share) / 3;
         longest_ = std::sqrt(area / (std::numbers::pi * slenderness * mean_square));
         longest_ = std::min(longest_, double(texture.size) / 2 - 2);
+        if (slenderness * shortest_share * longest_ < 1) {
+            throw UserError(
+                fmt::format("{} blobs are too many for {} x {} pixels: some would be narrower than 2 pixels; "
+                            "a larger --size, a larger --coverage or fewer --blobs leave room",
+                            texture.blobs, texture.size, texture.size));
+        }
     }
 
     LeafPicture paint() {

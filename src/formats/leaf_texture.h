@@ -25,7 +25,7 @@ struct LeafPicture {
 };
 
 /// Blobs lie apart while there is room, each inside the picture. The colour of transparent pixels is that of leaves, so
-/// that filtered edges do not darken.
+/// that filtered edges do not darken. Throws UserError if blobs would be narrower than two pixels.
 LeafPicture leaf_picture(const LeafTexture& texture);
 
 }  // namespace espalier::formats

@@ -41,7 +41,7 @@ std::string hint_of_triangles(const ExportJob& job, std::size_t triangles) {
         return fmt::format("--triangles {}: there are no more than {} triangles; more --sides give more",
                            *job.options.triangles, triangles);
     }
-    return fmt::format("--triangles {}: there are at least {}, or none at all; a smaller number cannot be reached",
+    return fmt::format("--triangles {}: no number near it can be reached; the next larger is {}",
                        *job.options.triangles, triangles);
 }
 

@@ -2,6 +2,7 @@
 #include "catch.h"
 #include "program.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -70,6 +71,36 @@ TEST_CASE("export says how many vertices and triangles it wrote", "[export]") {
     CHECK(place.run("export run --format csv").out.find("vertices") == std::string::npos);
 }
 
+TEST_CASE("export makes a mesh coarser, splits it, and names files so that none is lost", "[export]") {
+    const RunPlace place;
+    const auto files = [&](const std::string& options) {
+        const Outcome outcome = place.run("export run --json --output " + options);
+        REQUIRE(outcome.code == 0);
+        return nlohmann::json::parse(outcome.out)["files"];
+    };
+    const auto triangles = files("bush.obj")[0]["triangles"].get<int>();
+    const auto fewer = files(fmt::format("bush.obj --keep --counts --triangles {}", triangles / 2))[0];
+    CHECK(fewer["triangles"].get<int>() == Approx(triangles / 2).epsilon(0.1));
+    CHECK(exists(place, fmt::format("bush-{}-{}.mtl", fewer["vertices"].get<int>(), fewer["triangles"].get<int>())));
+    CHECK(files("bush.obj --keep")[0]["path"] == "bush-2.obj");
+    CHECK(files("bush.ply --split 100").size() > 1);
+    CHECK(exists(place, "bush-2.ply"));
+    const Outcome few = place.run("export run --output bush.stl --triangles 1000000");
+    CHECK(few.code == 0);
+    CHECK(few.err.find(fmt::format("no more than {} triangles", triangles)) != std::string::npos);
+}
+
+TEST_CASE("leaf-texture draws a picture, and explains what it cannot draw", "[export]") {
+    const Workplace place;
+    const Outcome outcome = place.run("leaf-texture --blobs 9 --size 128 --output made/leaves.png");
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == "made/leaves.png: 9 leaves, 0 of them over others\n");
+    CHECK(exists(place, "made/leaves.png"));
+    CHECK(place.run("leaf-texture --output a.jpg").err.find("a .png file") != std::string::npos);
+    CHECK(place.run("leaf-texture --output a.png --colour green").err.find("such as #4a7a2a") != std::string::npos);
+    CHECK(place.run("leaf-texture --output a.png --blobs 9999 --size 16").err.find("too many") != std::string::npos);
+}
+
 TEST_CASE("export explains what it cannot do", "[export]") {
     const RunPlace place;
     const auto refused = [&](const std::string& arguments, const std::string& words) {
@@ -82,6 +113,9 @@ TEST_CASE("export explains what it cannot do", "[export]") {
     refused("run --format obj --step 9", "no frame of step 9");
     refused("run --format obj --plant rose", "has no plant 'rose'");
     refused("run --format obj --sides 2", "--sides");
+    refused("run --format obj --triangles 0", "--triangles");
+    refused("run --format obj --split 2", "--split");
+    refused("run --format usd --triangles 100", "--mesh-axes makes them triangles");
     refused("nowhere --format obj", "holds no run");
     CHECK(!exists(place, "run/export"));
     refused("run --format vdb", "no fields");

@@ -40,7 +40,7 @@ fs::path log_of(const fs::path& logs, const Command& command) {
 std::string script_of(const fs::path& page, const fs::path& logs) {
     std::ostringstream script;
     script << "set -eo pipefail\n"
-              "espalier() { local extra=\"shorter_$1\"; command espalier \"$@\" ${!extra}; }\n"
+              "espalier() { local extra=\"shorter_${1//-/_}\"; command espalier \"$@\" ${!extra}; }\n"
               "exec </dev/null\n";
     for (const Block& block : blocks_of(page)) {
         script << "unset ${!shorter_*}\n";

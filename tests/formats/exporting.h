@@ -42,16 +42,18 @@ struct ExportedPlant {
     RunFolder folder;
     std::vector<ExportedFile> files;
 
-    ExportedPlant(const HandmadePlant& plant, const std::string& format) {
+    ExportedPlant(const HandmadePlant& plant, const std::string& format,
+                  const std::function<void(ExportJob&)>& change = {}) {
         Timeline timeline(folder.path, timeline_table(), 0);
         record(timeline, 0, {&plant});
         timeline.finish();
         timeline.write_run(run_json);
         const RecordedRun run(folder.path);
         const RecordedFrame* const frames[] = {&run.frame(0)};
-        export_run(
-            {run, frames, {}, folder.path / "export", [this](const ExportedFile& file) { files.push_back(file); }},
-            std::vector{format});
+        ExportJob job{
+            run, frames, {}, folder.path / "export", [this](const ExportedFile& file) { files.push_back(file); }};
+        if (change) change(job);
+        export_run(job, std::vector{format});
     }
 };
 

@@ -1,6 +1,7 @@
 // Textures go with what is exported, as pictures that other programs read.
 #include "catch.h"
 #include "formats/exporting.h"
+#include "formats/obj_file.h"
 #include "temporary_folder.h"
 
 #include <nlohmann/json.hpp>
@@ -136,6 +137,12 @@ TEST_CASE("a leaf whose picture is partly transparent is cut out", "[export]") {
         writer->Write();
         const ExportedPlant exported(leafy_plant(path), "gltf");
         CHECK((bytes_of(exported.files.at(0).path).find("\"MASK\"") != std::string::npos) == (channels == 4));
+        const ObjFile obj(ExportedPlant(leafy_plant(path), "obj").files.at(0).path);
+        for (const auto& [name, material] : obj.materials) {
+            const std::string picture = name.ends_with("_leaf_0") ? "handmade-leaf.png" : "";
+            CHECK(material.picture == picture);
+            CHECK(material.opacity == (channels == 4 ? picture : ""));
+        }
     }
 }
 
@@ -181,6 +188,10 @@ TEST_CASE("what wears a file that is gone, or no picture, is exported in its own
         CHECK_THAT(bytes_of(usd.files.at(0).path), !Contains("texture_0"));
         CHECK_THAT(bytes_of(obj.folder.path / "export" / "handmade-0000.mtl"), !Contains("map_Kd"));
         CHECK(gltf.files.at(0).triangles == usd.files.at(0).triangles);
+        for (const ExportedPlant* exported : {&gltf, &usd, &obj}) {
+            const std::string& hint = exported->files.at(0).hint;
+            CHECK_THAT(hint, Contains(texture.filename().string()) && Contains("put the file there"));
+        }
     }
 }
 
@@ -200,4 +211,28 @@ TEST_CASE("axes wear their textures, once around and in proportion along", "[exp
         if (line.starts_with("vt ")) longest = std::max(longest, std::stod(line.substr(line.rfind(' '))));
     }
     CHECK(longest == Approx(turns));
+}
+
+TEST_CASE("an OBJ reads back by the letter, with the colours of its settings and its leaves within the picture",
+          "[export]") {
+    const TemporaryFolder pictures;
+    const ExportedPlant exported(leafy_plant(pictures.write("leaf.rgb", sgi_picture())), "obj");
+    const ExportedFile& file = exported.files.at(0);
+    const ObjFile mesh(file.path);
+    CHECK(mesh.points.size() == file.vertices);
+    CHECK(mesh.uvs.size() == file.vertices);
+    CHECK(mesh.normals.size() == file.vertices);
+    CHECK(mesh.faces.size() == file.triangles);
+    for (const glm::dvec3& normal : mesh.normals) CHECK(glm::length(normal) == Approx(1).epsilon(1e-5));
+    for (const glm::dvec2& uv : mesh.uvs) {
+        CHECK((uv.x >= 0 && uv.x <= 1));
+        CHECK((uv.y >= 0 && uv.y <= 1));
+    }
+    // What nobody coloured is green, and white below its picture.
+    for (const auto& [name, material] : mesh.materials) {
+        const glm::dvec3 colour = material.picture.empty() ? glm::dvec3(70, 130, 50) / 255.0 : glm::dvec3(1);
+        CHECK(glm::distance(material.colour, colour) < 1e-6);
+    }
+    const ObjFile wood(ExportedPlant(branched_plant(), "obj").files.at(0).path);
+    CHECK(glm::distance(wood.materials.at("rgb_7a5c3e").colour, glm::dvec3(122, 92, 62) / 255.0) < 1e-6);
 }
