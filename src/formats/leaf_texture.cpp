@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t salt = 0x6c656166;
 constexpr double slenderness = 0.5;     ///< width by length of a blob
 constexpr double shortest_share = 0.7;  ///< of the longest blob
-constexpr int places_tried = 400;
+constexpr int places_tried = 1000;
 
 struct Blob {
     glm::dvec2 centre, along;

@@ -14,7 +14,7 @@ struct LeafTexture {
     std::size_t blobs = 60;
     std::array<std::uint8_t, 3> rgb{74, 122, 42};
     std::size_t size = 512;  ///< pixels along a side
-    double coverage = 0.35;  ///< share of the picture that the blobs would cover side by side
+    double coverage = 0.25;  ///< share of the picture that the blobs would cover side by side
     double variation = 0.2;  ///< largest change of a blob's brightness, as a share
     std::uint64_t seed = 0;
 };

@@ -56,7 +56,7 @@ TEST_CASE("a leaf texture has as many blobs as asked for, and nothing elsewhere"
             LeafTexture texture;
             texture.blobs = blobs;
             texture.seed = seed;
-            if (blobs == 1) texture.coverage = 0.1;
+            if (blobs < 10) texture.coverage = 0.1;
             const LeafPicture leaves = leaf_picture(texture);
             INFO(blobs << " blobs, seed " << seed);
             CHECK(leaves.overlapping == 0);

@@ -76,6 +76,7 @@ std::vector<OrganLevel> levels_of(vtkPolyData& shape) {
         decimation->SetErrorIsAbsolute(1);
         decimation->SetAbsoluteError(error);
         decimation->AccumulateErrorOn();
+        decimation->SetFeatureAngle(180);  // no vertex stays for its angle; the error alone decides
         decimation->SplittingOff();
         decimation->PreserveTopologyOn();
         decimation->Update();
