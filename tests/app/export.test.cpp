@@ -90,6 +90,23 @@ TEST_CASE("export makes a mesh coarser, splits it, and names files so that none 
     CHECK(few.err.find(fmt::format("no more than {} triangles", triangles)) != std::string::npos);
 }
 
+TEST_CASE("materials of an OBJ have the colours of the colour map", "[export]") {
+    const Workplace place;
+    std::string map(768, '\0');  // red, green and blue of 256 colours
+    const auto set = [&](std::size_t colour, const char* rgb) { map.replace(3 * colour, 3, rgb, 3); };
+    set(2, "\x66\x33\x00");
+    set(3, "\x00\x99\x33");
+    place.write("colours.map", map);
+    place.write("twig.l",
+                "lsystem: 1\nderivation length: 0\n"
+                "axiom: !(0.1) ;(2) F(1) ;(3) { . +(30) f(1) . -(120) f(1) . }\nendlsystem\n");
+    REQUIRE(place.run("run twig.l --colour-map colours.map --output run --quiet").code == 0);
+    REQUIRE(place.run("export run --output twig.obj").code == 0);
+    const std::string mtl = text_of(place.path() / "twig.mtl");
+    CHECK(mtl.find("newmtl rgb_663300\nKa 0 0 0\nKd 0.400000 0.200000 0.000000\n") != std::string::npos);
+    CHECK(mtl.find("newmtl rgb_009933\nKa 0 0 0\nKd 0.000000 0.600000 0.200000\n") != std::string::npos);
+}
+
 TEST_CASE("leaf-texture draws a picture, and explains what it cannot draw", "[export]") {
     const Workplace place;
     const Outcome outcome = place.run("leaf-texture --blobs 9 --size 128 --output made/leaves.png");

@@ -32,6 +32,25 @@ double outline_error(double area) {
     return std::sqrt(area) / 2;
 }
 
+/// Of a tube, seen from its side.
+double outline_area(const TubeLine& line) {
+    double area = 0;
+    for (std::size_t i = 1; i < line.nodes.size(); ++i) {
+        const TubeNode &from = line.nodes[i - 1], &to = line.nodes[i];
+        area += glm::distance(from.position, to.position) * (double(from.radius) + to.radius);
+    }
+    return area;
+}
+
+double area_of(const FrameMesh& mesh, const MeshPart& organ) {
+    double area = 0;
+    for (std::size_t i = 0; i < organ.triangles; ++i) {
+        const auto [a, b, c] = mesh.triangles[organ.first_triangle + i];
+        area += glm::length(glm::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+    }
+    return area;
+}
+
 class Reduction {
 public:
     Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points)
@@ -91,14 +110,7 @@ private:
         state.sides = tubes_[i].sides;
         state.gone.assign(state.nodes, false);
         state.thickest = 0;
-        double length = 0, area = 0;
-        for (std::size_t k = 0; k < state.nodes; ++k) {
-            state.thickest = std::max(state.thickest, line.nodes[k].radius);
-            if (k == 0) continue;
-            const double piece = glm::distance(line.nodes[k - 1].position, line.nodes[k].position);
-            length += piece;
-            area += piece * (double(line.nodes[k - 1].radius) + line.nodes[k].radius);
-        }
+        for (const TubeNode& node : line.nodes) state.thickest = std::max(state.thickest, node.radius);
         const std::vector<double> errors = node_errors(line, of_points);
         for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(errors[k], k);
         std::sort(state.leaving.rbegin(), state.leaving.rend());
@@ -106,19 +118,13 @@ private:
         push(0, Effect::caps, i);
         push_node(i);
         push_side(i);
-        push(outline_error(area), Effect::tube, i);
+        push(outline_error(outline_area(line)), Effect::tube, i);
     }
 
     void add_organ(std::size_t i) {
         const MeshPart& organ = organs_.parts[i];
-        double area = 0;
-        for (std::size_t k = 0; k < organ.triangles; ++k) {
-            const auto [a, b, c] = organs_.triangles[organ.first_triangle + k];
-            area +=
-                glm::length(glm::cross(organs_.points[b] - organs_.points[a], organs_.points[c] - organs_.points[a])) /
-                2;
-        }
-        organ_states_.push_back({&shapes_.of(organs_, organ), organ_size(organs_, organ), area, 0, organ.triangles});
+        organ_states_.push_back(
+            {&shapes_.of(organs_, organ), organ_size(organs_, organ), area_of(organs_, organ), 0, organ.triangles});
         count_ += organ.triangles;
         push_level(i);
     }
