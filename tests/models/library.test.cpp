@@ -42,7 +42,7 @@ std::string with_side_files(std::filesystem::path model) {
 }
 
 bool is_grown_by_experiments(const std::string& path) {
-    for (const char* folder : {"course", "light", "water", "topiary", "together"}) {
+    for (const char* folder : {"course", "light", "water", "topiary", "together", "colonization"}) {
         if (path.starts_with(std::string("models/") + folder + "/")) return true;
     }
     return false;

@@ -253,3 +253,43 @@ TEST_CASE("twisted-stem: the k-th branch is turned by k times the twist, and the
         }
     }
 }
+
+TEST_CASE("growth-kinds: laterals grow in the season of their birth only if growth is sylleptic", "[trees]") {
+    const auto laterals = [](const char* sylleptic, int steps) {
+        LonePlant tree("models/trees/growth-kinds.l", {{"SYLLEPTIC", sylleptic}});
+        tree.grow(steps);
+        const auto& internodes = tree.interpretation.geometry.internodes;
+        return std::count_if(internodes.begin(), internodes.end(), [](const Internode& one) { return one.order == 1; });
+    };
+    CHECK(laterals("1", 4) == 3 + 2 + 1);
+    CHECK(laterals("0", 4) == 0);
+    CHECK(laterals("0", 5) == 4);
+}
+
+TEST_CASE("growth-kinds: one apex follows each of a monochasium, two equal ones each of a dichasium", "[trees]") {
+    for (const int successors : {1, 2}) {
+        LonePlant tree("models/trees/growth-kinds.l", {{"KIND", std::to_string(successors + 1)}});
+        int apices = 1, flowers = 0;
+        for (int season = 0; season < 5; ++season) {
+            tree.grow(4);
+            flowers += apices;
+            apices *= successors;
+            CHECK(tree.counts()["K"] == flowers);
+            CHECK(tree.counts()["A"] == apices);
+            const std::vector<double> orders = values_of(tree.string, tree.model->alphabet, "A");
+            CHECK(std::all_of(orders.begin(), orders.end(), [&](double order) { return order == season + 1; }));
+        }
+    }
+}
+
+TEST_CASE("tropisms: axes come to the angle of their tropism with the stimulus", "[trees]") {
+    LonePlant plant("models/trees/tropisms.l", {{"PLAGIO", "70"}});
+    plant.grow(50);
+    std::vector<double> angles;
+    for (const auto& axis : axes_of(plant.interpretation.geometry)) {
+        angles.push_back(degrees_between(direction_of(axis.back()), {0, 1, 0}));
+    }
+    REQUIRE(angles.size() == 4);
+    const double expected[] = {0, 70, 90, 180};
+    for (std::size_t i = 0; i < 4; ++i) CHECK(angles[i] == Approx(expected[i]).margin(0.01));
+}
