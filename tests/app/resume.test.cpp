@@ -16,6 +16,7 @@ const char* const growing =
 
 const char* const lit =
     "[[plant]]\nmodel = \"growing.l\"\npositions = [[0, 0, 0], [1, 0, 0]]\n"
+    "[[plant.stage]]\nstage = \"pipe-radii\"\n[[plant.stage]]\nstage = \"leaves\"\n"
     "[environment.light]\nprocess = \"voxel-shade\"\n[timeline]\nfields = [\"light\"]\n";
 
 class Resumed : public Workplace {

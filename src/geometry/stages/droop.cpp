@@ -88,7 +88,8 @@ const Registered<GeometryStageType> entry{
 from      1; the first order that turns; 0: all
 count     "order": `from` is an order of branching, the main axis being 0; "nodes": it counts internodes from the base,
           the first being 1
-Lengths stay. Organs, polygons, meshes and labels turn with the internode that bears them.
+Lengths stay. Organs, polygons, meshes and labels turn with the internode that bears them; generalized cylinders are no
+internodes and do not bend.
 )",
      construct<Droop>}};
 
