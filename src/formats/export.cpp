@@ -64,6 +64,7 @@ void export_run(const ExportJob& job, std::span<const std::string> formats) {
         }
         exporters.push_back(type->second->make());
     }
+    for (const auto& exporter : exporters) exporter->check(job);
     if (!job.folder.empty()) make_folder(job.folder);
     for (const auto& exporter : exporters) exporter->write(job);
 }

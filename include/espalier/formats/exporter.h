@@ -61,6 +61,8 @@ public:
     virtual ~Exporter() = default;
     /// Of its files: "obj".
     virtual std::string extension() const = 0;
+    /// Throws UserError for what the format cannot have, before anything is written.
+    virtual void check(const ExportJob&) const {}
     virtual void write(const ExportJob& job) const = 0;
 };
 

@@ -332,14 +332,17 @@ class Gltf final : public Exporter {
 public:
     std::string extension() const override { return "glb"; }
 
-    void write(const ExportJob& job) const override {
-        const RecordedFrame& frame = *job.frames[0];
+    void check(const ExportJob& job) const override {
         if (job.frames.size() > 1) {
             refuse_triangles_and_split(job, "things that move have shapes of their own; export one --step");
         } else if (job.instances) {
             refuse_triangles_and_split(
                 job, "organs that are one shape in many places stay as they are; leave out --instances");
         }
+    }
+
+    void write(const ExportJob& job) const override {
+        const RecordedFrame& frame = *job.frames[0];
         if (job.frames.size() > 1) return job.report(Growth(job).write());
         job.report(job.instances ? Instances(job, frame).write() : write_frame(job, frame));
     }

@@ -236,27 +236,26 @@ private:
     std::optional<Instancers> instancers_;
 };
 
-void require_one_mesh(const ExportJob& job) {
-    if (job.most_vertices > 0) {
-        throw UserError(fmt::format("--split {}: USD counts vertices in 32 bits; obj, gltf, ply and stl are split",
-                                    job.most_vertices));
-    }
-    if (job.frames.size() > 1) {
-        refuse_triangles_and_split(job, "every step would have other triangles; export one --step");
-    } else if (job.instances) {
-        refuse_triangles_and_split(job,
-                                   "organs that are one shape in many places stay as they are; leave out --instances");
-    } else if (!job.mesh_axes) {
-        refuse_triangles_and_split(job, "axes are curves in USD; --mesh-axes makes them triangles");
-    }
-}
-
 class Usd final : public Exporter {
 public:
     std::string extension() const override { return "usda"; }
 
+    void check(const ExportJob& job) const override {
+        if (job.most_vertices > 0) {
+            throw UserError(fmt::format("--split {}: USD counts vertices in 32 bits; obj, gltf, ply and stl are split",
+                                        job.most_vertices));
+        }
+        if (job.frames.size() > 1) {
+            refuse_triangles_and_split(job, "every step would have other triangles; export one --step");
+        } else if (job.instances) {
+            refuse_triangles_and_split(
+                job, "organs that are one shape in many places stay as they are; leave out --instances");
+        } else if (!job.mesh_axes) {
+            refuse_triangles_and_split(job, "axes are curves in USD; --mesh-axes makes them triangles");
+        }
+    }
+
     void write(const ExportJob& job) const override {
-        require_one_mesh(job);
         const UsdFile file(job);
         const MeshName name{file.vertices(), file.triangles(), 0, ""};
         const auto path =
