@@ -27,14 +27,16 @@ class Replacement {
 public:
     explicit Replacement(const Settings::Evaluate& evaluate) : evaluate_(evaluate) {}
 
-    void below(Node& node, const std::string& key) {
+    void below(Node& node, const std::string& key, const Place& place) {
+        const bool is_table = node.type == Node::Type::table;
         for (std::size_t i = 0; i < node.items.size(); ++i) {
-            const std::string& name = node.type == Node::Type::table ? node.names[i] : key;
             std::shared_ptr<Node>& item = node.items[i];
+            const std::string& name = is_table ? node.names[i] : key;
+            const Place of_key = is_table ? item->place : place;
             if (item->type == Node::Type::text && item->text.starts_with('=')) {
-                replace(item, name);
+                replace(item, name, of_key);
             } else {
-                below(*item, name);
+                below(*item, name, of_key);
             }
         }
     }
@@ -43,9 +45,9 @@ public:
     }
 
 private:
-    void replace(std::shared_ptr<Node>& item, const std::string& name) {
+    void replace(std::shared_ptr<Node>& item, const std::string& name, const Place& key) {
         try {
-            item = computed(evaluate_(std::string_view(item->text).substr(1)), *item);
+            item = computed(evaluate_(std::string_view(item->text).substr(1), key), *item);
         } catch (const UserError& error) {
             if (error.diagnostics().front().place.known()) throw;  // not of the expression
             mistakes_.push_back({Diagnostic::Severity::error, item->place,
@@ -61,7 +63,7 @@ private:
 
 void Settings::replace_expressions(const Evaluate& evaluate) const {
     Replacement replacement(evaluate);
-    replacement.below(*node_, "");
+    replacement.below(*node_, "", node_->place);
     replacement.throw_if_any();
 }
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace espalier::language {
 namespace {
 
@@ -35,6 +37,22 @@ double value_of(std::string_view expression, const Preprocessed& source) {
     const std::optional<double> value = constant_value(read_expression(text, source));
     if (value) return *value;
     throw SyntaxError{{}, "it has no finite value that is known before anything grows"};
+}
+
+std::vector<std::string> macros_read_by(std::string_view expression, const Preprocessed& source) {
+    std::vector<std::string> found;
+    std::vector<std::string> texts{std::string(expression)};
+    for (std::size_t t = 0; t < texts.size(); ++t) {
+        for (std::size_t begin = 0, end = 0; begin < texts[t].size(); begin = end) {
+            end = end_of_token(texts[t], begin);
+            const std::string name = texts[t].substr(begin, end - begin);
+            const Macro* macro = source.macros.find(name);
+            if (!macro || std::find(found.begin(), found.end(), name) != found.end()) continue;
+            found.push_back(name);
+            texts.push_back(macro->body);
+        }
+    }
+    return found;
 }
 
 std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources& sources, Mistakes& mistakes) {

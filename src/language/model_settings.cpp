@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace espalier::language {
@@ -64,6 +65,15 @@ double ModelSettings::value(std::string_view expression) const {
     } catch (const SyntaxError& mistake) {
         throw UserError(mistake.message);
     }
+}
+
+std::vector<std::string> ModelSettings::read_by(std::string_view expression) const {
+    std::vector<std::string> names = macros_read_by(expression, contents_->source);
+    std::erase_if(names, [&](const std::string& name) {
+        const auto is_it = [&](const ModelSetting& setting) { return setting.name == name; };
+        return std::none_of(list().begin(), list().end(), is_it);
+    });
+    return names;
 }
 
 }  // namespace espalier::language

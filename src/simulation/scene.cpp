@@ -164,14 +164,18 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     if (options.seed) scene.overrides.emplace_back("simulation.seed", std::to_string(*options.seed));
     for (const auto& [key, value] : scene.overrides) root.set(key, value);
 
-    evaluate_expressions(root);
+    scene.computed = evaluate_expressions(root);
     Mistakes mistakes;
     mistakes.attempt([&] { reject_unknown_tables(root); });
     mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
     scene.plants = read_plants(root, scene.seed, mistakes, scene.notes);
-    mistakes.throw_if_any();
+    try {
+        mistakes.throw_if_any();
+    } catch (const UserError& error) {
+        throw explained(error, scene.computed);
+    }
     if (scene.steps) scene.last_frame.reset();
     end_without_window(scene);
     scene.root = root;

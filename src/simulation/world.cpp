@@ -4,6 +4,7 @@
 
 #include "base/bytes.h"
 #include "every_plant.h"
+#include "expressions.h"
 #include "growing_plant.h"
 #include "memory_budget.h"
 #include "string_checkpoint.h"
@@ -201,7 +202,11 @@ void World::State::make_environment() {
     const SceneEnvironment& described = scene.environment;
     const auto count = static_cast<std::uint32_t>(scene.plants.size());
     const EnvironmentContext context{"", scene.domain, scene.seed, count, shares.process, &warnings};
-    environment = std::make_unique<Environment>(described.processes, context);
+    try {
+        environment = std::make_unique<Environment>(described.processes, context);
+    } catch (const UserError& error) {
+        throw explained(error, scene.computed);
+    }
     for (const auto& process : described.processes) process.second.reject_unread();
     if (!described.default_process.empty()) environment->set_default(described.default_process);
     if (described.routed) environment->route_by_first_parameter();

@@ -135,11 +135,14 @@ TEST_CASE("lists of tables and keys that a reader only looks for are offered whe
 TEST_CASE("texts that begin with '=' are replaced by what they are worth", "[base]") {
     const Settings settings = Settings::parse_toml(
         "a = '= x'\nb = [1, '=y', ['= x']]\nflag = '= one'\nname = 'x = y'\n[[c]]\nd = '= half'\n", "s.toml");
-    const auto evaluate = [](std::string_view text) {
+    std::vector<std::string> keys;
+    const auto evaluate = [&](std::string_view text, const Place& key) {
+        keys.push_back(to_string(key));
         const std::map<std::string_view, double> values{{" x", 3}, {"y", -2}, {" one", 1}, {" half", 0.5}};
         return values.at(text);
     };
     settings.replace_expressions(evaluate);
+    CHECK(keys == std::vector<std::string>{"s.toml:1:1", "s.toml:2:1", "s.toml:2:1", "s.toml:3:1", "s.toml:6:1"});
     CHECK(settings.integer("a") == 3);
     CHECK(settings.number("a") == 3);
     CHECK_THROWS_WITH(settings.numbers("b"), Contains("'b' must be a number, not an array"));
@@ -152,7 +155,9 @@ TEST_CASE("texts that begin with '=' are replaced by what they are worth", "[bas
 
 TEST_CASE("every expression that has no value is told of, with its key and place", "[base]") {
     const Settings settings = Settings::parse_toml("a = '= x'\n[t]\nb = [0, '= y']\n", "s.toml");
-    const auto refuse = [](std::string_view text) -> double { throw UserError("no" + std::string(text)); };
+    const auto refuse = [](std::string_view text, const Place&) -> double {
+        throw UserError("no" + std::string(text));
+    };
     try {
         settings.replace_expressions(refuse);
         FAIL("expected an error");

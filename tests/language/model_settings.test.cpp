@@ -143,6 +143,15 @@ TEST_CASE("expressions are read with all definitions of the model", "[language]"
     CHECK_THAT(refused_expression("WIDTH = 2"), Contains("assigned"));
 }
 
+TEST_CASE("an expression knows the settings that it reads, also through other definitions", "[language]") {
+    using Names = std::vector<std::string>;
+    CHECK(settings().read_by("2 * WIDTH + WIDTH + INFLUENCE") == Names{"WIDTH", "GNARLY"});
+    CHECK(settings().read_by("TWICE(DEPTH) + WIDTHS").size() == 1);
+    CHECK(settings().read_by("D + 1").empty());
+    const auto loop = ModelSettings::parse("#define A B /* a; 0.. */\n#undef A\n#define B C\n#define C B\n", "m.l");
+    CHECK(loop.read_by("B").empty());
+}
+
 TEST_CASE("a model with mistakes of the preprocessor has no settings", "[language]") {
     CHECK_THROWS_AS(ModelSettings::parse("#if 1\n", "n.l"), UserError);
     CHECK_THROWS_AS(ModelSettings::parse("#define N 1\n", "n.l", {}, {{"M", "2"}}), UserError);

@@ -105,6 +105,14 @@ TEST_CASE_METHOD(ScenesOfRows, "an expression without a value is an error at its
     CHECK_THAT(message(row + "[simulation]\ndt = '= ON'\n"), Contains("scene.toml:4:1: 'dt' must be greater than 0"));
 }
 
+TEST_CASE_METHOD(ScenesOfRows, "an error about a computed value names the settings that it was computed from",
+                 "[simulation]") {
+    CHECK_THAT(message(row + "[[plant.stage]]\nstage = 'pipe-radii'\ntip = '= REACH * GNARLY - 10'\n"),
+               Contains("scene.toml:5:1: 'tip' must be greater than 0, not -9.") && Contains("(computed from GNARLY)"));
+    const Scene scene = read(row + "[environment.light]\nprocess = 'voxel-shade'\nvoxel = '= 0 * REACH'\n");
+    CHECK_THROWS_WITH(World(scene), Contains("'voxel'") && Contains("(computed from GNARLY)"));
+}
+
 TEST_CASE_METHOD(ScenesOfRows, "mistakes of the model are told once, and a missing model as ever", "[simulation]") {
     const std::string expressions = "[timeline]\nfirst = '= D'\nevery = '= D'\n";
     CHECK_THAT(message("[[plant]]\nmodel = 'no.l'\n" + expressions), Contains("there is no model"));

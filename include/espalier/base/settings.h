@@ -90,9 +90,10 @@ public:
     /// The value is read as TOML, or taken as text if it is not. Throws UserError if the path leads nowhere sensible.
     void set(std::string_view dotted_key, std::string_view value);
 
-    /// Replaces texts that begin with '=', here and below, by what `evaluate` makes of the rest. A flag may be computed
-    /// as 0 or 1. Throws UserError naming the keys of all expressions that `evaluate` refuses without a place.
-    using Evaluate = std::function<double(std::string_view expression)>;
+    /// Replaces texts that begin with '=', here and below, by what `evaluate` makes of the rest; `key` is the place of
+    /// the key that holds the expression. A flag may be computed as 0 or 1. Throws UserError naming the keys of all
+    /// expressions that `evaluate` refuses without a place.
+    using Evaluate = std::function<double(std::string_view expression, const Place& key)>;
     void replace_expressions(const Evaluate& evaluate) const;
 
     /// One value as a program gives it; relative paths are relative to the current folder.

@@ -50,6 +50,8 @@ public:
     /// The value of an expression in which names are #defines of the model, documented or not. Throws UserError,
     /// without a place, for what has no finite value.
     double value(std::string_view expression) const;
+    /// The names of the settings that an expression reads, directly or through other #defines.
+    std::vector<std::string> read_by(std::string_view expression) const;
 
 private:
     struct Contents;

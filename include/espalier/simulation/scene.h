@@ -55,6 +55,13 @@ struct SceneEnvironment {
     bool keeps_unanswered = false;                            ///< queries without a process keep their parameters
 };
 
+/// A value of a scene file that an expression gave.
+struct ComputedValue {
+    Place place;                        ///< of its key
+    std::string expression;             ///< without the '='
+    std::vector<std::string> settings;  ///< of the model, that it reads
+};
+
 /// What was noticed in the files of a scene and did not keep it from being read.
 struct SceneNotes {
     std::vector<Diagnostic> diagnostics;       ///< errors are what `check` refuses and a run ignores
@@ -87,6 +94,7 @@ struct Scene {
     std::string text;                                            ///< as it was read, before overrides
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, and --steps and --seed
     Settings root;                                               ///< the whole file, for `resolved_json`
+    std::vector<ComputedValue> computed;                         ///< the expressions of the file
     SceneNotes notes;
 };
 

@@ -100,6 +100,8 @@ public:
         app()
             .add_option("--threads", arguments_.threads, "number of threads; default: all cores")
             ->check(CLI::Range(1, 4096));
+        app().add_option("--memory", memory_,
+                         "memory that the growth may use, such as 4G; default: half of the machine");
         app().add_flag("--quiet", arguments_.quiet, "print errors only");
         add_json_flag("print the result as JSON");
         // The model is read only if somebody asks for a tree.
@@ -194,6 +196,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         arguments_.model.file = kind_->scene;
         arguments_.output = folder;
         arguments_.seed = parse_seed(seed_);
+        if (!memory_.empty()) arguments_.memory = size_in_bytes(memory_, "--memory");
         if (!arguments_.seed) arguments_.seed = kind_->values.seed();
         for (const auto& [name, value] : kind_->values.defines()) {
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
@@ -251,7 +254,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     std::string unreadable_;
     std::vector<std::pair<const ModelSetting*, std::string>> said_;
     RunArguments arguments_;
-    std::string preset_, seed_;
+    std::string preset_, seed_, memory_;
     fs::path output_, settings_, saved_, run_;
     MeshFileOptions mesh_;
 };
