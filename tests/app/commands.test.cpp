@@ -35,7 +35,8 @@ std::vector<std::string> words_after(const std::string& beginning, const std::st
 TEST_CASE_METHOD(Workplace, "help teaches by example and never fails", "[app]") {
     CHECK(run("--help").code == 0);
     CHECK(run("--version").out == std::string(ESPALIER_VERSION) + "\n");
-    for (const char* command : {"run", "check", "derive", "info", "list", "plot", "analyse", "export", "leaf-texture"}) {
+    for (const char* command :
+         {"run", "check", "derive", "info", "list", "plot", "analyse", "export", "leaf-texture"}) {
         const Outcome outcome = run(std::string(command) + " --help");
         CHECK(outcome.code == 0);
         CHECK_THAT(outcome.out, Contains("Example") && Contains(std::string("espalier ") + command));

@@ -8,7 +8,14 @@
 namespace espalier {
 
 /// What samples are for. Streams never disturb each other.
-enum class Stream : std::uint32_t { derivation = 1, homomorphism = 2, blocks = 3, process = 4, placement = 5, stage = 6 };
+enum class Stream : std::uint32_t {
+    derivation = 1,
+    homomorphism = 2,
+    blocks = 3,
+    process = 4,
+    placement = 5,
+    stage = 6
+};
 
 /// Mixes 64 bits so that neighbouring inputs give unrelated outputs (SplitMix64's finalizer).
 constexpr std::uint64_t mix(std::uint64_t value) {
