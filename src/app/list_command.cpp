@@ -1,6 +1,7 @@
 #include "espalier/environment/shape.h"
 #include "espalier/formats/exporter.h"
 #include "espalier/language/model_settings.h"
+#include "espalier/language/notation.h"
 #include "espalier/simulation/scene.h"
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
@@ -68,6 +69,7 @@ const std::vector<Kind>& kinds() {
         {"processes", "the environment of the plants: [environment.<name>] process = \"...\"", parts_of<ProcessType>},
         {"symbols", "the symbols of the turtle and what they do", symbol_parts},
         {"recorders", "the files of a run: [timeline]", parts_of<RecorderType>},
+        {"notations", "other ways to write a model, which run, derive and scenes take", parts_of<NotationType>},
         {"stages", "what changes a plant's geometry before it is recorded: [[plant.stage]] stage = \"...\"",
          parts_of<GeometryStageType>},
         {"exporters", "formats of `espalier export`",

@@ -1,6 +1,7 @@
 #include "espalier/language/reader.h"
 
 #include "espalier/base/file.h"
+#include "espalier/language/notation.h"
 
 #include "base/characters.h"
 #include "language/definitions.h"
@@ -59,6 +60,9 @@ std::shared_ptr<const Model> read(std::string text, const std::string& name, con
 }  // namespace
 
 std::shared_ptr<const Model> read_model(const std::filesystem::path& path, const ReadOptions& options) {
+    if (notation_of(path)) {
+        return read(translated(path), path.string() + ", translated", path, path.parent_path(), options);
+    }
     return read(read_text(path), path.string(), path, path.parent_path(), options);
 }
 

@@ -2,6 +2,7 @@
 #include "espalier/environment/environment_process.h"
 #include "espalier/formats/exporter.h"
 #include "espalier/geometry/geometry_stage.h"
+#include "espalier/language/notation.h"
 
 #include "catch.h"
 #include "sources.h"
@@ -56,6 +57,16 @@ TEST_CASE("every file of geometry/stages registers the geometry stage it is name
         INFO(name);
         CHECK(!stage->summary.empty());
         CHECK(!stage->help.empty());
+    }
+}
+
+TEST_CASE("every file of language/notations registers the notation it is named after and explains it", "[layout]") {
+    CHECK(parts_in("src/language/notations") == names_of<espalier::NotationType>());
+    for (const auto& [name, notation] : espalier::registered<espalier::NotationType>()) {
+        INFO(name);
+        CHECK(notation->extension.starts_with("."));
+        CHECK(!notation->summary.empty());
+        CHECK(!notation->help.empty());
     }
 }
 

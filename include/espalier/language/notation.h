@@ -1,0 +1,35 @@
+// A notation is another way to write a model. One file in src/language/notations/ per notation.
+#pragma once
+
+#include "espalier/base/registry.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace espalier::language {
+
+/// What a file of src/language/notations/ registers: a translator into the language of models.
+struct NotationType {
+    std::string name;       ///< what the file is called in messages: "pgraph"
+    std::string extension;  ///< of its files: ".pgraph"
+    std::string summary;    ///< a line
+    std::string help;       ///< the notation: its parts with units, ranges and defaults; the published source
+    /// The model of a file's text, as text that can be run. Throws UserError with every mistake at its own place.
+    std::function<std::string(const std::string& text, const std::filesystem::path& path)> translate;
+};
+
+/// The notation that files of this extension are written in; null for models themselves.
+const NotationType* notation_of(const std::filesystem::path& path);
+
+/// The model that a file in a notation stands for. Throws UserError for a file in none.
+std::string translated(const std::filesystem::path& path);
+
+}  // namespace espalier::language
+
+namespace espalier {
+
+using language::notation_of;
+using language::NotationType;
+
+}  // namespace espalier
