@@ -1,5 +1,10 @@
-// How strongly each tropism acts from here on. Tropisms are counted from 1; another number changes nothing.
+// How strongly each tropism acts from here on. Tropisms are counted from 1; another number changes nothing. And one
+// turn towards a direction of the model's own.
 #include "espalier/turtle/symbol.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
 
 namespace espalier::turtle {
 namespace {
@@ -10,6 +15,24 @@ void increase(Walk& walk, std::span<const double> parameters, double sign) {
     const auto index = std::size_t(elasticity - walk.elasticities.data());
     *elasticity += sign * (parameters.size() > 1 ? parameters[1] : walk.settings().tropisms[index].elasticity_step);
 }
+
+// The turn of Prusinkiewicz & Lindenmayer 1990, section 2.3, once and now.
+void turn_towards(Walk& walk, std::span<const double> parameters) {
+    Tropism tropism;
+    tropism.direction = {parameters[0], parameters[1], parameters[2]};
+    const double length = glm::length(tropism.direction);
+    if (!std::isfinite(length * parameters[3])) walk.fail("a direction or a strength that is not a number");
+    if (length == 0) return;
+    tropism.direction /= length;
+    bend_by_tropisms(walk.turtle().pose, std::span(&tropism, 1), parameters.subspan(3, 1));
+}
+
+const Registered<Symbol> towards{
+    {"@Th",
+     {4},
+     "@Th(x, y, z, strength): turn the heading towards (x, y, z) by strength times the sine of the angle between, in "
+     "radians, at most 1",
+     turn_towards}};
 
 const Registered<Symbol> set{
     {"@Ts", {2}, "@Ts(tropism, elasticity): set the elasticity", [](Walk& walk, std::span<const double> parameters) {

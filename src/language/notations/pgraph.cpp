@@ -1,0 +1,39 @@
+// Graphs of component prototypes (p-graphs): plants from parts that multiply and repeat one another.
+#include "espalier/language/notation.h"
+
+#include "language/pgraph/schema.h"
+#include "language/pgraph/translation.h"
+
+namespace espalier::language {
+namespace {
+
+std::string help() {
+    return R"(A file states components with their keys, and links between them:
+
+    pgraph 1
+    Horn stem
+      length 2
+      bend 1 .. -1
+    Phiball head
+      count 100
+    Horn hair
+      length 0.2 .. 0.3 noise 0.05
+    camera -> stem -> head -> hair
+
+Links: -> child, -B-> branch of a Tree, -L-> leaf: in place of links that lead back, once these have come to the limit
+`recursion` of where they lead.
+Values: a number; or a range a .. b, spread over the instances i = 0 .. n - 1 of the component, over the children of a
+multiplier, or along the axis of a horn; then perhaps `then f(x)`, a function of that, and `noise a`, at most a more or
+less. Numbers are expressions of the language of models, in the names i, n, u = i / (n - 1), depth (of the recursion)
+and those of #define, which may be settings.
+Source: Lintermann & Deussen 1997, Erzeugung komplexer botanischer Objekte in der Computergraphik.
+)" + pgraph::describe_types();
+}
+
+const Registered<NotationType> entry{{"pgraph", ".pgraph", "plants as graphs of components (Lintermann & Deussen 1997)",
+                                      help(), [](const std::string& text, const std::filesystem::path& path) {
+                                          return pgraph::translate(pgraph::parse(text, path.string()));
+                                      }}};
+
+}  // namespace
+}  // namespace espalier::language

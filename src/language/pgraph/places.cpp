@@ -1,0 +1,104 @@
+// Components that place what follows them: one simple body, the multipliers, and the world.
+#include "language/pgraph/model_text.h"
+
+#include <fmt/format.h>
+
+namespace espalier::language::pgraph {
+namespace {
+
+constexpr int sides_of_cylinder = 32;
+
+/// A face of a box after the turtle moved out to its middle line: `across` by the length.
+std::string face(const std::string& out, const std::string& across) {
+    return fmt::format(
+        "&(90) f({0} / 2) ^(90) -(90) f({1} / 2) +(90) {{ . f(length) +(90) f({1}) +(90) f(length) "
+        "+(90) f({1}) }}",
+        out, across);
+}
+
+std::string end_of_box(const std::string& before) {
+    return fmt::format(
+        "[ {}&(90) f(depth / 2) +(90) f(width / 2) +(90) {{ . f(depth) +(90) f(width) +(90) f(depth) "
+        "+(90) f(width) }} ] ",
+        before);
+}
+
+std::string box() {
+    std::string text;
+    for (int side = 0; side < 4; ++side) {
+        const bool is_deep = side % 2 == 0;
+        text += fmt::format("[ /({}) {} ] ", 90 * side, is_deep ? face("depth", "width") : face("width", "depth"));
+    }
+    return text + end_of_box("/(180) ") + end_of_box("f(length) ") + "f(length)";
+}
+
+struct Shape {
+    std::vector<std::string> keys;
+    std::string drawn;
+};
+
+Shape shape_of(const std::string& name) {
+    if (name == "sphere") return {{"radius"}, "@O(2 * radius)"};
+    if (name == "cylinder") {
+        return {{"length", "radius"}, fmt::format("@!({}) !(2 * radius) @Gs f(length) @Ge(1)", sides_of_cylinder)};
+    }
+    if (name == "box") return {{"length", "width", "depth"}, box()};
+    return {{}, "*"};
+}
+
+/// Where child i of n stands.
+std::string place_of(const ComponentText& text) {
+    const std::string angle =
+        fmt::format("&({}) @Di({}) ", text.values().number("angle"), text.values().number("child_scale"));
+    if (text.component().type == "Hydra") return "/(360 * i / n) " + angle;
+    if (text.component().type == "Ring") return "/(360 * i / n) &(90) f(radius) ^(90) " + angle;
+    return "/(divergence * i) &(acos(lerp(cos(from), cos(to), (i + 0.5) / n))) f(radius) " + angle;
+}
+
+std::vector<std::string> keys_of_place(const std::string& type) {
+    if (type == "Hydra") return {};
+    if (type == "Ring") return {"radius"};
+    return {"radius", "from", "to", "divergence"};
+}
+
+}  // namespace
+
+void write_simple(ComponentText& text) {
+    const Shape shape = shape_of(value_of(text.component(), "shape").parts.front());
+    const Parameters parameters = text.parameters(shape.keys);
+    text.productions.push_back(fmt::format("{}({}) --> {}{}{}", text.bud(), text.place(), text.placing(),
+                                           ComponentText::call(text.kept(), values_of(parameters)),
+                                           text.followers(LinkKind::child)));
+    text.homomorphism.push_back(
+        fmt::format("{} --> {}", text.declared(text.kept(), names_of(parameters)), shape.drawn));
+}
+
+void write_multiplier(ComponentText& text) {
+    Parameters parameters{{"count", text.values().whole("count")}};
+    for (const auto& parameter : text.parameters(keys_of_place(text.component().type))) parameters.push_back(parameter);
+    const std::string names = names_of(parameters), of = text.bud() + "Of", each = text.bud() + "Each";
+    text.productions.push_back(fmt::format("{}({}) --> {}{}({}, {})", text.bud(), text.place(), text.placing(), of,
+                                           text.place(), values_of(parameters)));
+
+    const std::string rest = "n" + text.depths() + ", " + names;
+    const std::string kept = text.declared(text.kept(), names);
+    text.decomposition.push_back(fmt::format("{} --> {} {}(0, count, count{}, {})",
+                                             text.declared(of, text.place() + ", " + names), kept, each, text.depths(),
+                                             names));
+    const std::string some = text.declared(each, "i, past, " + rest);
+    text.decomposition.push_back(
+        fmt::format("{0} : past - i > 1 --> {1}(i, floor((i + past) / 2), {2}) {1}(floor((i + past) / 2), past, {2})",
+                    some, each, rest));
+    text.decomposition.push_back(
+        fmt::format("{} : past - i == 1 -->{}", some, text.followers(LinkKind::child, place_of(text))));
+    text.decomposition.push_back(fmt::format("{} --> *", some));
+    text.homomorphism.push_back(fmt::format("{} --> *", kept));
+}
+
+void write_world(ComponentText& text) {
+    text.productions.push_back(
+        fmt::format("{}({}) --> {}{}", text.bud(), text.place(), text.kept(), text.followers(LinkKind::child)));
+    text.homomorphism.push_back(fmt::format("{} --> *", text.declared(text.kept(), "")));
+}
+
+}  // namespace espalier::language::pgraph

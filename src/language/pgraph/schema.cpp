@@ -1,0 +1,218 @@
+#include "language/pgraph/schema.h"
+
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace espalier::language::pgraph {
+namespace {
+
+using enum KeyKind;
+
+std::vector<Key> joined(std::initializer_list<std::vector<Key>> lists) {
+    std::vector<Key> all;
+    for (const std::vector<Key>& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+const std::vector<Key>& placing() {
+    static const std::vector<Key> keys{
+        {"roll", instance, "degrees", -unbounded, unbounded, "0", "about the heading, first of all"},
+        {"pitch", instance, "degrees", -unbounded, unbounded, "0", "then away from the axis it stands on"},
+        {"turn", instance, "degrees", -unbounded, unbounded, "0", "then sideways"},
+        {"move", instance, "m", -unbounded, unbounded, "0", "then forward"},
+        {"scale", instance, "", 1e-6, unbounded, "1", "of the component and of all that follows it"},
+        {"colour", instance, "", 0, 255, "128", "index in the colour map; without this key, that of its parent"},
+    };
+    return keys;
+}
+
+const std::vector<Key> recursion{
+    {"recursion", literal, "", 1, 1000, "1", "instances on one path, for a component that a link leads back to"}};
+
+const std::vector<Key> horn{
+    {"length", instance, "m", 0, unbounded, "1", "of the axis"},
+    {"radius", axis, "m", 0, unbounded, "0.05 .. 0.02", "of the cross-section, from base to tip"},
+    {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
+    {"sway", axis, "degrees", -180, 180, "0", "turn from one piece to the next"},
+    {"twist", axis, "degrees", -unbounded, unbounded, "0", "roll from one piece to the next"},
+    {"pieces", instance, "", 1, 10000, "8", "pieces of the cone"},
+    {"sides", literal, "", 0, 256, "0", "of a closed surface; 0: internodes, which cost less"},
+};
+
+const std::vector<Key> tropisms{
+    {"gravitropism", instance, "", -unbounded, unbounded, "0",
+     "a piece turns towards gravity by this times the sine of the angle between, in radians; negative: away"},
+    {"phototropism", instance, "", -unbounded, unbounded, "0", "the same towards the light"},
+};
+
+std::vector<Key> multiplier(const std::string& count, const std::string& angle) {
+    return {
+        {"count", instance, "", 0, 1e6, count, "children, rounded"},
+        {"angle", children, "degrees", -unbounded, unbounded, angle, "of each child with the direction of its place"},
+        {"child_scale", children, "", 1e-6, unbounded, "1", "of each child"},
+    };
+}
+
+std::vector<Key> radius(const std::string& standard, const std::string& summary) {
+    return {{"radius", instance, "m", 0, unbounded, standard, summary}};
+}
+
+const std::vector<Key> divergence{
+    {"divergence", instance, "degrees", -unbounded, unbounded, "137.50776405", "about the axis, from one to the next"}};
+
+std::vector<ComponentType> make_types() {
+    std::vector<ComponentType> types;
+    types.push_back({"Simple", "a sphere, a cylinder, a box or nothing; places what follows it",
+                     joined({{{"shape", word, "none|sphere|cylinder|box", 0, 0, "none", "what is drawn"},
+                              {"length", instance, "m", 0, unbounded, "1", "of a cylinder or box"},
+                              {"width", instance, "m", 0, unbounded, "1", "of a box"},
+                              {"depth", instance, "m", 0, unbounded, "1", "of a box"}},
+                             radius("0.5", "of a sphere or cylinder"),
+                             placing(),
+                             recursion})});
+    types.push_back({"Horn", "a bent cone; what follows it stands on its tip", joined({horn, placing(), recursion})});
+    types.push_back(
+        {"Tree", "a horn with tropisms that carries branches",
+         joined({horn,
+                 tropisms,
+                 {{"branches", instance, "", 0, 1e5, "0", "of every branch link, rounded"},
+                  {"at", children, "", 0, 1, "0.2 .. 1", "part of the axis below each branch, not decreasing"},
+                  {"angle", children, "degrees", -unbounded, unbounded, "45", "of each branch with the axis"},
+                  {"child_scale", children, "", 1e-6, unbounded, "1", "of each branch"}},
+                 divergence,
+                 placing(),
+                 recursion}),
+         false, true});
+    types.push_back(
+        {"Leaf", "a blade of polygons on both sides of a midrib",
+         joined({{{"length", instance, "m", 0, unbounded, "1", "of the midrib"},
+                  {"width", instance, "m", 0, unbounded, "0.5", "of the blade where the outline is 1"},
+                  {"outline", list, "", 0, unbounded, "0, 0.8, 1, 0.7, 0",
+                   "of one half, at equal distances from base to tip; a smooth curve passes through"},
+                  {"fold", instance, "degrees", -90, 90, "0", "by which both halves rise"},
+                  {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
+                  {"waves", instance, "", 0, 1000, "0", "of the edge"},
+                  {"wave_height", instance, "m", 0, unbounded, "0", "of these waves"},
+                  {"pieces", literal, "", 1, 1000, "4", "of the blade"}},
+                 tropisms,
+                 placing(),
+                 recursion})});
+    types.push_back({"Hydra", "multiplies its children as a star about the axis",
+                     joined({multiplier("5", "45"), placing(), recursion}), true});
+    types.push_back({"Ring", "multiplies its children on a circle about the axis",
+                     joined({multiplier("5", "0"), radius("1", "of the circle"), placing(), recursion}), true});
+    types.push_back({"Phiball", "multiplies its children on a section of a sphere by the golden section",
+                     joined({multiplier("100", "0"),
+                             radius("1", "of the sphere"),
+                             {{"from", instance, "degrees", 0, 180, "0", "of the section, measured from the heading"},
+                              {"to", instance, "degrees", 0, 180, "180", "of the section"}},
+                             divergence,
+                             placing(),
+                             recursion}),
+                     true});
+    types.push_back({"World",
+                     "replaces the directions that tropisms turn to, for what follows it",
+                     {{"gravity", list, "", -unbounded, unbounded, "0, -1, 0", "x, y, z"},
+                      {"light", list, "", -unbounded, unbounded, "0, 1, 0", "x, y, z"}},
+                     false,
+                     false,
+                     false});
+    return types;
+}
+
+std::string trimmed(const std::string& text) {
+    std::string result;
+    for (const std::string& part : words_of(text, " \t\r")) result += (result.empty() ? "" : " ") + part;
+    return result;
+}
+
+/// The places of a separator outside parentheses. A word stands between blanks.
+std::vector<std::string> split(const std::string& text, const std::string& separator) {
+    std::vector<std::string> parts{""};
+    int depth = 0;
+    for (std::size_t k = 0; k < text.size();) {
+        depth += text[k] == '(' || text[k] == '[' ? 1 : text[k] == ')' || text[k] == ']' ? -1 : 0;
+        if (depth == 0 && text.compare(k, separator.size(), separator) == 0) {
+            parts.emplace_back();
+            k += separator.size();
+        } else {
+            parts.back() += text[k++];
+        }
+    }
+    for (std::string& part : parts) part = trimmed(part);
+    return parts;
+}
+
+bool has_empty(const std::vector<std::string>& parts) {
+    return std::find(parts.begin(), parts.end(), "") != parts.end();
+}
+
+}  // namespace
+
+const Key* ComponentType::find(const std::string& key) const {
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& each) { return each.name == key; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+const std::vector<ComponentType>& component_types() {
+    static const std::vector<ComponentType> types = make_types();
+    return types;
+}
+
+const ComponentType* find_type(const std::string& name) {
+    for (const ComponentType& type : component_types()) {
+        if (type.name == name) return &type;
+    }
+    return nullptr;
+}
+
+bool read_value(const std::string& written, KeyKind kind, Value& value) {
+    const std::string text = trimmed(written);
+    if (kind == word || kind == literal || kind == list) {
+        value.parts = split(text, ",");
+        return !has_empty(value.parts) && (kind == list || value.parts.size() == 1);
+    }
+    const std::vector<std::string> noisy = split(text, " noise ");
+    const std::vector<std::string> mapped = split(noisy.front(), " then ");
+    value.parts = split(mapped.front(), "..");
+    value.is_range = value.parts.size() == 2;
+    if (mapped.size() == 2) value.function = mapped.back();
+    if (noisy.size() == 2) value.noise = noisy.back();
+    return noisy.size() < 3 && mapped.size() < 3 && value.parts.size() < 3 && !has_empty(noisy) && !has_empty(mapped) &&
+           !has_empty(value.parts);
+}
+
+Value value_of(const Component& component, const std::string& key) {
+    if (const Value* value = component.find(key)) return *value;
+    const Key* known = find_type(component.type)->find(key);
+    Value standard;
+    read_value(known->standard, known->kind, standard);
+    return standard;
+}
+
+std::string describe_types() {
+    const auto bound = [](double value) { return std::isfinite(value) ? format_general(value) : std::string(); };
+    const auto how = [](KeyKind kind) {
+        return kind == instance   ? "over instances"
+               : kind == children ? "over children"
+               : kind == axis     ? "along the axis"
+               : kind == list     ? "list"
+                                  : "fixed";
+    };
+    std::string text;
+    for (const ComponentType& type : component_types()) {
+        text += fmt::format("\n{}: {}\n", type.name, type.summary);
+        for (const Key& key : type.keys) {
+            const std::string range = key.kind == word ? key.unit : bound(key.lowest) + ".." + bound(key.highest);
+            text += fmt::format("  {:13} {:14} {:11} {:8} default {:17} {}\n", key.name, how(key.kind), range,
+                                key.kind == word ? "" : key.unit, key.standard, key.summary);
+        }
+    }
+    return text;
+}
+
+}  // namespace espalier::language::pgraph

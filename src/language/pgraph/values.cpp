@@ -1,0 +1,172 @@
+#include "language/pgraph/values.h"
+
+#include "espalier/language/model_settings.h"
+
+#include "base/characters.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace espalier::language::pgraph {
+namespace {
+
+/// The names that differ from instance to instance, and the random numbers, each with a value to try expressions with.
+const std::string trial =
+    "#define i 1\n#define n 3\n#define u 0.5\n#define depth 1\n#define x 0.5\n"
+    "#define ran(a) ((a) * 0.5)\n#define nran(a, b) (a)\n#define bran(a, b) 0.5\n#define biran(a, b) (a)\n";
+
+bool differs_by_instance(const std::string& expression) {
+    std::map<std::string, std::string> marks;
+    for (const char* name : {"i", "n", "u", "depth", "ran", "nran", "bran", "biran"}) marks[name] = "?";
+    return substituted(expression, marks) != expression;
+}
+
+class Check {
+public:
+    explicit Check(const Graph& graph) : graph_(graph), trial_(ModelSettings::parse(definitions() + trial, "trial")) {}
+
+    void run() {
+        for (const Component& component : graph_.components) {
+            for (const KeyValue& each : component.keys) {
+                check(*find_type(component.type)->find(each.key), each.value);
+            }
+        }
+        if (!mistakes_.empty()) throw UserError(mistakes_);
+    }
+
+    std::optional<double> value_of(const std::string& expression, const Place& place) {
+        try {
+            return trial_.value(expression);
+        } catch (const UserError& error) {
+            report(place, fmt::format("'{}' is no expression: {}", expression, error.what()));
+            return std::nullopt;
+        }
+    }
+
+private:
+    std::string definitions() const {
+        std::string text;
+        for (const std::string& define : graph_.defines) text += define + "\n";
+        return text;
+    }
+
+    void check(const Key& key, const Value& value) {
+        if (key.kind == KeyKind::word) return check_word(key, value);
+        for (const std::string& part : value.parts) check_number(key, part, value.place);
+        if (!value.function.empty()) value_of(value.function, value.place);
+        if (!value.noise.empty()) value_of(value.noise, value.place);
+        if (!value.noise.empty() && (key.kind == KeyKind::axis || key.name == "at")) {
+            report(value.place, fmt::format("'{}' takes no noise; write ran() into its ends instead", key.name));
+        }
+        if (key.kind == KeyKind::axis && differs_by_instance(value.function)) {
+            report(value.place, fmt::format("the function of '{}' is one of x alone", key.name));
+        }
+        const bool is_vector = key.kind == KeyKind::list && key.summary == "x, y, z";
+        if (is_vector && value.parts.size() != 3) report(value.place, fmt::format("'{}' is x, y, z", key.name));
+        if (key.kind == KeyKind::list && value.parts.size() < 2) {
+            report(value.place, fmt::format("'{}' needs two numbers or more", key.name));
+        }
+    }
+
+    void check_word(const Key& key, const Value& value) {
+        const std::vector<std::string> words = words_of(key.unit, "|");
+        const std::string& word = value.parts.front();
+        if (std::find(words.begin(), words.end(), word) != words.end()) return;
+        report(value.place, fmt::format("'{}' is {}, not '{}'{}", key.name, key.unit, word, did_you_mean(word, words)));
+    }
+
+    // The function may bring a number into its range, so only bare constants are held against it.
+    void check_number(const Key& key, const std::string& expression, const Place& place) {
+        const std::optional<double> number = value_of(expression, place);
+        const bool is_literal = key.kind == KeyKind::literal;
+        const auto is_digits = [](const std::string& text) { return std::all_of(text.begin(), text.end(), is_digit); };
+        if (is_literal && !is_digits(expression)) {
+            return report(place, fmt::format("'{}' is a whole number in digits, not '{}'", key.name, expression));
+        }
+        if (!number || differs_by_instance(expression)) return;
+        if (*number >= key.lowest && *number <= key.highest) return;
+        const std::string highest = std::isfinite(key.highest) ? format_general(key.highest) : "";
+        report(place, fmt::format("'{}' is in {}..{}{}, not {}", key.name, format_general(key.lowest), highest,
+                                  key.unit.empty() ? "" : " " + key.unit, format_general(*number)));
+    }
+
+    void report(const Place& place, const std::string& message) {
+        mistakes_.push_back({Diagnostic::Severity::error, place, message});
+    }
+
+    const Graph& graph_;
+    ModelSettings trial_;
+    std::vector<Diagnostic> mistakes_;
+};
+
+}  // namespace
+
+void check_values(const Graph& graph) {
+    Check(graph).run();
+}
+
+std::vector<double> numbers_of(const Graph& graph, const Value& list) {
+    std::vector<double> numbers;
+    for (const std::string& part : list.parts) numbers.push_back(*Check(graph).value_of(part, list.place));
+    return numbers;
+}
+
+std::string substituted(const std::string& text, const std::map<std::string, std::string>& names) {
+    std::string result;
+    for (std::size_t k = 0; k < text.size();) {
+        if (!is_name_start(text[k])) {
+            // A digit takes its exponent along: the e of 1e3 is no name.
+            const bool is_number = is_digit(text[k]);
+            do result += text[k++];
+            while (is_number && k < text.size() && (is_name_part(text[k]) || text[k] == '.'));
+            continue;
+        }
+        std::string name;
+        while (k < text.size() && is_name_part(text[k])) name += text[k++];
+        const auto found = names.find(name);
+        result += found == names.end() ? name : found->second;
+    }
+    return result;
+}
+
+Values::Values(const Component& component, const Structure& structure) : component_(component), depth_("1") {
+    const std::vector<std::string>& heads = structure.heads_around(component.name);
+    if (!heads.empty()) depth_ = "depth_" + heads.back();
+}
+
+std::string Values::with_names(const std::string& expression) const {
+    return substituted(expression, {{"u", "(i / max(n - 1, 1))"}, {"depth", depth_}});
+}
+
+std::string Values::number(const std::string& key) const {
+    const Value value = value_of(component_, key);
+    std::string text = with_names(value.parts.front());
+    if (value.is_range) text = fmt::format("lerp({}, {}, i / max(n - 1, 1))", text, with_names(value.parts.back()));
+    if (!value.function.empty()) text = substituted(with_names(value.function), {{"x", "(" + text + ")"}});
+    if (!value.noise.empty()) text = fmt::format("{} + ({}) * (ran(2) - 1)", text, with_names(value.noise));
+    return text;
+}
+
+std::string Values::whole(const std::string& key) const {
+    const std::string text = number(key);
+    return std::all_of(text.begin(), text.end(), is_digit) ? text : "round(" + text + ")";
+}
+
+std::vector<std::pair<std::string, std::string>> Values::parameters(const std::string& key) const {
+    if (find_type(component_.type)->find(key)->kind != KeyKind::axis) return {{key, number(key)}};
+    const Value value = value_of(component_, key);
+    if (!value.is_range) return {{key, with_names(value.parts.front())}};
+    return {{key + "0", with_names(value.parts.front())}, {key + "1", with_names(value.parts.back())}};
+}
+
+std::string Values::along(const std::string& key, const std::string& part) const {
+    const Value value = value_of(component_, key);
+    const std::string text = value.is_range ? fmt::format("lerp({0}0, {0}1, {1})", key, part) : key;
+    return value.function.empty() ? text : substituted(value.function, {{"x", "(" + text + ")"}});
+}
+
+}  // namespace espalier::language::pgraph
