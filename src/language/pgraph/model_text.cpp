@@ -74,13 +74,13 @@ std::vector<std::string> ComponentText::tropisms() const {
 
 std::string ComponentText::pull(const std::string& share) const {
     const Component* world = structure_.world_of(component_.name);
-    std::string modules;
+    std::string turns;
     for (const std::string& tropism : tropisms()) {
         const std::string field = tropism == "gravitropism" ? "gravity" : "light";
         const Value direction = world ? value_of(*world, field) : value_of({"World", ""}, field);
-        modules += fmt::format("@Th({}, {} * {}) ", fmt::join(direction.parts, ", "), tropism, share);
+        turns += fmt::format("@Th({}, {} * {}) ", fmt::join(direction.parts, ", "), tropism, share);
     }
-    return modules;
+    return turns;
 }
 
 std::string ComponentText::bud_of(const Link& link) const {

@@ -30,24 +30,33 @@ const std::vector<Key>& placing() {
     return keys;
 }
 
-const std::vector<Key> recursion{
-    {"recursion", literal, "", 1, 1000, "1", "instances on one path, for a component that a link leads back to"}};
+const std::vector<Key>& recursion() {
+    static const std::vector<Key> keys{
+        {"recursion", literal, "", 1, 1000, "1", "instances on one path, for a component that a link leads back to"}};
+    return keys;
+}
 
-const std::vector<Key> horn{
-    {"length", instance, "m", 0, unbounded, "1", "of the axis"},
-    {"radius", axis, "m", 0, unbounded, "0.05 .. 0.02", "of the cross-section, from base to tip"},
-    {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
-    {"sway", axis, "degrees", -180, 180, "0", "turn from one piece to the next"},
-    {"twist", axis, "degrees", -unbounded, unbounded, "0", "roll from one piece to the next"},
-    {"pieces", instance, "", 1, 10000, "8", "pieces of the cone"},
-    {"sides", literal, "", 0, 256, "0", "of a closed surface; 0: internodes, which cost less"},
-};
+const std::vector<Key>& horn() {
+    static const std::vector<Key> keys{
+        {"length", instance, "m", 0, unbounded, "1", "of the axis"},
+        {"radius", axis, "m", 0, unbounded, "0.05 .. 0.02", "of the cross-section, from base to tip"},
+        {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
+        {"sway", axis, "degrees", -180, 180, "0", "turn from one piece to the next"},
+        {"twist", axis, "degrees", -unbounded, unbounded, "0", "roll from one piece to the next"},
+        {"pieces", instance, "", 1, 10000, "8", "pieces of the cone"},
+        {"sides", literal, "", 0, 256, "0", "of a closed surface; 0: internodes, which cost less"},
+    };
+    return keys;
+}
 
-const std::vector<Key> tropisms{
-    {"gravitropism", instance, "", -unbounded, unbounded, "0",
-     "a piece turns towards gravity by this times the sine of the angle between, in radians; negative: away"},
-    {"phototropism", instance, "", -unbounded, unbounded, "0", "the same towards the light"},
-};
+const std::vector<Key>& tropisms() {
+    static const std::vector<Key> keys{
+        {"gravitropism", instance, "", -unbounded, unbounded, "0",
+         "a piece turns towards gravity by this times the sine of the angle between, in radians; negative: away"},
+        {"phototropism", instance, "", -unbounded, unbounded, "0", "the same towards the light"},
+    };
+    return keys;
+}
 
 std::vector<Key> multiplier(const std::string& count, const std::string& angle) {
     return {
@@ -61,8 +70,11 @@ std::vector<Key> radius(const std::string& standard, const std::string& summary)
     return {{"radius", instance, "m", 0, unbounded, standard, summary}};
 }
 
-const std::vector<Key> divergence{
-    {"divergence", instance, "degrees", -unbounded, unbounded, "137.50776405", "about the axis, from one to the next"}};
+const std::vector<Key>& divergence() {
+    static const std::vector<Key> keys{{"divergence", instance, "degrees", -unbounded, unbounded, "137.50776405",
+                                        "about the axis, from one to the next"}};
+    return keys;
+}
 
 std::vector<ComponentType> make_types() {
     std::vector<ComponentType> types;
@@ -73,19 +85,20 @@ std::vector<ComponentType> make_types() {
                               {"depth", instance, "m", 0, unbounded, "1", "of a box"}},
                              radius("0.5", "of a sphere or cylinder"),
                              placing(),
-                             recursion})});
-    types.push_back({"Horn", "a bent cone; what follows it stands on its tip", joined({horn, placing(), recursion})});
+                             recursion()})});
     types.push_back(
-        {"Tree", "a horn with tropisms that carries branches",
-         joined({horn,
-                 tropisms,
+        {"Horn", "a bent cone; what follows it stands on its tip", joined({horn(), placing(), recursion()})});
+    types.push_back(
+        {"Tree", "a horn with tropisms() that carries branches",
+         joined({horn(),
+                 tropisms(),
                  {{"branches", instance, "", 0, 1e5, "0", "of every branch link, rounded"},
                   {"at", children, "", 0, 1, "0.2 .. 1", "part of the axis below each branch, not decreasing"},
                   {"angle", children, "degrees", -unbounded, unbounded, "45", "of each branch with the axis"},
                   {"child_scale", children, "", 1e-6, unbounded, "1", "of each branch"}},
-                 divergence,
+                 divergence(),
                  placing(),
-                 recursion}),
+                 recursion()}),
          false, true});
     types.push_back(
         {"Leaf", "a blade of polygons on both sides of a midrib",
@@ -98,24 +111,24 @@ std::vector<ComponentType> make_types() {
                   {"waves", instance, "", 0, 1000, "0", "of the edge"},
                   {"wave_height", instance, "m", 0, unbounded, "0", "of these waves"},
                   {"pieces", literal, "", 1, 1000, "4", "of the blade"}},
-                 tropisms,
+                 tropisms(),
                  placing(),
-                 recursion})});
+                 recursion()})});
     types.push_back({"Hydra", "multiplies its children as a star about the axis",
-                     joined({multiplier("5", "45"), placing(), recursion}), true});
+                     joined({multiplier("5", "45"), placing(), recursion()}), true});
     types.push_back({"Ring", "multiplies its children on a circle about the axis",
-                     joined({multiplier("5", "0"), radius("1", "of the circle"), placing(), recursion}), true});
+                     joined({multiplier("5", "0"), radius("1", "of the circle"), placing(), recursion()}), true});
     types.push_back({"Phiball", "multiplies its children on a section of a sphere by the golden section",
                      joined({multiplier("100", "0"),
                              radius("1", "of the sphere"),
                              {{"from", instance, "degrees", 0, 180, "0", "of the section, measured from the heading"},
                               {"to", instance, "degrees", 0, 180, "180", "of the section"}},
-                             divergence,
+                             divergence(),
                              placing(),
-                             recursion}),
+                             recursion()}),
                      true});
     types.push_back({"World",
-                     "replaces the directions that tropisms turn to, for what follows it",
+                     "replaces the directions that tropisms() turn to, for what follows it",
                      {{"gravity", list, "", -unbounded, unbounded, "0, -1, 0", "x, y, z"},
                       {"light", list, "", -unbounded, unbounded, "0, 1, 0", "x, y, z"}},
                      false,

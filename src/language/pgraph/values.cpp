@@ -21,7 +21,8 @@ const std::string trial =
 
 bool differs_by_instance(const std::string& expression) {
     std::map<std::string, std::string> marks;
-    for (const char* name : {"i", "n", "u", "depth", "ran", "nran", "bran", "biran"}) marks[name] = "?";
+    for (const char* name : {"i", "n", "u", "depth", "ran", "nran", "bran", "biran"})
+        marks.emplace(name, std::string(1, '?'));
     return substituted(expression, marks) != expression;
 }
 
