@@ -114,7 +114,7 @@ bool is_collection(const fs::path& folder) {
     if (!fs::is_directory(folder) || fs::exists(folder / "specifications")) return false;
     std::size_t models = 0, others = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        models += entry.path().extension() == ".l";
+        models += describes_model(entry.path());
         others += entry.is_directory() || is_scene(entry.path());
     }
     return models > 1 || (models == 0 && others > 0);
@@ -132,7 +132,7 @@ std::vector<fs::path> members_of(const fs::path& folder) {
             } else if (fs::exists(path / "specifications") || !models_of(path).empty()) {
                 members.push_back(path);
             }
-        } else if (!is_hidden && (path.extension() == ".l" || describes_scene(path))) {
+        } else if (!is_hidden && (describes_model(path) || describes_scene(path))) {
             members.push_back(path);
         }
     }

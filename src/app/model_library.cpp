@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/language/notation.h"
 
 #include "program_data.h"
 
@@ -75,6 +76,10 @@ PartDescription describe_file(const fs::path& file) {
     return part;
 }
 
+bool describes_model(const fs::path& file) {
+    return file.extension() == ".l" || notation_of(file);
+}
+
 bool describes_scene(const fs::path& file) {
     return file.extension() == ".toml" && read_text(file).find("[[plant]]") != std::string::npos;
 }
@@ -82,7 +87,7 @@ bool describes_scene(const fs::path& file) {
 std::vector<PartDescription> models_of(const fs::path& folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file() && entry.path().extension() == ".l") files.push_back(entry.path());
+        if (entry.is_regular_file() && describes_model(entry.path())) files.push_back(entry.path());
     }
     const auto place = [](const fs::path& file) { return std::pair(file.parent_path(), file.filename()); };
     std::sort(files.begin(), files.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });

@@ -22,6 +22,9 @@ std::filesystem::path model_library(const std::filesystem::path& given);
 /// of that comment. Sorted folder by folder.
 std::vector<PartDescription> models_of(const std::filesystem::path& folder);
 
+/// True for a model in the language of models or in another notation.
+bool describes_model(const std::filesystem::path& file);
+
 /// True for a file that describes a scene, false for one that describes a mesh or anything else.
 bool describes_scene(const std::filesystem::path& file);
 

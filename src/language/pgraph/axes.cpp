@@ -118,8 +118,7 @@ void write_tree(ComponentText& text) {
     text.decomposition.push_back(
         fmt::format("{0} : past - i > 1 --> {1}(i, floor((i + past) / 2), {2}) {1}(floor((i + past) / 2), past, {2})",
                     some, each, rest));
-    const std::string placed = fmt::format("/(divergence * i) &({}) @Di({}) ", text.values().number("angle"),
-                                           text.values().number("child_scale"));
+    const std::string placed = "/(divergence * i) " + text.direction_of_child();
     text.decomposition.push_back(fmt::format("{} : past - i == 1 --> {}(i > 0 ? {} : 0, {}, {}){}", some, axis, below,
                                              at, axis_names, text.followers(LinkKind::branch, placed)));
     text.decomposition.push_back(fmt::format("{} --> *", some));

@@ -56,6 +56,14 @@ std::string ComponentText::placing() const {
     return text;
 }
 
+std::string ComponentText::direction_of_child() const {
+    std::string text;
+    const std::string angle = values_.number("angle");
+    if (angle != "0") text += fmt::format("&({}) ", angle);
+    if (values_.is_set("child_scale")) text += fmt::format("@Di({}) ", values_.number("child_scale"));
+    return text;
+}
+
 Parameters ComponentText::parameters(const std::vector<std::string>& keys) const {
     Parameters all;
     for (const std::string& key : keys) {

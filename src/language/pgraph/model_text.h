@@ -35,6 +35,8 @@ public:
 
     /// Rolls, turns and moves to where the component begins.
     std::string placing() const;
+    /// Turns and scales a child away from the direction of its place.
+    std::string direction_of_child() const;
     /// The links of a kind and what stands in for them at the end of a recursion, each between brackets and behind the
     /// given modules.
     std::string followers(LinkKind kind, const std::string& placed = "") const;

@@ -48,11 +48,10 @@ Shape shape_of(const std::string& name) {
 
 /// Where child i of n stands.
 std::string place_of(const ComponentText& text) {
-    const std::string angle =
-        fmt::format("&({}) @Di({}) ", text.values().number("angle"), text.values().number("child_scale"));
-    if (text.component().type == "Hydra") return "/(360 * i / n) " + angle;
-    if (text.component().type == "Ring") return "/(360 * i / n) &(90) f(radius) ^(90) " + angle;
-    return "/(divergence * i) &(acos(lerp(cos(from), cos(to), (i + 0.5) / n))) f(radius) " + angle;
+    const std::string direction = text.direction_of_child();
+    if (text.component().type == "Hydra") return "/(360 * i / n) " + direction;
+    if (text.component().type == "Ring") return "/(360 * i / n) &(90) f(radius) ^(90) " + direction;
+    return "/(divergence * i) &(acos(lerp(cos(from), cos(to), (i + 0.5) / n))) f(radius) " + direction;
 }
 
 std::vector<std::string> keys_of_place(const std::string& type) {

@@ -34,6 +34,7 @@ Structure::Structure(const Graph& graph) : graph_(graph) {
     stop_if_wrong();
     find_bodies();
     check_nesting();
+    stop_if_wrong();
     check_entries();
     check_keys();
     stop_if_wrong();
