@@ -90,9 +90,12 @@ private:
         }
         if (!number || differs_by_instance(expression)) return;
         if (*number >= key.lowest && *number <= key.highest) return;
-        const std::string highest = std::isfinite(key.highest) ? format_general(key.highest) : "";
-        report(place, fmt::format("'{}' is in {}..{}{}, not {}", key.name, format_general(key.lowest), highest,
-                                  key.unit.empty() ? "" : " " + key.unit, format_general(*number)));
+        const std::string low = format_general(key.lowest);
+        const std::string range = std::isfinite(key.highest)
+                                      ? fmt::format("from {} to {}", low, format_general(key.highest))
+                                      : "at least " + low;
+        report(place, fmt::format("'{}' must be {}{}, not {}", key.name, range, key.unit.empty() ? "" : " " + key.unit,
+                                  format_general(*number)));
     }
 
     void report(const Place& place, const std::string& message) {

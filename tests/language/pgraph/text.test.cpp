@@ -49,8 +49,8 @@ TEST_CASE("Values are refused that are none or out of range", "[pgraph]") {
     const auto horn = [](const std::string& key) {
         return graph_mistakes("Horn stem\n  " + key + "\ncamera -> stem\n");
     };
-    CHECK(horn("length -3") == "3:10: 'length' is in 0.., not -3");
-    CHECK(horn("bend 0 .. 200") == "3:8: 'bend' is in -180..180 degrees, not 200");
+    CHECK(horn("length -3") == "3:10: 'length' must be at least 0 m, not -3");
+    CHECK(horn("bend 0 .. 200") == "3:8: 'bend' must be from -180 to 180 degrees, not 200");
     CHECK_THAT(horn("length 3 +"), Catch::StartsWith("3:10: '3 +' is no expression: "));
     CHECK_THAT(horn("length WIDTH"), Catch::StartsWith("3:10: 'WIDTH' is no expression: "));
     CHECK_THAT(horn("length 1 .. 2 .. 3"), Catch::StartsWith("3:10: 'length' is a number or a range 'a .. b'"));

@@ -1,0 +1,336 @@
+// Plants from components: where components place what follows them, what they draw, and the library's p-graphs.
+#include "espalier/language/notation.h"
+
+#include "catch.h"
+#include "experiments/growth.h"
+#include "models/measure.h"
+
+#include <fmt/format.h>
+#include <glm/matrix.hpp>
+
+#include <array>
+#include <map>
+#include <set>
+
+using namespace espalier;
+
+namespace {
+
+constexpr double golden_angle = 137.50776405003785;
+const glm::dvec3 heading{0, 1, 0};
+
+/// What a graph of a few lines draws at the end.
+PlantGeometry drawn(const std::string& lines) {
+    const auto text = registered<NotationType>().at("pgraph")->translate("pgraph 1\n" + lines, "plant.pgraph");
+    const std::shared_ptr<const Model> model = read_model_text(text, "plant");
+    Derivation derivation(compile(model), {});
+    ModuleString string, next;
+    derivation.start(string);
+    for (std::size_t k = 0; k < derivation.length(); ++k) {
+        derivation.step(string, next);
+        std::swap(string, next);
+    }
+    return interpret(*model, string, {}, &derivation).geometry;
+}
+
+/// The poses of small spheres that a component places.
+std::vector<Pose> placed(const std::string& component) {
+    std::vector<Pose> poses;
+    const PlantGeometry geometry =
+        drawn(component + "Simple dot\n  shape sphere\n  radius 0.01\ncamera -> many -> dot\n");
+    for (const Organ& organ : geometry.organs) poses.push_back(organ.pose);
+    return poses;
+}
+
+double azimuth(const glm::dvec3& direction) {
+    return std::atan2(direction.z, direction.x) * 180 / std::numbers::pi;
+}
+
+/// Degrees from one azimuth on to the next, 0 to 360.
+double onward(double from, double to) {
+    return std::fmod(to - from + 720, 360);
+}
+
+/// The volume inside closed triangles.
+double volume_of(const DrawnMesh& mesh) {
+    double volume = 0;
+    for (std::size_t k = 0; k + 2 < mesh.triangles.size(); k += 3) {
+        const auto corner = [&](std::size_t i) { return mesh.vertices[mesh.triangles[k + i]].position; };
+        volume += glm::dot(corner(0), glm::cross(corner(1), corner(2))) / 6;
+    }
+    return volume;
+}
+
+double volume_of_polygons(const PlantGeometry& geometry) {
+    double volume = 0;
+    for (const Polygon& polygon : geometry.polygons) {
+        for (std::uint32_t k = 1; k + 1 < polygon.count; ++k) {
+            const auto corner = [&](std::uint32_t i) { return geometry.vertices[polygon.first + i]; };
+            volume += glm::dot(corner(0), glm::cross(corner(k), corner(k + 1))) / 6;
+        }
+    }
+    return volume;
+}
+
+/// Vertices less edges plus faces, where vertices in one place are one.
+int euler_characteristic(const DrawnMesh& mesh) {
+    using Place = std::array<long, 3>;
+    const auto place = [&](std::uint32_t vertex) {
+        const glm::dvec3 at = mesh.vertices[vertex].position * 1e7;
+        return Place{std::lround(at.x), std::lround(at.y), std::lround(at.z)};
+    };
+    std::set<Place> corners;
+    std::set<std::pair<Place, Place>> edges;
+    int faces = 0;
+    for (std::size_t k = 0; k + 2 < mesh.triangles.size(); k += 3) {
+        const Place a = place(mesh.triangles[k]), b = place(mesh.triangles[k + 1]), c = place(mesh.triangles[k + 2]);
+        if (a == b || b == c || c == a) continue;
+        ++faces;
+        for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+            corners.insert(from);
+            edges.insert(std::minmax(from, to));
+        }
+    }
+    return static_cast<int>(corners.size()) - static_cast<int>(edges.size()) + faces;
+}
+
+LonePlant grown_model(const std::string& name, Defines defines = {}) {
+    LonePlant plant(fmt::format("models/pgraph/{}.pgraph", name), std::move(defines));
+    plant.grow(static_cast<int>(plant.derivation.length()));
+    return plant;
+}
+
+}  // namespace
+
+TEST_CASE("Hydra: directions at equal angles about the axis", "[pgraph]") {
+    const std::vector<Pose> poses = placed("Hydra many\n  count 18\n  angle 70\n");
+    REQUIRE(poses.size() == 18);
+    for (std::size_t i = 0; i < 18; ++i) {
+        CHECK(degrees_between(poses[i].heading, heading) == Approx(70));
+        const double step = onward(azimuth(poses[i].heading), azimuth(poses[(i + 1) % 18].heading));
+        CHECK(std::min(step, 360 - step) == Approx(20));
+    }
+}
+
+TEST_CASE("Ring: places on a circle about the axis, which they look along", "[pgraph]") {
+    const std::vector<Pose> poses = placed("Ring many\n  count 12\n  radius 3\n");
+    REQUIRE(poses.size() == 12);
+    for (std::size_t i = 0; i < 12; ++i) {
+        CHECK(glm::length(poses[i].position) == Approx(3));
+        CHECK(std::abs(poses[i].position.y) < 1e-9);
+        CHECK(glm::distance(poses[i].heading, heading) < 1e-9);
+        CHECK(degrees_between(poses[i].position, poses[(i + 1) % 12].position) == Approx(30));
+    }
+}
+
+TEST_CASE("Phiball: the golden angle from one to the next, as many in every band of equal area, none near another",
+          "[pgraph]") {
+    const std::vector<Pose> poses = placed("Phiball many\n  count 400\n  radius 2\n");
+    REQUIRE(poses.size() == 400);
+    std::map<int, int> bands;
+    double nearest_sum = 0, smallest = 9;
+    for (std::size_t i = 0; i < 400; ++i) {
+        CHECK(glm::length(poses[i].position) == Approx(2));
+        CHECK(glm::distance(poses[i].position, poses[i].heading * 2.0) < 1e-9);
+        ++bands[static_cast<int>((poses[i].position.y / 2 + 1) * 5)];
+        double nearest = 9;
+        for (std::size_t j = 0; j < 400; ++j) {
+            if (j != i) nearest = std::min(nearest, glm::distance(poses[i].heading, poses[j].heading));
+        }
+        nearest_sum += nearest;
+        smallest = std::min(smallest, nearest);
+    }
+    CHECK(bands.size() == 10);
+    for (const auto& [band, count] : bands) CHECK(count == 40);
+    for (std::size_t i = 0; i + 1 < 400; ++i) {
+        const double step = onward(azimuth(poses[i].position), azimuth(poses[i + 1].position));
+        CHECK(std::min(step, 360 - step) == Approx(golden_angle).margin(1e-6));
+    }
+    CHECK(smallest / (nearest_sum / 400) > 0.9);
+}
+
+TEST_CASE("Phiball: a section of the sphere has all its children there", "[pgraph]") {
+    for (const Pose& pose : placed("Phiball many\n  count 50\n  from 20\n  to 60\n")) {
+        const double angle = degrees_between(pose.heading, heading);
+        CHECK(angle > 20);
+        CHECK(angle < 60);
+    }
+}
+
+TEST_CASE("Every child has a frame of its own, orthonormal and with the sense of its parent's", "[pgraph]") {
+    for (const char* type : {"Hydra", "Ring", "Phiball"}) {
+        std::set<double> headings;
+        for (const Pose& pose : placed(fmt::format("{} many\n  count 30\n  angle 10 .. 80\n  roll 33\n", type))) {
+            const glm::dmat3 frame(pose.heading, pose.left, pose.up);
+            const glm::dmat3 product = glm::transpose(frame) * frame;
+            for (int k = 0; k < 3; ++k) {
+                for (int l = 0; l < 3; ++l) CHECK(std::abs(product[k][l] - (k == l)) < 1e-9);
+            }
+            CHECK(glm::determinant(frame) == Approx(1).epsilon(1e-9));
+            headings.insert(pose.heading.x);
+        }
+        CHECK(headings.size() == 30);
+    }
+}
+
+TEST_CASE("Simple: the volumes of a cylinder and a box, and the diameter of a sphere", "[pgraph]") {
+    const double pi = std::numbers::pi;
+    CHECK(drawn("Simple core\n  shape sphere\n  radius 1.5\ncamera -> core\n").organs.at(0).size.x == Approx(3));
+    const PlantGeometry cylinder = drawn("Simple core\n  shape cylinder\n  radius 0.7\n  length 2\ncamera -> core\n");
+    CHECK(volume_of(cylinder.mesh) == Approx(pi * 0.49 * 2).epsilon(0.02));
+    const PlantGeometry box = drawn("Simple core\n  shape box\n  length 2\n  width 3\n  depth 0.5\ncamera -> core\n");
+    CHECK(box.polygons.size() == 6);
+    CHECK(std::abs(volume_of_polygons(box)) == Approx(3));
+}
+
+TEST_CASE("Horn: the axis turns by the sum of the rotations between pieces, interpolated from end to end", "[pgraph]") {
+    const PlantGeometry horn = drawn(
+        "Horn stem\n  length 3\n  pieces 5\n  bend 10 .. 20\n  radius 0.3 .. 0.1 then "
+        "x\ncamera -> stem\n");
+    REQUIRE(horn.internodes.size() == 5);
+    const std::array<double, 4> between{10, 10 + 10. / 3, 10 + 20. / 3, 20};
+    for (std::size_t k = 0; k + 1 < 5; ++k) {
+        CHECK(degrees_between(direction_of(horn.internodes[k]), direction_of(horn.internodes[k + 1])) ==
+              Approx(between[k]));
+    }
+    CHECK(degrees_between(direction_of(horn.internodes[0]), direction_of(horn.internodes[4])) == Approx(60));
+    CHECK(length_of(horn.internodes[2]) == Approx(0.6));
+    CHECK(horn.internodes[4].tip_radius == Approx(0.1));
+}
+
+TEST_CASE("Horn: with sides it is one closed surface", "[pgraph]") {
+    const PlantGeometry horn =
+        drawn("Horn stem\n  length 3\n  pieces 6\n  bend 5 .. 15\n  radius 0.3 .. 0.05\n  sides 12\ncamera -> stem\n");
+    CHECK(euler_characteristic(horn.mesh) == 2);
+    CHECK(volume_of(horn.mesh) > 0);
+}
+
+TEST_CASE("Tree: straight without tropism, and turned towards the ground the more, the stronger it is", "[pgraph]") {
+    const auto end_of = [](double strength) {
+        const PlantGeometry tree =
+            drawn(fmt::format("Tree stem\n  pitch 60\n  pieces 10\n  gravitropism {}\ncamera -> stem\n", strength));
+        return direction_of(tree.internodes.back());
+    };
+    const glm::dvec3 straight = end_of(0);
+    CHECK(degrees_between(straight, heading) == Approx(60));
+    double before = straight.y;
+    for (const double strength : {0.05, 0.1, 0.2, 0.4}) {
+        const double height = end_of(strength).y;
+        CHECK(height < before);
+        before = height;
+    }
+    CHECK(end_of(-0.2).y > straight.y);
+}
+
+TEST_CASE("Tree: branches stand one above the other along the axis, where the function says", "[pgraph]") {
+    const PlantGeometry tree = drawn(
+        "Tree stem\n  length 10\n  branches 5\n  at 0.2 .. 1 then x ^ 2\n  angle 90 .. 30\n"
+        "  pieces 7\nSimple dot\n  shape sphere\ncamera -> stem -B-> dot\n");
+    REQUIRE(tree.organs.size() == 5);
+    const std::array<double, 5> parts{0.2, 0.4, 0.6, 0.8, 1};
+    for (std::size_t k = 0; k < 5; ++k) {
+        CHECK(tree.organs[k].pose.position.y == Approx(10 * parts[k] * parts[k]));
+        CHECK(degrees_between(tree.organs[k].pose.heading, heading) == Approx(90 - 15 * double(k)));
+    }
+    double length = 0;
+    for (const Internode& internode : tree.internodes) length += length_of(internode);
+    CHECK(length == Approx(10));
+}
+
+TEST_CASE("World: tropisms turn to its directions instead", "[pgraph]") {
+    const auto end_of = [](const std::string& gravity) {
+        const PlantGeometry tree =
+            drawn(fmt::format("World wind\n  gravity {}\nTree stem\n  pieces 20\n  gravitropism "
+                              "0.3\ncamera -> wind -> stem\n",
+                              gravity));
+        return direction_of(tree.internodes.back());
+    };
+    CHECK(glm::dot(end_of("1, 0, 0"), glm::dvec3(1, 0, 0)) > 0.95);
+    CHECK(glm::dot(end_of("0, 0, -2"), glm::dvec3(0, 0, -1)) > 0.95);
+}
+
+TEST_CASE("Leaf: flat in one plane, its outline through the control points, and as many waves as it says", "[pgraph]") {
+    const std::string leaf = "Leaf leaf\n  length 4\n  width 2\n  outline 0.2, 1, 0.5\n  pieces 8\n";
+    const PlantGeometry flat = drawn(leaf + "camera -> leaf\n");
+    CHECK(flat.polygons.size() == 16);
+    std::map<double, double> half_widths;
+    for (const glm::dvec3& vertex : flat.vertices) {
+        CHECK(std::abs(vertex.z) < 1e-9);
+        double& width = half_widths[std::round(vertex.y * 1e6) / 1e6];
+        width = std::max(width, std::abs(vertex.x));
+    }
+    CHECK(half_widths.at(0) == Approx(0.2));
+    CHECK(half_widths.at(2) == Approx(1));
+    CHECK(half_widths.at(4) == Approx(0.5));
+
+    const PlantGeometry wavy = drawn(leaf + "  pieces 64\n  waves 3\n  wave_height 0.1\ncamera -> leaf\n");
+    CHECK(wavy.polygons.empty());
+}
+
+TEST_CASE("The dandelion: 18 hairs on each parachute, one stalk each, one stem", "[pgraph]") {
+    for (const int parachutes : {100, 400}) {
+        const LonePlant plant = grown_model("dandelion", {{"PARACHUTES", std::to_string(parachutes)}});
+        auto counts = plant.counts();
+        CHECK(counts["Hair"] == 18 * parachutes);
+        CHECK(counts["Stalk"] == parachutes);
+        CHECK(counts["Stem"] == 1);
+    }
+}
+
+TEST_CASE("The bush: three branches, five times over", "[pgraph]") {
+    auto counts = grown_model("bush").counts();
+    CHECK(counts["Branch"] == 363);
+    CHECK(counts["Fork"] == 121);
+    CHECK(counts["Leaf"] == 5 * 363);
+}
+
+TEST_CASE("The weeping willow: twigs end downwards, and do not without gravitropism", "[pgraph]") {
+    const auto mean_end = [](const std::string& weeping) {
+        const LonePlant plant = grown_model("weeping-willow", {{"WEEPING", weeping}, {"LEAVES", "0"}});
+        const Alphabet& alphabet = plant.model->alphabet;
+        double sum = 0;
+        int ends = 0;
+        const auto& internodes = plant.interpretation.geometry.internodes;
+        for (std::size_t k = 0; k < internodes.size(); ++k) {
+            const bool is_twig = alphabet.name(plant.string.letters[internodes[k].module]) == "TwigAxis";
+            const bool is_last = k + 1 == internodes.size() || internodes[k + 1].axis != internodes[k].axis;
+            if (!is_twig || !is_last) continue;
+            sum += direction_of(internodes[k]).y;
+            ++ends;
+        }
+        CHECK(ends == 19 * 16);
+        return sum / ends;
+    };
+    CHECK(mean_end("1") < -0.5);
+    CHECK(mean_end("0") > 0);
+}
+
+TEST_CASE("The sunflower and the pineapple: organs a golden angle apart", "[pgraph]") {
+    const LonePlant sunflower = grown_model("sunflower", {{"RAYS", "0"}});
+    CHECK(sunflower.counts().at("Floret") == 420);
+    const LonePlant pineapple = grown_model("pineapple", {{"TUFT", "0"}});
+    std::vector<glm::dvec3> eyes;
+    for (const Organ& organ : pineapple.interpretation.geometry.organs) eyes.push_back(organ.pose.position);
+    REQUIRE(eyes.size() == 130);
+    for (std::size_t k = 0; k + 1 < eyes.size(); ++k) {
+        const double step = onward(azimuth(eyes[k]), azimuth(eyes[k + 1]));
+        CHECK(std::min(step, 360 - step) == Approx(golden_angle).margin(1e-6));
+    }
+    std::set<int> differences;
+    for (int k = 55; k < 75; ++k) {
+        std::vector<std::pair<double, int>> others;
+        for (int j = 0; j < 130; ++j) {
+            if (j != k) others.emplace_back(glm::distance(eyes[std::size_t(k)], eyes[std::size_t(j)]), std::abs(j - k));
+        }
+        std::sort(others.begin(), others.end());
+        for (std::size_t nearest = 0; nearest < 4; ++nearest) differences.insert(others[nearest].second);
+    }
+    for (const int difference : differences) CHECK(std::set<int>{5, 8, 13}.contains(difference));
+}
+
+TEST_CASE("The palm: one trunk, and leaflets on every frond", "[pgraph]") {
+    auto counts = grown_model("palm").counts();
+    CHECK(counts["Trunk"] == 1);
+    CHECK(counts["Frond"] == 26);
+    CHECK(counts["Leaflet"] == 26 * 70);
+}
