@@ -1,4 +1,6 @@
 // The library as a whole: every model reads without a warning, says what it is, and stands in docs/models.md.
+#include "espalier/language/notation.h"
+
 #include "app/program.h"
 #include "catch.h"
 #include "experiments/growth.h"
@@ -26,7 +28,7 @@ std::string text_at(const std::filesystem::path& path) {
 std::vector<std::string> all_models() {
     std::vector<std::string> paths;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source_path("models"))) {
-        if (entry.path().extension() != ".l") continue;
+        if (entry.path().extension() != ".l" && !notation_of(entry.path())) continue;
         paths.push_back(std::filesystem::relative(entry.path(), source_path("")).generic_string());
     }
     std::sort(paths.begin(), paths.end());

@@ -1,8 +1,11 @@
 // Plants from components: where components place what follows them, what they draw, and the library's p-graphs.
+#include "espalier/base/file.h"
 #include "espalier/language/notation.h"
 
 #include "catch.h"
 #include "experiments/growth.h"
+#include "language/pgraph/graph.h"
+#include "language/pgraph/translation.h"
 #include "models/measure.h"
 
 #include <fmt/format.h>
@@ -263,8 +266,36 @@ TEST_CASE("Leaf: flat in one plane, its outline through the control points, and 
     CHECK(half_widths.at(2) == Approx(1));
     CHECK(half_widths.at(4) == Approx(0.5));
 
-    const PlantGeometry wavy = drawn(leaf + "  pieces 64\n  waves 3\n  wave_height 0.1\ncamera -> leaf\n");
-    CHECK(wavy.polygons.empty());
+    // The height of the left edge crosses the plane twice a wave.
+    const PlantGeometry wavy =
+        drawn("Leaf leaf\n  outline 1, 1\n  pieces 40\n  waves 3\n  wave_height 0.1\ncamera -> leaf\n");
+    int crossings = 0;
+    double before = 0, highest = 0;
+    for (std::size_t k = 0; k < wavy.polygons.size(); k += 2) {
+        const Polygon& polygon = wavy.polygons[k];
+        for (std::uint32_t i = 0; i < polygon.count; ++i) {
+            const double height = wavy.vertices[polygon.first + i].z;
+            if (std::abs(height) < 1e-9) continue;
+            crossings += before * height < 0;
+            before = height;
+            highest = std::max(highest, std::abs(height));
+        }
+    }
+    CHECK(crossings == 5);
+    CHECK(highest == Approx(0.1).epsilon(0.02));
+}
+
+TEST_CASE("Every p-graph of the library survives printing", "[pgraph]") {
+    int count = 0;
+    for (const auto& file : std::filesystem::directory_iterator(source_path("models/pgraph"))) {
+        INFO(file.path());
+        const language::pgraph::Graph graph = language::pgraph::parse(read_text(file.path()), "library");
+        const language::pgraph::Graph again = language::pgraph::parse(print(graph), "printed");
+        CHECK(again == graph);
+        CHECK(translate(again) == translate(graph));
+        ++count;
+    }
+    CHECK(count >= 6);
 }
 
 TEST_CASE("The dandelion: 18 hairs on each parachute, one stalk each, one stem", "[pgraph]") {
