@@ -4,6 +4,9 @@
 #include "language/pgraph/schema.h"
 #include "language/pgraph/translation.h"
 
+#include <sstream>
+#include <vector>
+
 namespace espalier::language {
 namespace {
 
@@ -30,10 +33,28 @@ Source: Lintermann & Deussen 1997, Erzeugung komplexer botanischer Objekte in de
 )" + pgraph::describe_types();
 }
 
-const Registered<NotationType> entry{{"pgraph", ".pgraph", "plants as graphs of components (Lintermann & Deussen 1997)",
-                                      help(), [](const std::string& text, const std::filesystem::path& path) {
-                                          return pgraph::translate(pgraph::parse(text, path.string()));
-                                      }}};
+/// The mistakes with the lines they speak of.
+std::vector<Diagnostic> with_lines(std::vector<Diagnostic> mistakes, const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    for (Diagnostic& mistake : mistakes) {
+        const auto number = static_cast<std::size_t>(mistake.place.line);
+        if (number > 0 && number <= lines.size()) mistake.source = lines[number - 1];
+    }
+    return mistakes;
+}
+
+std::string translated_graph(const std::string& text, const std::filesystem::path& path) {
+    try {
+        return pgraph::translate(pgraph::parse(text, path.string()));
+    } catch (const UserError& error) {
+        throw UserError(with_lines(error.diagnostics(), text));
+    }
+}
+
+const Registered<NotationType> entry{
+    {"pgraph", ".pgraph", "plants as graphs of components (Lintermann & Deussen 1997)", help(), translated_graph}};
 
 }  // namespace
 }  // namespace espalier::language

@@ -58,13 +58,11 @@ public:
     }
 
 private:
-    void mistake(std::size_t column, const std::string& message) {
-        report({file_, number_, static_cast<int>(column) + 1}, message, line_);
-    }
+    void mistake(std::size_t column, const std::string& message) { report(place(column), message); }
 
-    void report(const Place& place, const std::string& message, const std::string& source = {}) {
+    void report(const Place& place, const std::string& message) {
         constexpr std::size_t most = 20;
-        if (mistakes_.size() < most) mistakes_.push_back({Diagnostic::Severity::error, place, message, source});
+        if (mistakes_.size() < most) mistakes_.push_back({Diagnostic::Severity::error, place, message});
     }
 
     Place place(std::size_t column) const { return {file_, number_, static_cast<int>(column) + 1}; }
