@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "geometry/magnetic_cut.h"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -117,12 +119,15 @@ Contour::Contour(std::vector<glm::dvec3> points, bool closed) : points_(std::mov
     }
 }
 
+Contour::Contour(MagneticCut cut) : closed_(!cut.flat), cut_(std::make_shared<MagneticCut>(std::move(cut))) {}
+
 bool Contour::counter_clockwise() const {
-    return is_circle() || signed_area(points_) >= 0;
+    return points_.empty() || signed_area(points_) >= 0;
 }
 
 std::vector<Contour::Vertex> Contour::sample(int sides) const {
     sides = std::max(sides, 1);
+    if (cut_) return cut_->sample(sides);
     if (is_circle()) return circle(sides);
     const LengthTable table(UniformSpline{points_, closed_});
     std::vector<Vertex> vertices;

@@ -82,8 +82,10 @@ const Registered<Symbol> contour{{"@#",
                                   {1},
                                   "@#(number): cross-section of cylinders from here on; 0 is the circle",
                                   [](Walk& walk, std::span<const double> parameters) {
-                                      walk.change_brush(
-                                          [&](Brush& brush) { brush.contour = bounded(parameters[0], 0, 1 << 30); });
+                                      walk.change_brush([&](Brush& brush) {
+                                          brush.contour = bounded(parameters[0], 0, 1 << 30);
+                                          brush.cut = nullptr;
+                                      });
                                   }}};
 
 const Registered<Symbol> contour_sides{

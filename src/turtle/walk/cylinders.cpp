@@ -25,6 +25,7 @@ bool same_place(const CylinderPoint& a, const CylinderPoint& b) {
 }  // namespace
 
 const Contour* Walk::contour() const {
+    if (brush().cut) return brush().cut.get();
     if (!settings_->shapes) return nullptr;
     const auto found = settings_->shapes->contours.find(brush().contour);
     return found == settings_->shapes->contours.end() ? nullptr : &found->second;

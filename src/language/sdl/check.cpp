@@ -1,0 +1,97 @@
+#include "base/text.h"
+#include "language/sdl/parser.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <string>
+
+namespace espalier::language::sdl {
+namespace {
+
+class Check {
+public:
+    Check(const Skeleton& skeleton, Mistakes& mistakes) : skeleton_(skeleton), mistakes_(mistakes) {
+        for (const Component& component : skeleton.components) names_.push_back(component.name);
+    }
+
+    void components() {
+        if (names_.empty()) mistakes_.error({0, 1, 1}, "a skeleton needs at least one component: start[0, 1, 0, 0];");
+        std::set<std::string> seen;
+        for (const Component& component : skeleton_.components) {
+            if (!seen.insert(component.name).second) {
+                mistakes_.error(component.at, fmt::format("component '{}' is defined a second time", component.name));
+            }
+            beginning(component);
+        }
+    }
+
+    void rules() {
+        std::set<std::string> seen;
+        for (const Rule& rule : skeleton_.rules) {
+            require_known(rule.master, rule.at);
+            if (!seen.insert(rule.master).second) {
+                mistakes_.error(rule.at, fmt::format("'{0}' has a rule already; write several right sides as "
+                                                     "{0} -> (...) | (...);",
+                                                     rule.master));
+            }
+            for (const RightSide& side : rule.right_sides) slaves(side.slaves);
+        }
+    }
+
+    void fibres() {
+        std::set<std::string> seen;
+        for (const Fibre& fibre : skeleton_.fibres) {
+            for (const std::string& name : fibre.components) require_known(name, fibre.at);
+            const std::vector<std::string> all_others{""};
+            for (const std::string& name : fibre.components.empty() ? all_others : fibre.components) {
+                if (seen.insert(name).second) continue;
+                mistakes_.error(fibre.at, name.empty()
+                                              ? "only one set of fibres may leave out the names of its components"
+                                              : fmt::format("'{}' has fibres already", name));
+            }
+        }
+    }
+
+private:
+    /// A place on the master is from 0, its beginning, to 1, its end.
+    void beginning(const Component& component) {
+        const Attribute& place = component.features[Component::beginning];
+        if (component.is_null || !place.middle.number) return;
+        const double middle = *place.middle.number;
+        const double deviation = place.deviation ? place.deviation->number.value_or(0) : 0;
+        constexpr double rounding = 1e-12;
+        if (middle - deviation >= -rounding && middle + deviation <= 1 + rounding) return;
+        mistakes_.error(
+            place.at, fmt::format("'{}' begins between {} and {} of its master; a place on the master is "
+                                  "from 0 to 1",
+                                  component.name, format_exact(middle - deviation), format_exact(middle + deviation)));
+    }
+
+    void slaves(const std::vector<Slave>& list) {
+        for (const Slave& slave : list) {
+            require_known(slave.component, slave.at);
+            slaves(slave.slaves);
+        }
+    }
+
+    void require_known(const std::string& name, Location at) {
+        if (skeleton_.component(name)) return;
+        mistakes_.error(at, fmt::format("component '{}' is not defined{}", name, did_you_mean(name, names_)));
+    }
+
+    const Skeleton& skeleton_;
+    Mistakes& mistakes_;
+    std::vector<std::string> names_;
+};
+
+}  // namespace
+
+void check(const Skeleton& skeleton, Mistakes& mistakes) {
+    Check check(skeleton, mistakes);
+    check.components();
+    check.rules();
+    check.fibres();
+}
+
+}  // namespace espalier::language::sdl

@@ -1,0 +1,102 @@
+#include "language/sdl/tokens.h"
+
+#include "base/characters.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace espalier::language::sdl {
+namespace {
+
+class Lexer {
+public:
+    Lexer(const std::string& text, std::uint32_t file, Mistakes& mistakes)
+        : text_(text), file_(file), mistakes_(mistakes) {}
+
+    std::vector<Token> tokens() {
+        for (skip_blanks(); at_ < text_.size(); skip_blanks()) token();
+        add(Token::Kind::end, 0);
+        return std::move(tokens_);
+    }
+
+private:
+    char at(std::size_t offset) const { return at_ + offset < text_.size() ? text_[at_ + offset] : '\0'; }
+
+    void skip_blanks() {
+        while (at_ < text_.size()) {
+            if (text_[at_] == '\n') {
+                ++line_;
+                line_start_ = ++at_;
+            } else if (is_blank(text_[at_])) {
+                ++at_;
+            } else if (at(0) == '/' && at(1) == '/') {
+                while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+            } else {
+                return;
+            }
+        }
+    }
+
+    void token() {
+        constexpr std::string_view signs = "{}[]();,:*+-/^|";
+        if (is_name_start(at(0))) return add(Token::Kind::name, name_length(0));
+        if (at(0) == '#' && is_name_start(at(1))) return add(Token::Kind::directive, 1 + name_length(1));
+        if (is_digit(at(0)) || (at(0) == '.' && is_digit(at(1)))) return add(Token::Kind::number, number_length());
+        if (at(0) == '-' && at(1) == '>') return add(Token::Kind::sign, 2);
+        if (signs.find(at(0)) != std::string_view::npos) return add(Token::Kind::sign, 1);
+        std::size_t length = 1;
+        while (is_continuation_byte(at(length))) ++length;
+        mistakes_.error(here(), fmt::format("'{}' has no meaning here", text_.substr(at_, length)));
+        at_ += length;
+    }
+
+    std::size_t name_length(std::size_t from) const {
+        std::size_t length = 0;
+        while (is_name_part(at(from + length))) ++length;
+        return length;
+    }
+
+    std::size_t number_length() const {
+        std::size_t length = 0;
+        while (is_digit(at(length))) ++length;
+        if (at(length) == '.') ++length;
+        while (is_digit(at(length))) ++length;
+        if (at(length) != 'e' && at(length) != 'E') return length;
+        const std::size_t exponent = length + (at(length + 1) == '-' || at(length + 1) == '+' ? 2 : 1);
+        if (!is_digit(at(exponent))) return length;
+        length = exponent;
+        while (is_digit(at(length))) ++length;
+        return length;
+    }
+
+    Location here() const {
+        int column = 1;
+        for (std::size_t i = line_start_; i < at_; ++i) column += !is_continuation_byte(text_[i]);
+        return {file_, line_, column};
+    }
+
+    void add(Token::Kind kind, std::size_t length) {
+        tokens_.push_back({kind, text_.substr(at_, length), here()});
+        at_ += length;
+    }
+
+    const std::string& text_;
+    const std::uint32_t file_;
+    Mistakes& mistakes_;
+    std::size_t at_ = 0, line_start_ = 0;
+    int line_ = 1;
+    std::vector<Token> tokens_;
+};
+
+}  // namespace
+
+std::string Token::shown() const {
+    return kind == Kind::end ? "the end of the file" : "'" + text + "'";
+}
+
+std::vector<Token> tokens_of(const std::string& text, std::uint32_t file, Mistakes& mistakes) {
+    return Lexer(text, file, mistakes).tokens();
+}
+
+}  // namespace espalier::language::sdl
