@@ -53,6 +53,21 @@ public:
         }
     }
 
+    /// Slaves of a NULL component move along the fibre of its master.
+    void contours() {
+        for (const Component& component : skeleton_.components) {
+            if (!component.is_null) continue;
+            std::set<std::vector<double>> bends;
+            for (const Fibre* fibre : bearers(skeleton_, component.name)) {
+                bends.insert(fibre ? fibre->contour : std::vector<double>{});
+            }
+            if (bends.size() <= 1) continue;
+            mistakes_.error(component.at, fmt::format("the masters of '{}' have fibres with different contours, so its "
+                                                      "slaves would not know where to begin",
+                                                      component.name));
+        }
+    }
+
 private:
     /// A place on the master is from 0, its beginning, to 1, its end.
     void beginning(const Component& component) {
@@ -92,6 +107,7 @@ void check(const Skeleton& skeleton, Mistakes& mistakes) {
     check.components();
     check.rules();
     check.fibres();
+    check.contours();
 }
 
 }  // namespace espalier::language::sdl
