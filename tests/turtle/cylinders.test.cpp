@@ -193,3 +193,28 @@ TEST_CASE("a cylinder that begins within a polygon has no point there for its br
     CHECK(volume("!(0.5){@Gs[f@Gcf(2)@Ge]") == Approx(tube(0.5, 2)));
     CHECK(Drawing("{@Gs[@Ge]").geometry().mesh.pieces.empty());
 }
+
+TEST_CASE("@Gm makes the cut of magnets, @Gf its flat middle, and @# goes back to contours", "[turtle]") {
+    CHECK(volume("!(0.5)@Gm(1)@Gsf@Ge(1)") == Approx(tube(0.5, 1)));
+    CHECK(volume("!(0.5)@Gm@Gsf@Ge(1)") == Approx(tube(0.5, 1)));
+    CHECK(volume("!(0.5)@Gm(0.2,0,0,0)@Gsf@Ge(1)") == Approx(0.2 * tube(0.5, 1)));
+    CHECK(volume("!(0.5)@Gm(1,1)@Gsf@Ge(1)") == Approx(4 * tube(0.5, 1)));
+    CHECK(volume("!(0.5)@Gm(1,1)@#(0)@Gsf@Ge(1)") == Approx(tube(0.5, 1)));
+
+    Drawing flat("!(0.5)@Gf(1)@Gsf@Ge(1)");
+    const DrawnMesh& mesh = flat.geometry().mesh;
+    CHECK(mesh.triangles.size() / 3 == 16);  // no caps
+    for (const SurfaceVertex& vertex : mesh.vertices) {
+        CHECK(vertex.position.z == Approx(0).margin(1e-12));  // up is -z
+        CHECK(std::abs(vertex.position.x) <= 0.25 + 1e-12);
+    }
+}
+
+TEST_CASE("a cylinder that the magnets close at its end is a cone, and closed", "[turtle]") {
+    CHECK(volume("!(0.5)@Gm(1,0)@Gsf@Gm(1,-1)@Ge(1)") == Approx(tube(0.5, 1) / 3));
+}
+
+TEST_CASE("a magnet that is not a number stops the drawing", "[turtle]") {
+    Drawing drawing("@Gm(1,nan)@Gsf@Ge");
+    CHECK_THROWS_WITH(drawing.draw(), Catch::Contains("strength"));
+}
