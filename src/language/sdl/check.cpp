@@ -1,5 +1,6 @@
 #include "base/text.h"
 #include "language/sdl/parser.h"
+#include "language/sdl/translation.h"
 
 #include <fmt/format.h>
 

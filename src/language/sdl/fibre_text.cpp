@@ -80,7 +80,7 @@ std::string arc_before(const Fibre& fibre, std::size_t k) {
 std::string along_production(const FibreModules& modules) {
     std::string text = fmt::format("{}(length, begin) -->\n", modules.along);
     for (std::size_t k = 0; k < modules.fibre->contour.size(); ++k) {
-        text += "\t" + arc_before(*modules.fibre, k) + "\n";
+        text += fmt::format("\t{}\n", arc_before(*modules.fibre, k));
     }
     return text;
 }

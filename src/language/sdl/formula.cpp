@@ -62,7 +62,7 @@ private:
 
     static Formula negative(const Formula& value) {
         if (value.number) return constant(-*value.number);
-        return {"-" + value.text, {}, true};
+        return {fmt::format("-{}", value.text), {}, true};
     }
 
     Formula simple() {
@@ -70,7 +70,7 @@ private:
         if (in_.accept("(")) {
             Formula inner = sum();
             in_.expect(")", "after the expression");
-            if (!inner.number) inner = {"(" + inner.text + ")", {}, true};
+            if (!inner.number) inner = {fmt::format("({})", inner.text), {}, true};
             return inner;
         }
         if (in_.next().kind != Token::Kind::name) in_.fail("a number");

@@ -41,7 +41,7 @@ std::string text_of(const std::vector<Slave>& slaves) {
         if (!slave.slaves.empty()) text += text_of(slave.slaves);
         texts.push_back(text);
     }
-    return "(" + joined(texts, " ") + ")";
+    return fmt::format("({})", joined(texts, " "));
 }
 
 std::string text_of(const Rule& rule) {
@@ -54,7 +54,7 @@ std::string text_of(const Rule& rule) {
 
 std::string text_of(const Fibre& fibre) {
     std::string text = fibre.type == Fibre::Type::leaf ? "  leaf" : "  wooden";
-    if (!fibre.components.empty()) text += " " + joined(fibre.components, ", ");
+    if (!fibre.components.empty()) text += fmt::format(" {}", joined(fibre.components, ", "));
     text += fmt::format("{{\n    {};\n", fibre.is_flat ? "flat" : "solid");
     text += fmt::format("    cut[{}, {}];\n", fibre.width.text, fibre.thickness.text);
     for (const std::vector<double>& ring : fibre.rings) text += fmt::format("    ring[{}];\n", list_of(ring));

@@ -142,7 +142,7 @@ TEST_CASE("all mistakes of a skeleton are reported at once", "[sdl]") {
     CHECK(said.find("test.sdl:1:14: ") != std::string::npos);
     CHECK(said.find("test.sdl:2:14: component 'c' is not defined") != std::string::npos);
     CHECK(said.find("test.sdl:2:20: expected '->' after 'b', found '-'") != std::string::npos);
-    CHECK(said.find("test.sdl:2:34: component 'd' is not defined") != std::string::npos);
+    CHECK(said.find("test.sdl:2:33: component 'd' is not defined") != std::string::npos);
 }
 
 TEST_CASE("nesting that no one writes is a mistake, not a crash", "[sdl]") {
