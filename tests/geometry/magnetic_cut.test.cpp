@@ -1,6 +1,7 @@
 // Cross-sections that magnets pull out and push in.
-#include "catch.h"
 #include "geometry/magnetic_cut.h"
+
+#include "catch.h"
 
 #include <glm/geometric.hpp>
 

@@ -17,7 +17,8 @@ public:
     }
 
     void components() {
-        if (names_.empty()) mistakes_.error({0, 1, 1}, "a skeleton needs at least one component: start[0, 1, 0, 0];");
+        if (names_.empty() && mistakes_.none())
+            mistakes_.error({0, 1, 1}, "a skeleton needs at least one component: start[0, 1, 0, 0];");
         std::set<std::string> seen;
         for (const Component& component : skeleton_.components) {
             if (!seen.insert(component.name).second) {
@@ -78,10 +79,10 @@ private:
         const double deviation = place.deviation ? place.deviation->number.value_or(0) : 0;
         constexpr double rounding = 1e-12;
         if (middle - deviation >= -rounding && middle + deviation <= 1 + rounding) return;
-        mistakes_.error(
-            place.at, fmt::format("'{}' begins between {} and {} of its master; a place on the master is "
-                                  "from 0 to 1",
-                                  component.name, format_exact(middle - deviation), format_exact(middle + deviation)));
+        mistakes_.error(place.at, fmt::format("'{}' begins between {} and {} of its master; a place on the master is "
+                                              "from 0 to 1",
+                                              component.name, format_general(middle - deviation),
+                                              format_general(middle + deviation)));
     }
 
     void slaves(const std::vector<Slave>& list) {

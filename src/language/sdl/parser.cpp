@@ -1,5 +1,6 @@
 #include "language/sdl/parser.h"
 
+#include "base/text.h"
 #include "language/sdl/formula.h"
 
 #include <fmt/format.h>
@@ -55,6 +56,9 @@ private:
         skeleton_.components.push_back(component);  // known from here on, whatever is wrong with its features
         in_.expect("[", fmt::format("before the features of '{}'", component.name));
         component.is_null = in_.accept("NULL");
+        const std::array<std::string, 1> null{"NULL"};
+        const bool is_nearly_null = !nearest_name(in_.next().text, null).empty();
+        if (!component.is_null && is_nearly_null) in_.fail("NULL or a beginning", null);
         if (!component.is_null) features(component);
         in_.expect("]", fmt::format("after the features of '{}'", component.name));
         in_.expect(";", "after a component");

@@ -151,7 +151,8 @@ TEST_CASE("nesting that no one writes is a mistake, not a crash", "[sdl]") {
     std::string rule = "define{ a[0,1,0,0]; } rules{ a -> ";
     for (int i = 0; i < 1000; ++i) rule += "(a";
     CHECK(complaint(rule).find("nested more than 50 deep") != std::string::npos);
-    CHECK(complaint("define{ a[" + std::string(100000, '-') + "1,1,0,0]; } rules{}").find("nested") != std::string::npos);
+    CHECK(complaint("define{ a[" + std::string(100000, '-') + "1,1,0,0]; } rules{}").find("nested") !=
+          std::string::npos);
 }
 
 TEST_CASE("files of the notation are models for every command", "[sdl]") {

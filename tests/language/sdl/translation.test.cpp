@@ -29,8 +29,8 @@ public:
         std::string text = "define{ a[0,1,0,0];";
         for (const char* name : {"stem", "leaf", "bud", "F"}) {
             const char* prefix = below(4) == 0 ? "#const_ver " : below(4) == 0 ? "#const_hor " : "";
-            text += fmt::format(" {}{}[{},{},{},{}];", prefix, name, below(5) / 4.0, below(9) / 4.0 - 1,
-                                30 * below(12), 15 * below(7) - 30);
+            text += fmt::format(" {}{}[{},{},{},{}];", prefix, name, below(5) / 4.0, below(9) / 4.0 - 1, 30 * below(12),
+                                15 * below(7) - 30);
         }
         text += " node[NULL]; } rules{ a -> " + right_side(1) + ";";
         for (const char* name : {"stem", "bud", "node", "F"}) {
@@ -184,8 +184,8 @@ TEST_CASE("lengths end at 0", "[sdl]") {
 }
 
 TEST_CASE("#const_ver and #const_hor: the angle is the component's own", "[sdl]") {
-    const auto nodes = skeleton_after(
-        "define{ S[0,1,50,60]; #const_ver A[0,0,7,5]; #const_hor B[0,0,7,5]; } rules{ S -> (A B); }", 1);
+    const auto nodes =
+        skeleton_after("define{ S[0,1,50,60]; #const_ver A[0,0,7,5]; #const_hor B[0,0,7,5]; } rules{ S -> (A B); }", 1);
     CHECK(nodes[1].vertical == 7);
     CHECK(nodes[1].horizontal == 65);
     CHECK(nodes[2].vertical == 57);

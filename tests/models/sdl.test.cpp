@@ -1,0 +1,100 @@
+// Skeleton descriptions of the library: components in each generation, and what their fibres are.
+#include "catch.h"
+#include "experiments/growth.h"
+#include "geometry/mesh_checks.h"
+#include "models/measure.h"
+
+using namespace espalier;
+
+namespace {
+
+LonePlant plant(const std::string& name) {
+    return LonePlant("models/sdl/" + name + ".sdl");
+}
+
+}  // namespace
+
+TEST_CASE("straw.sdl: n generations have 1 + n components, drawn as lines", "[models]") {
+    LonePlant straw = plant("straw");
+    for (int n = 1; n <= 12; ++n) {
+        straw.grow(1);
+        CHECK(straw.interpretation.geometry.internodes.size() == std::size_t(1 + n));
+        for (const auto& features : parameters_of(straw.string, straw.model->alphabet, "straw")) {
+            const double i = std::round(features[2] / 30);
+            CHECK(features[0] >= 1 + 0.5 * std::max(1.0, features[2] / 40) - 1e-9);
+            CHECK(features[0] <= 1 + 1.1 * features[2] / 20 + 1e-9);
+            CHECK(i >= 1);
+        }
+    }
+}
+
+TEST_CASE("grass.sdl: sixty blades, then four stalks, then their ears", "[models]") {
+    LonePlant grass = plant("grass");
+    grass.grow(1);
+    CHECK(grass.counts()["blade"] == 60);
+    CHECK(grass.counts()["stalk"] == 0);
+    grass.grow(1);
+    CHECK(grass.counts()["stalk"] == 4);
+    grass.grow(1);
+    CHECK(grass.counts()["ear"] == 4);
+}
+
+TEST_CASE("fern.sdl: nine fronds get a segment in each generation, and each segment but the last two pinnae",
+          "[models]") {
+    LonePlant fern = plant("fern");
+    fern.grow(1);
+    for (int n = 2; n <= 12; ++n) {
+        fern.grow(1);
+        CHECK(fern.counts()["frond"] == 9);
+        CHECK(fern.counts()["axis"] == 9 * (n - 1));
+        CHECK(fern.counts()["right"] == 9 * (n - 2));
+        CHECK(fern.counts()["left"] == 9 * (n - 2));
+    }
+}
+
+TEST_CASE("daisy.sdl: five heads with 24 petals", "[models]") {
+    LonePlant daisy = plant("daisy");
+    daisy.grow(3);
+    CHECK(daisy.counts()["head"] == 5);
+    CHECK(daisy.counts()["petal"] == 120);
+    CHECK(daisy.counts()["blade"] == 16);
+}
+
+TEST_CASE("palm.sdl: one trunk, and twenty fronds with leaflets when it is grown up", "[models]") {
+    LonePlant palm = plant("palm");
+    palm.grow(14);
+    CHECK(palm.counts()["frond"] == 0);
+    palm.grow(2);
+    CHECK(palm.counts()["frond"] == 20);
+    CHECK(palm.counts()["right"] == 20 * 24);
+}
+
+TEST_CASE("spruce.sdl: a whorl of six branches for each shoot but the last", "[models]") {
+    LonePlant spruce = plant("spruce");
+    for (int n = 1; n <= 6; ++n) {
+        spruce.grow(1);
+        CHECK(spruce.counts()["shoot"] == n);
+        CHECK(spruce.counts()["branch"] == 6 * n);
+    }
+}
+
+TEST_CASE("agave.sdl: 34 leaves, each a closed body", "[models]") {
+    LonePlant agave = plant("agave");
+    agave.grow(1);
+    const DrawnMesh& mesh = agave.interpretation.geometry.mesh;
+    CHECK(agave.counts()["blade"] == 34);
+    CHECK(EdgeCount(mesh).closed);
+    CHECK(enclosed_volume(mesh) > 0);
+}
+
+TEST_CASE("tree.sdl: of the boughs, 15 % end, 55 % fork in two and 30 % in three", "[models]") {
+    LonePlant tree = plant("tree");
+    tree.grow(7);
+    const double before = tree.counts()["bough"];
+    const double leaves = tree.counts()["leaf_"];
+    tree.grow(1);
+    // Boughs of the last generation: those that had no leaves yet.
+    const double forked = (tree.counts()["leaf_"] - leaves) / 4, born = tree.counts()["bough"] - before - 3;
+    REQUIRE(forked > 100);
+    CHECK(std::abs(born / forked - 2) < 3 * std::sqrt((0.55 * 4 + 0.3 * 9 - 4) / forked));
+}
