@@ -16,19 +16,35 @@ namespace {
 constexpr const char* mutated = "#define MUTATED(middle, deviation) ((middle) - (deviation) + ran(2 * (deviation)))\n";
 constexpr const char* turn =
     "/* away from the vertical by the horizontal angle, in the direction of the vertical one */\n"
-    "#define TURN(vertical, horizontal) @R(sin(horizontal) * cos(vertical), cos(horizontal), sin(horizontal) * "
-    "sin(vertical), -cos(horizontal) * cos(vertical), sin(horizontal), -cos(horizontal) * sin(vertical))\n";
+    "#define TURN(vertical, horizontal) @R( \\\n"
+    "\tsin(horizontal) * cos(vertical), cos(horizontal), sin(horizontal) * sin(vertical), \\\n"
+    "\t-cos(horizontal) * cos(vertical), sin(horizontal), -cos(horizontal) * sin(vertical))\n";
 constexpr const char* part = "#define PART(parts, k) clamp(begin * parts - k, 0, 1)\n";
 constexpr const char* rough = "#define ROUGH(amplitude, x, y, z) amplitude * noise(x + 0.5, y + 0.5, z + grain)\n";
 
 /// Names of the model that no component may have: symbols of the turtle, macros and words of the language.
 bool is_taken(const std::string& name) {
-    static const std::set<std::string> taken{
-        "Gs",           "Gc",         "Ge",       "Gt",       "Gm",          "Gf",      "Tx",
-        "MUTATED",      "TURN",       "PART",     "ROUGH",    "GENERATIONS", "lsystem", "ring",
-        "seed",         "derivation", "ignore",   "consider", "define",      "start",   "Start",
-        "end",          "End",        "axiom",    "module",   "environment", "const",   "decomposition",
-        "homomorphism", "maximum",    "warnings", "no",       "endlsystem"};
+    static const std::set<std::string> taken{"Gs",           "Gc",
+                                             "Ge",           "Gt",
+                                             "Gm",           "Gf",
+                                             "Tx",           "MUTATED",
+                                             "TURN",         "PART",
+                                             "ROUGH",        "GENERATIONS",
+                                             "length",       "vertical",
+                                             "horizontal",   "waits",
+                                             "generation",   "width",
+                                             "ratio",        "grain",
+                                             "begin",        "lsystem",
+                                             "ring",         "seed",
+                                             "derivation",   "ignore",
+                                             "consider",     "define",
+                                             "start",        "Start",
+                                             "end",          "End",
+                                             "axiom",        "module",
+                                             "environment",  "const",
+                                             "maximum",      "decomposition",
+                                             "homomorphism", "warnings",
+                                             "no",           "endlsystem"};
     return name.size() == 1 || taken.count(name) > 0;
 }
 

@@ -225,9 +225,10 @@ TEST_CASE("several right sides are chosen as often as their weights say", "[sdl]
 TEST_CASE("components may have the names of symbols, functions and keywords", "[sdl]") {
     const std::string text =
         "define{ f[0,1,0,0]; F[0.5,1,0,0]; Gs[0,1,0,0]; axiom[0,1,0,0]; sin[0,1,0,0]; TURN[0,1,0,0]; ran[0,1,0,0]; "
-        "homomorphism[0,1:1,0,0]; Q[0,1,0,0]; waits[0,1,0,0]; } rules{ f -> (F Gs axiom sin TURN ran homomorphism Q "
-        "waits); F -> (f); }";
-    CHECK(skeleton_after(text, 2).size() == 11);
+        "homomorphism[0,1:1,0,0]; Q[0,1,0,0]; waits[0,1,0,0]; generation[i,length,0,generation]; } rules{ f -> (F Gs "
+        "axiom sin TURN ran homomorphism Q "
+        "waits generation); F -> (f); }";
+    CHECK(skeleton_after(text, 2).size() == 12);
 }
 
 TEST_CASE("the model of the straw is as short as the straw", "[sdl]") {
