@@ -29,7 +29,7 @@ PlantGeometry drawn(const std::string& lines) {
     Derivation derivation(compile(model), {});
     ModuleString string, next;
     derivation.start(string);
-    for (std::size_t k = 0; k < derivation.length(); ++k) {
+    for (int k = 0; k < static_cast<int>(derivation.length()); ++k) {
         derivation.step(string, next);
         std::swap(string, next);
     }
@@ -164,7 +164,7 @@ TEST_CASE("Every child has a frame of its own, orthonormal and with the sense of
     for (const char* type : {"Hydra", "Ring", "Phiball"}) {
         std::set<double> headings;
         for (const Pose& pose : placed(fmt::format("{} many\n  count 30\n  angle 10 .. 80\n  roll 33\n", type))) {
-            const glm::dmat3 frame(pose.heading, pose.left, pose.up);
+            const glm::dmat3 frame(pose.left, pose.heading, pose.up);
             const glm::dmat3 product = glm::transpose(frame) * frame;
             for (int k = 0; k < 3; ++k) {
                 for (int l = 0; l < 3; ++l) CHECK(std::abs(product[k][l] - (k == l)) < 1e-9);
@@ -183,7 +183,9 @@ TEST_CASE("Simple: the volumes of a cylinder and a box, and the diameter of a sp
     CHECK(volume_of(cylinder.mesh) == Approx(pi * 0.49 * 2).epsilon(0.02));
     const PlantGeometry box = drawn("Simple core\n  shape box\n  length 2\n  width 3\n  depth 0.5\ncamera -> core\n");
     CHECK(box.polygons.size() == 6);
-    CHECK(std::abs(volume_of_polygons(box)) == Approx(3));
+    CHECK(volume_of_polygons(box) == Approx(3));
+    const PlantGeometry higher = drawn("Simple core\n  shape box\n  move 5\ncamera -> core\n");
+    CHECK(volume_of_polygons(higher) == Approx(1));  // so the lower end looks outwards too
 }
 
 TEST_CASE("Horn: the axis turns by the sum of the rotations between pieces, interpolated from end to end", "[pgraph]") {

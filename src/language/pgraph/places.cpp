@@ -8,28 +8,28 @@ namespace {
 
 constexpr int sides_of_cylinder = 32;
 
-/// A face of a box after the turtle moved out to its middle line: `across` by the length.
-std::string face(const std::string& out, const std::string& across) {
-    return fmt::format(
-        "&(90) f({0} / 2) ^(90) -(90) f({1} / 2) +(90) {{ . f(length) +(90) f({1}) +(90) f(length) "
-        "+(90) f({1}) }}",
-        out, across);
+/// A rectangle around which the turtle goes, turning to one side; it has moved out along up to where the face is.
+std::string rectangle(const std::string& along, const std::string& across, char turn) {
+    return fmt::format("{{ . f({0}) {2}(90) f({1}) {2}(90) f({0}) {2}(90) f({1}) }}", along, across, turn);
 }
 
-std::string end_of_box(const std::string& before) {
-    return fmt::format(
-        "[ {}&(90) f(depth / 2) +(90) f(width / 2) +(90) {{ . f(depth) +(90) f(width) +(90) f(depth) "
-        "+(90) f(width) }} ] ",
-        before);
+std::string side_of_box(int side) {
+    const bool is_deep = side % 2 == 0;
+    const std::string out = is_deep ? "depth" : "width", across = is_deep ? "width" : "depth";
+    return fmt::format("[ /({}) &(90) f({} / 2) ^(90) +(90) f({} / 2) -(90) {} ] ", 90 * side, out, across,
+                       rectangle("length", across, '-'));
 }
 
+std::string end_of_box(char turn) {
+    return fmt::format("[ &(90) f(depth / 2) {0}(90) f(width / 2) {0}(90) {1} ] ", turn,
+                       rectangle("depth", "width", turn));
+}
+
+/// All faces look outwards.
 std::string box() {
     std::string text;
-    for (int side = 0; side < 4; ++side) {
-        const bool is_deep = side % 2 == 0;
-        text += fmt::format("[ /({}) {} ] ", 90 * side, is_deep ? face("depth", "width") : face("width", "depth"));
-    }
-    return text + end_of_box("/(180) ") + end_of_box("f(length) ") + "f(length)";
+    for (int side = 0; side < 4; ++side) text += side_of_box(side);
+    return text + end_of_box('-') + "f(length) " + end_of_box('+');
 }
 
 struct Shape {
