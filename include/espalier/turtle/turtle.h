@@ -53,7 +53,7 @@ struct TurtleSettings {
 
 /// How generalized cylinders and spheres are drawn from here on.
 struct Brush {
-    int contour = 0;  ///< number of the cross-section; 0: the circle
+    int contour = 0;                     ///< number of the cross-section; 0: the circle
     std::shared_ptr<const Contour> cut;  ///< that magnets make, instead of it; null if there are none
     int sides = 8;
     double tangent_before = 1.2, tangent_after = 1.2;
