@@ -149,6 +149,14 @@ TEST_CASE("elasticity 0.5 towards the ground turns a horizontal segment by 0.5 r
     CHECK(glm::length(pose.position - pose.heading) < 1e-15);  // it acts before the step
 }
 
+TEST_CASE("@Th turns towards a direction at once, by the strength times the sine of the angle between", "[turtle]") {
+    CHECK(angle_between(pose_after("+(90)@Th(0,-3,0,0.5)").heading, -X) == Approx(0.5));
+    CHECK(angle_between(pose_after("+(30)@Th(0,-1,0,0.4)").heading, pose_after("+(30)").heading) == Approx(0.2));
+    CHECK(pose_after("+(90)@Th(0,1,0,-0.5)").heading.y == Approx(-std::sin(0.5)));
+    CHECK(pose_after("+(30)@Th(0,0,0,1)").heading == pose_after("+(30)").heading);
+    CHECK(frame_error(pose_after("+(20)&(50)@Th(1,2,3,0.7)")) < 1e-12);
+}
+
 TEST_CASE("without elasticity a tropism changes nothing, bit for bit", "[turtle]") {
     const std::string text = "F+(20)F&(30)F/(40)f+(50)F";
     Drawing plain(text), still(text);
