@@ -338,6 +338,24 @@ TEST_CASE("The weeping willow: twigs end downwards, and do not without gravitrop
     CHECK(mean_end("0") > 0);
 }
 
+TEST_CASE("The mountain pine: its crown lies downwind", "[pgraph]") {
+    const auto vertices = [](const std::string& wind) {
+        return grown_model("wind-pine", {{"WIND", wind}}).interpretation.geometry.vertices;
+    };
+    const auto centre_of = [](const std::vector<glm::dvec3>& points) {
+        glm::dvec3 sum(0);
+        for (const glm::dvec3& point : points) sum += point;
+        return sum / double(points.size());
+    };
+    const std::vector<glm::dvec3> calm = vertices("0"), blown = vertices("1");
+    const glm::dvec3 calm_centre = centre_of(calm);
+    double radius = 0;
+    for (const glm::dvec3& point : calm) {
+        radius = std::max(radius, std::hypot(point.x - calm_centre.x, point.z - calm_centre.z));
+    }
+    CHECK(centre_of(blown).x - calm_centre.x > 0.1 * radius);
+}
+
 TEST_CASE("The sunflower and the pineapple: organs a golden angle apart", "[pgraph]") {
     const LonePlant sunflower = grown_model("sunflower", {{"RAYS", "0"}});
     CHECK(sunflower.counts().at("Floret") == 420);
