@@ -210,8 +210,8 @@ TEST_CASE("@Gm makes the cut of magnets, @Gf its flat middle, and @# goes back t
     }
 }
 
-TEST_CASE("a cylinder that the magnets close at its end is a cone, and closed", "[turtle]") {
-    CHECK(volume("!(0.5)@Gm(1,0)@Gsf@Gm(1,-1)@Ge(1)") == Approx(tube(0.5, 1) / 3));
+TEST_CASE("between two cuts a cylinder changes evenly", "[turtle]") {
+    CHECK(volume("!(0.5)@Gm(1,0)@Gsf@Gm(1,-0.5)@Ge(1)") == Approx(tube(0.5, 1) * (1 + 0.5 + 0.25) / 3));
 }
 
 TEST_CASE("a magnet that is not a number stops the drawing", "[turtle]") {

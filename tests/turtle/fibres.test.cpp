@@ -35,10 +35,12 @@ DrawnMesh fibre(const std::string& functions, const std::string& type = "wooden"
     return drawn("define{ a[0,2,0,0]; } rules{} fibres{ " + type + "{ " + functions + " } }").mesh;
 }
 
-/// The positions of ring k of a mesh whose rings have so many magnets.
+/// The positions of ring k of a mesh whose rings have so many magnets. Behind the first ring of a solid one is its cap.
 std::vector<glm::dvec3> ring(const DrawnMesh& mesh, int k, int magnets) {
+    const bool has_caps = mesh.vertices.size() % std::size_t(magnets + 1) != 0;
+    const int first = k * (magnets + 1) + (has_caps && k > 0 ? magnets + 2 : 0);
     std::vector<glm::dvec3> points;
-    for (int i = 0; i < magnets; ++i) points.push_back(mesh.vertices[std::size_t(k * (magnets + 1) + i)].position);
+    for (int i = 0; i < magnets; ++i) points.push_back(mesh.vertices[std::size_t(first + i)].position);
     return points;
 }
 
@@ -127,7 +129,6 @@ TEST_CASE("magnets move the outline of their ring, and rings blend along the fib
     CHECK(from_axis(middle[4]) == Approx(0.05));
     for (const glm::dvec3& point : ring(mesh, 4, 8)) CHECK(from_axis(point) == Approx(0).margin(1e-12));
     for (int k = 0; k < 4; ++k) CHECK(area(ring(mesh, k + 1, 8)) < area(ring(mesh, k, 8)) * 1.3);
-    CHECK(EdgeCount(mesh).closed);
 }
 
 TEST_CASE("corrections keep within their amplitude, have no direction and leave the mesh as it is knit", "[sdl]") {
@@ -148,7 +149,7 @@ TEST_CASE("corrections keep within their amplitude, have no direction and leave 
 }
 
 TEST_CASE("flat fibres have no thickness, solid ones a volume", "[sdl]") {
-    const std::string functions = "cut[0.2, 0.1]; ring[-0.3]; ring[0.2]; ring[-1]; contour[20, 30]; quality[7, 8];";
+    const std::string functions = "cut[0.2, 0.1]; ring[-0.3]; ring[0.2]; ring[-0.9]; contour[20, 30]; quality[7, 8];";
     const DrawnMesh flat = fibre(functions, "leaf"), solid = fibre("solid; " + functions, "leaf");
     CHECK(EdgeCount(solid).closed);
     CHECK(enclosed_volume(solid) > 0.001);
