@@ -86,14 +86,14 @@ TEST_CASE("agave.sdl: 34 leaves, which enclose a volume", "[models]") {
     CHECK(enclosed_volume(mesh) > 0);
 }
 
-TEST_CASE("tree.sdl: of the boughs, 15 % end, 55 % fork in two and 30 % in three", "[models]") {
+TEST_CASE("tree.sdl: of the boughs, 5 % end, 60 % fork in two and 35 % in three", "[models]") {
     LonePlant tree = plant("tree");
-    tree.grow(7);
-    const double before = tree.counts()["bough"];
-    const double leaves = tree.counts()["leaf_"];
+    tree.grow(6);
+    const double boughs = tree.counts()["bough"], leaves = tree.counts()["foliage"];
     tree.grow(1);
-    // Boughs of the last generation: those that had no leaves yet.
-    const double forked = (tree.counts()["leaf_"] - leaves) / 4, born = tree.counts()["bough"] - before - 3;
+    // Those of the last generation fork now, and each of them gets its leaves.
+    const double forked = (tree.counts()["foliage"] - leaves) / 10, born = tree.counts()["bough"] - boughs - 3;
     REQUIRE(forked > 100);
-    CHECK(std::abs(born / forked - 2) < 3 * std::sqrt((0.55 * 4 + 0.3 * 9 - 4) / forked));
+    const double variance = 0.6 * 4 + 0.35 * 9 - 2.25 * 2.25;
+    CHECK(std::abs(born / forked - 2.25) < 3 * std::sqrt(variance / forked));
 }
