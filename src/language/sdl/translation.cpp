@@ -57,6 +57,7 @@ public:
             waiting_.insert(rule.master);
             for (const RightSide& side : rule.right_sides) number_branches(side.slaves, 1);
         }
+        forget_unused_moves();
     }
 
     std::string text() const {
@@ -85,6 +86,16 @@ private:
             const std::string which = fibre.components.empty() ? type : type + "_" + fibre.components.front();
             fibres_.push_back({&fibre, unused(which + "_fibre"), ""});
             if (!fibre.contour.empty()) fibres_.back().along = unused("along_" + which);
+        }
+    }
+
+    /// Fibres that bear nothing need no moves along their axes.
+    void forget_unused_moves() {
+        std::string births;
+        for (const Rule& rule : skeleton_.rules) births += production(rule);
+        for (const auto& [slave, number] : branches_) births += decomposition(*slave, number);
+        for (FibreModules& fibre : fibres_) {
+            if (births.find(fibre.along + "(") == std::string::npos) fibre.along.clear();
         }
     }
 
