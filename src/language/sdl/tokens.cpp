@@ -70,10 +70,14 @@ private:
         return length;
     }
 
-    Location here() const {
-        int column = 1;
-        for (std::size_t i = line_start_; i < at_; ++i) column += !is_continuation_byte(text_[i]);
-        return {file_, line_, column};
+    /// Columns are counted on from the token before, so that long lines cost no more than short ones.
+    Location here() {
+        if (counted_ < line_start_) {
+            counted_ = line_start_;
+            column_ = 1;
+        }
+        for (; counted_ < at_; ++counted_) column_ += !is_continuation_byte(text_[counted_]);
+        return {file_, line_, column_};
     }
 
     void add(Token::Kind kind, std::size_t length) {
@@ -84,8 +88,8 @@ private:
     const std::string& text_;
     const std::uint32_t file_;
     Mistakes& mistakes_;
-    std::size_t at_ = 0, line_start_ = 0;
-    int line_ = 1;
+    std::size_t at_ = 0, line_start_ = 0, counted_ = 0;
+    int line_ = 1, column_ = 1;
     std::vector<Token> tokens_;
 };
 
