@@ -48,6 +48,16 @@ for scene in hedge ivy root-flare; do
     grow "$scene" "environments/$scene.toml"
     render "$scene.png" "$scene" --size 320x300 --azimuth 15
 done
+plant_of_notation() { # NAME FILE
+    grow "$1" "$2" --colour-map models/plants.map
+    render "$1.png" "$1" --size 300x300
+}
+for plant in dandelion sunflower weeping-willow bush palm pineapple wind-pine; do
+    plant_of_notation "pgraph-$plant" "models/pgraph/$plant.pgraph"
+done
+for plant in grass fern daisy palm spruce agave tree; do
+    plant_of_notation "sdl-$plant" "models/sdl/$plant.sdl"
+done
 self_organizing() { # PICTURE [OPTIONS]
     grow "$1" environments/self-organizing.toml --set plant.0.define.YEARS=20 "${@:2}"
     render "$1.png" "$1" --size 320x360 --azimuth 20
