@@ -121,19 +121,24 @@ std::size_t ends(const World& world) {
     return static_cast<std::size_t>(std::count(bears.begin(), bears.end(), 0));
 }
 
-/// The way from the base to each end, through the tree and straight: the mean of their ratio.
+/// The way along ten internodes of an axis, and the straight one: the mean of their ratio.
 double tortuosity(const World& world) {
+    constexpr int pieces = 10;
     const auto& internodes = world.interpretation(0).geometry.internodes;
     const std::vector<std::uint32_t> on = bearers(world);
-    std::vector<double> ways(internodes.size(), 0);
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < internodes.size(); ++i) {
-        const double length = glm::distance(internodes[i].base, internodes[i].tip);
-        ways[i] = length + (on[i] == geometry::no_bearer ? 0 : ways[on[i]]);
-        const double chord = glm::length(internodes[i].tip);
-        if (ways[i] < 10 * length || chord == 0) continue;
-        sum += ways[i] / chord;
+        std::uint32_t first = static_cast<std::uint32_t>(i);
+        int passed = 1;
+        while (passed < pieces && on[first] != geometry::no_bearer &&
+               internodes[on[first]].axis == internodes[i].axis) {
+            first = on[first];
+            ++passed;
+        }
+        if (passed < pieces) continue;
+        const double way = pieces * glm::distance(internodes[i].base, internodes[i].tip);
+        sum += way / std::max(glm::distance(internodes[first].base, internodes[i].tip), 0.1 * way);
         ++count;
     }
     return sum / static_cast<double>(count);
@@ -245,4 +250,88 @@ TEST_CASE("the higher the limit of shedding, the fewer internodes a self-organiz
 
 TEST_CASE("buds that need light leave the shade below: the tree without it has more internodes", "[colonization]") {
     CHECK(tips(organized({{"LIGHT", 0}}, 0.5, 12)).size() > tips(organized({}, 0.5, 12)).size());
+}
+
+namespace {
+
+std::unique_ptr<World> tree(const std::map<std::string, double>& settings, std::uint64_t seed = 0) {
+    SceneOptions options;
+    options.seed = seed;
+    for (const auto& [name, value] : settings) {
+        options.overrides.emplace_back("plant.0.define." + name, std::to_string(value));
+    }
+    return grown("environments/tree.toml", options);
+}
+
+}  // namespace
+
+TEST_CASE("a crown lies in its cloud, and its height and width are those of the cloud", "[colonization]") {
+    for (const double height : {3.0, 6.0}) {
+        const auto world = tree({{"CROWN_WIDTH", 4},
+                                 {"CROWN_DEPTH", 4},
+                                 {"CROWN_HEIGHT", height},
+                                 {"CUT_BELOW", 0.2},
+                                 {"AGE", 70},
+                                 {"GNARLY", 0.8}});
+        Box box;
+        for (const glm::dvec3& tip : tips(*world)) {
+            const glm::dvec3 from_centre = tip - glm::dvec3(0, height * (0.5 - 0.2), 0);
+            const glm::dvec3 reach = glm::dvec3(2, height / 2, 2) + 0.15;
+            REQUIRE(glm::length(from_centre / reach) <= 1);
+            box.add(tip);
+        }
+        CHECK(box.upper.y / (box.upper.x - box.lower.x) == Approx(0.8 * height / 4).epsilon(0.05));
+    }
+}
+
+TEST_CASE("a trunk through the whole crown ends at its top and is the thickest branch at every height",
+          "[colonization]") {
+    const auto world = tree({{"TRUNK_IN_CROWN", 1},
+                             {"CROWN_WIDTH", 4},
+                             {"CROWN_DEPTH", 4},
+                             {"CROWN_HEIGHT", 12},
+                             {"CUT_BELOW", 0.5},
+                             {"AGE", 16},
+                             {"DENSITY_BEGIN", 0.8},
+                             {"DENSITY_END", 1},
+                             {"UPWARDS", 0},
+                             {"GNARLY", 0.5},
+                             {"PERCEPTION", 200},
+                             {"STEM_LENGTH", 0},
+                             {"LEAVES", 0}});
+    const Frame frame = world->frame();
+    const auto& internodes = frame.plants[0].interpretation->geometry.internodes;
+    std::vector<Internode> trunk;
+    for (const Internode& one : internodes) {
+        if (std::hypot(one.tip.x, one.tip.z) < 1e-9 && std::hypot(one.base.x, one.base.z) < 1e-9) trunk.push_back(one);
+    }
+    REQUIRE(trunk.size() == 40);
+    CHECK(trunk.back().tip.y == Approx(6));
+    for (const Internode& part : trunk) {
+        if (part.tip.y > 5.5) break;  // above, twigs are as thin as the trunk's end
+        for (const Internode& one : internodes) {
+            const bool beside = one.order > 0 && one.base.y < part.tip.y && one.tip.y > part.base.y;
+            if (beside) REQUIRE(one.tip_radius < part.tip_radius);
+        }
+    }
+}
+
+TEST_CASE("the setting `gnarly` makes branches wind more and more: six trees of each", "[colonization]") {
+    double before = 0;
+    for (const double gnarly : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+        double now = 0;
+        for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+            now += tortuosity(
+                *tree({{"GNARLY", gnarly}, {"CROWN_WIDTH", 8}, {"CROWN_DEPTH", 8}, {"CROWN_HEIGHT", 8}}, seed));
+        }
+        CHECK(now > before);
+        before = now;
+    }
+}
+
+TEST_CASE("the roots of the root flare stay below the ground, and its crown above", "[colonization]") {
+    const auto world = grown("environments/root-flare.toml");
+    for (const glm::dvec3& tip : tips(*world, 0)) REQUIRE(tip.y > 0);
+    for (const glm::dvec3& tip : tips(*world, 1)) REQUIRE(tip.y < 0);
+    CHECK(tips(*world, 1).size() > 50);
 }
