@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/registered_part.h"
 #include "base/text.h"
 #include "environment/exchange/communication.h"
 
@@ -10,17 +11,6 @@
 
 namespace espalier::environment {
 namespace {
-
-const ProcessType& process_type(const Settings& settings) {
-    const std::string kind = settings.text("process");
-    const auto& types = registered<ProcessType>();
-    const auto found = types.find(kind);
-    if (found != types.end()) return *found->second;
-    std::vector<std::string> kinds;
-    for (const auto& type : types) kinds.push_back(type.first);
-    throw UserError(settings.place("process"), fmt::format("there is no process '{}'{}; there are: {}", kind,
-                                                           did_you_mean(kind, kinds), fmt::join(kinds, ", ")));
-}
 
 std::string listed(const std::vector<std::string>& names) {
     return names.empty() ? "the scene has no processes" : fmt::format("the scene has: {}", fmt::join(names, ", "));
@@ -68,7 +58,7 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
         communications_.emplace_back(table);
         EnvironmentContext own = context;
         own.name = name;
-        const ProcessType& type = process_type(settings);
+        const auto& type = registered_part<ProcessType>(settings, "process", "process");
         processes_.push_back(type.make(settings, own, fields_));
         names_.push_back(name);
         kinds_.push_back(type.name);

@@ -56,10 +56,11 @@ Colonization::Colonization(std::vector<glm::dvec3> points, ColonizationRules rul
 }
 
 void Colonization::sort_into_cells() {
-    const glm::dvec3 edges = box_of(points_).upper - box_of(points_).lower;
-    const double widest = std::max({edges.x, edges.y, edges.z, 1e-9});
+    const Box cloud = box_of(points_);
+    const glm::dvec3 edges = cloud.upper - cloud.lower;
+    widest_ = std::max({edges.x, edges.y, edges.z, 1e-9});
     // A cloud may be flat.
-    const glm::dvec3 thick = glm::max(edges, glm::dvec3(1e-3 * widest));
+    const glm::dvec3 thick = glm::max(edges, glm::dvec3(1e-3 * widest_));
     const double share = points_per_cell / static_cast<double>(points_.size());
     const PointGrid grid(points_, all_numbers(points_.size()), std::cbrt(thick.x * thick.y * thick.z * share));
     std::vector<glm::dvec3> sorted;
@@ -110,9 +111,7 @@ void Colonization::add(std::span<const std::uint32_t> nodes) {
     std::vector<glm::dvec3> places;
     places.reserve(nodes_.size());
     for (const ColonizingNode& node : nodes_) places.push_back(node.position);
-    const glm::dvec3 edges = box_of(points_).upper - box_of(points_).lower;
-    const double edge = std::min(rules_.influence, std::max({edges.x, edges.y, edges.z, 1e-6}));
-    const PointGrid grid(places, nodes, edge);
+    const PointGrid grid(places, nodes, std::min(rules_.influence, std::max(widest_, 1e-6)));
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells_.size(), 8), [&](const auto& range) {
         std::vector<std::uint32_t> near;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {

@@ -77,6 +77,7 @@ private:
     std::vector<double> winning_;        ///< to the winner
     std::vector<std::uint32_t> winner_;  ///< a node, or `none`
     std::vector<Cell> cells_;
+    double widest_ = 0;  ///< m; the longest edge of the cloud
     std::size_t count_left_ = 0;
     std::vector<ColonizingNode> nodes_;
 };

@@ -121,10 +121,6 @@ inline Tree small_tree() {
     return tree;
 }
 
-inline std::vector<Internode> internodes(const Tree& tree) {
-    return {tree.geometry.internodes.begin(), tree.geometry.internodes.end()};
-}
-
 inline bool same(const Internode& a, const Internode& b) {
     return a.module == b.module && a.axis == b.axis && a.base == b.base && a.tip == b.tip &&
            a.base_radius == b.base_radius && a.tip_radius == b.tip_radius;
