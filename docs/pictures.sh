@@ -29,6 +29,7 @@ grow two-roots environments/two-roots.toml
 grow root-2d environments/root-2d.toml
 grow topiary environments/topiary-3d.toml
 grow forest environments/forest.toml --set plant.0.grid.columns=7 --set plant.0.grid.rows=7
+grow forest-patch environments/forest-patch.toml --every 50
 grow lychnis models/herbs/lychnis.l --colour-map models/plants.map
 
 render two-trees.png two-trees --size 640x480 --azimuth 20 --elevation 10
@@ -38,6 +39,7 @@ render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar
 render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth
 render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --zoom 1.15 --scale-bar --dark
 render light.png forest --size 720x450 --colour-by light --elevation 25 --scale-bar
+render forest-patch.png forest-patch --size 800x560 --azimuth 20 --elevation 8
 render water.png two-roots --size 800x600 --field water:iso=0.285 --field water:slice=x --azimuth 35
 render lychnis.png lychnis --size 640x480
 for preset in decurrent excurrent weeping shrub gnarly flat orchard; do
