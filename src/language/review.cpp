@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -34,6 +35,7 @@ public:
             review_filter(system);
             review_homomorphism(system.homomorphism);
             review_brackets(system.axiom, "axiom");
+            review_polygons(system.axiom);
             review_modules(system.axiom);
             for (const Block* block : {&system.start, &system.start_each, &system.end_each, &system.end})
                 review_statements(*block);
@@ -121,6 +123,7 @@ private:
             review_applicability(production);
             if (!stochastic) review_shadow(production);
             review_brackets(production.successor, "successor");
+            review_polygons(production.successor);
             review_modules(production.successor);
         }
         if (stochastic) review_weights(productions);
@@ -211,6 +214,8 @@ private:
         std::size_t size = 0;
         bool any_chance = false;
         bool any_weight = false;
+        bool all_fractions = true;  ///< every weight is a number below 1, and nothing but chance decides
+        double weights = 0;         ///< their sum
     };
 
     void review_weights(const std::vector<Production>& productions) {
@@ -220,12 +225,14 @@ private:
             for (const ModulePattern& pattern : production.strict) letters.push_back(pattern.letter);
             Pool& pool = pools[letters];
             if (!pool.first) pool.first = &production;
-            if (production.left.empty() && production.right.empty() && !production.condition) {
-                pool.fallback = &production;
-            }
+            const bool always = production.left.empty() && production.right.empty() && !production.condition;
+            if (always) pool.fallback = &production;
+            const std::optional<double> weight = production.weight ? constant_value(*production.weight) : std::nullopt;
+            pool.all_fractions = pool.all_fractions && always && weight && *weight < 1;
+            pool.weights += weight.value_or(0);
             ++pool.size;
             pool.any_weight = pool.any_weight || production.weight;
-            pool.any_chance = pool.any_chance || !production.weight || constant_value(*production.weight) != 0;
+            pool.any_chance = pool.any_chance || !production.weight || weight != 0;
         }
         for (const auto& [letters, pool] : pools) review_pool(pool, described(letters.front()));
     }
@@ -239,6 +246,24 @@ private:
                  fmt::format("with 'seed:' this production is drawn as often as each of the others of {} that match, "
                              "whatever their order: give it a condition, or all of them weights",
                              predecessor));
+        }
+        // Older notations write probabilities here.
+        if (pool.size > 1 && pool.all_fractions && pool.any_chance && std::abs(pool.weights - 1) > rounded_weights) {
+            warn(pool.first->place,
+                 fmt::format("the weights of {} sum to {:.3g}: they are not probabilities, each is divided by this sum",
+                             predecessor, pool.weights));
+        }
+    }
+
+    void review_polygons(const std::vector<ModuleTemplate>& modules) {
+        int open = 0;
+        for (const ModuleTemplate& module : modules) {
+            const std::string& symbol = model_.alphabet.name(module.letter);
+            if (symbol == "{" && open++ == 1) {
+                warn(module.place, "this polygon begins within another one, whose vertices it does not share: is a "
+                                   "'}' missing?");
+            }
+            if (symbol == "}" && open > 0) --open;
         }
     }
 
@@ -546,6 +571,7 @@ private:
     std::set<LetterId> reported_;
     std::set<std::string> words_;  // that productions replace, but that nobody declares
     static constexpr std::size_t shortest_word = 3;
+    static constexpr double rounded_weights = 0.02;  // 0.33, 0.33 and 0.33 sum to one
     std::map<std::string, Place> called_;                               // labels, and where they are called
     bool calls_any_ = false;                                            // a label that is computed
     std::map<LetterId, std::vector<const Production*>> unconditional_;  // of the rule set at hand

@@ -146,3 +146,21 @@ TEST_CASE("a production that also replaces a part of a symbol of the turtle is p
     CHECK(warnings(lsystem_of("", "o(1)", "o(x) --> Fo(x)\nhomomorphism\no(x) --> @o(x)\n"), symbols) == "");
     CHECK(warnings(lsystem_of("", "E(1)?E(1)", "E(x) --> E(x)\n"), symbols) == "");
 }
+
+TEST_CASE("weights that look like probabilities and do not sum to one are pointed out", "[language]") {
+    const auto bush = [](const std::string& productions) {
+        return "lsystem: 1\nseed: 1\nderivation length: 1\naxiom: F\n" + productions + "endlsystem\n";
+    };
+    CHECK(warnings(bush("F --> FF : 0.5\nF --> F : 0.3\n")) ==
+          "5: the weights of 'F' sum to 0.8: they are not probabilities, each is divided by this sum");
+    CHECK(warnings(bush("F --> FF : 0.33\nF --> F : 0.33\nF --> FFF : 0.33\n")) == "");
+    CHECK(warnings(bush("F --> FF : 2\nF --> F : 0.5\n")) == "");
+    CHECK(warnings(bush("F --> FF : 0.3\nF : 1 > 2 --> F : 0.3\n")).find("sum to") == std::string::npos);
+    CHECK(warnings(bush("F < F --> FF : 0.3\nF --> F : 0.3\n")) == "");
+}
+
+TEST_CASE("a polygon within a polygon is pointed out", "[language]") {
+    CHECK(warnings(lsystem_of("", "A", "A --> {.f.f{.f.f.}f.}\n")) ==
+          "3: this polygon begins within another one, whose vertices it does not share: is a '}' missing?");
+    CHECK(warnings(lsystem_of("", "A", "A --> {.f.f.}[{.f.f.}]\n")) == "");
+}
