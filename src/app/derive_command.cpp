@@ -6,6 +6,7 @@
 #include "options.h"
 #include "simulation/insertion.h"
 #include "turtle/asking.h"
+#include "turtle/terminals.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,6 +23,7 @@ struct DeriveArguments {
     std::optional<std::uint64_t> seed;
     std::string format = "text";
     bool before_exchange = false;
+    bool without_nonterminals = false;
     std::filesystem::path files;  ///< where files go that the model writes; empty: nowhere
     bool quiet = false;
     std::size_t memory = 0;
@@ -152,10 +154,11 @@ int derive(const DeriveArguments& arguments) {
     const Plant& plant = scene.plants.front();
     // "environment display: before" makes cpfg, too, answer the last queries.
     const bool before_exchange = arguments.before_exchange && !(plant.view && plant.view->exchanges_first);
-    const ModuleString string = scene.environment.processes.empty()
-                                    ? derive_alone(scene, arguments, before_exchange)
-                                    : derive_in_world(scene, arguments, before_exchange);
-    const Alphabet& alphabet = source_of(*plant.model).alphabet;
+    ModuleString string = scene.environment.processes.empty() ? derive_alone(scene, arguments, before_exchange)
+                                                              : derive_in_world(scene, arguments, before_exchange);
+    const Model& model = source_of(*plant.model);
+    if (arguments.without_nonterminals) string = turtle::terminals_of(model, *symbol_table(model), string);
+    const Alphabet& alphabet = model.alphabet;
     if (arguments.format == "counts") {
         write_out(counts_text(string, alphabet));
     } else if (arguments.format == "json") {
@@ -177,6 +180,8 @@ public:
             ->check(CLI::IsMember({"text", "counts", "json"}));
         app().add_flag("--before-exchange", before_exchange_,
                        "print the string before the queries of the last step are answered, like cpfg");
+        app().add_flag("--without-nonterminals", without_nonterminals_,
+                       "delete modules that the turtle does not know and no homomorphism replaces, such as apices");
         app().add_option("--files", files_, "folder for files that the model writes; default: they are discarded");
         app().add_flag("--quiet", quiet_, "print no warnings");
         app().footer(
@@ -190,15 +195,15 @@ Examples:
     }
 
     int run() override {
-        return derive({model_.arguments(), growth_.steps(), growth_.seed(), format_, before_exchange_, files_, quiet_,
-                       growth_.memory()});
+        return derive({model_.arguments(), growth_.steps(), growth_.seed(), format_, before_exchange_,
+                       without_nonterminals_, files_, quiet_, growth_.memory()});
     }
 
 private:
     ModelOptions model_;
     GrowthOptions growth_;
     std::string format_ = "text";
-    bool before_exchange_ = false, quiet_ = false;
+    bool before_exchange_ = false, without_nonterminals_ = false, quiet_ = false;
     std::filesystem::path files_;
 };
 

@@ -260,8 +260,9 @@ private:
         for (const ModuleTemplate& module : modules) {
             const std::string& symbol = model_.alphabet.name(module.letter);
             if (symbol == "{" && open++ == 1) {
-                warn(module.place, "this polygon begins within another one, whose vertices it does not share: is a "
-                                   "'}' missing?");
+                warn(module.place,
+                     "this polygon begins within another one, whose vertices it does not share: is a "
+                     "'}' missing?");
             }
             if (symbol == "}" && open > 0) --open;
         }
@@ -571,7 +572,7 @@ private:
     std::set<LetterId> reported_;
     std::set<std::string> words_;  // that productions replace, but that nobody declares
     static constexpr std::size_t shortest_word = 3;
-    static constexpr double rounded_weights = 0.02;  // 0.33, 0.33 and 0.33 sum to one
+    static constexpr double rounded_weights = 0.02;                     // 0.33, 0.33 and 0.33 sum to one
     std::map<std::string, Place> called_;                               // labels, and where they are called
     bool calls_any_ = false;                                            // a label that is computed
     std::map<LetterId, std::vector<const Production*>> unconditional_;  // of the rule set at hand

@@ -88,7 +88,8 @@ TEST_CASE("the more a tree is surrounded the fewer needle clusters it bears", "[
     for (const std::size_t corner : corners) CHECK(dense()[corner].clusters < far_apart()[corner].clusters);
 }
 
-TEST_CASE("the outer trees lean out by more than a metre, the inner one stands upright", "[experiments][forest-patch]") {
+TEST_CASE("the outer trees lean out by more than a metre, the inner one stands upright",
+          "[experiments][forest-patch]") {
     for (const auto& group : {edges, corners}) {
         for (const std::size_t tree : group) {
             INFO("tree " << tree);
