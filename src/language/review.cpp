@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -227,12 +228,12 @@ private:
             if (!pool.first) pool.first = &production;
             const bool always = production.left.empty() && production.right.empty() && !production.condition;
             if (always) pool.fallback = &production;
-            const std::optional<double> weight = production.weight ? constant_value(*production.weight) : std::nullopt;
-            pool.all_fractions = pool.all_fractions && always && weight && *weight < 1;
-            pool.weights += weight.value_or(0);
+            const double weight = production.weight ? constant_value(*production.weight).value_or(computed) : computed;
+            pool.all_fractions = pool.all_fractions && always && weight < 1;
+            pool.weights += weight;
             ++pool.size;
             pool.any_weight = pool.any_weight || production.weight;
-            pool.any_chance = pool.any_chance || !production.weight || weight != 0;
+            pool.any_chance = pool.any_chance || weight != 0;
         }
         for (const auto& [letters, pool] : pools) review_pool(pool, described(letters.front()));
     }
@@ -572,10 +573,11 @@ private:
     std::set<LetterId> reported_;
     std::set<std::string> words_;  // that productions replace, but that nobody declares
     static constexpr std::size_t shortest_word = 3;
-    static constexpr double rounded_weights = 0.02;                     // 0.33, 0.33 and 0.33 sum to one
-    std::map<std::string, Place> called_;                               // labels, and where they are called
-    bool calls_any_ = false;                                            // a label that is computed
-    std::map<LetterId, std::vector<const Production*>> unconditional_;  // of the rule set at hand
+    static constexpr double computed = std::numeric_limits<double>::quiet_NaN();  // a weight that is no number yet
+    static constexpr double rounded_weights = 0.02;                               // 0.33, 0.33 and 0.33 sum to one
+    std::map<std::string, Place> called_;                                         // labels, and where they are called
+    bool calls_any_ = false;                                                      // a label that is computed
+    std::map<LetterId, std::vector<const Production*>> unconditional_;            // of the rule set at hand
     std::map<std::string, std::vector<std::string>> files_;
     std::vector<Diagnostic> found_;
 };
