@@ -134,6 +134,8 @@ TEST_CASE("render: films have the frames asked for", "[render]") {
     if (!place.grow()) return;
     CHECK(place.run("render run --size 64x48 --output f.ogv").code == 0);
     CHECK(place.bytes("f.ogv").starts_with("OggS"));
+    CHECK(place.run("render run --size 64x48 --output unfolding.ogv --between 2").code == 0);
+    CHECK_THAT(place.run("render run --output still.png --between 2").err, Contains("'still.png' is no film"));
     CHECK(place.run("render run --size 64x48 --output turn.ogv --step last --orbit 360 --frames 6").code == 0);
     if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
         WARN("skipped: no ffmpeg here");

@@ -74,6 +74,22 @@ TEST_CASE("render: the camera stays where it is while plants grow, and follows i
     CHECK_FALSE(same_pixels("orbit.png"));
 }
 
+TEST_CASE("render: between two frames of a film organs unfold in as many pictures as asked for", "[pictures]") {
+    if (!can_draw()) return;
+    const Rendered rendered;
+    RenderJob job = rendered.job();
+    job.between = 3;
+    std::size_t drawn = 0;
+    job.progress = [&](std::size_t done, std::size_t all) {
+        CHECK(done == ++drawn);
+        CHECK(all == 5);
+    };
+    render_film(job, 10, rendered.path("unfolding.ogv"));
+    CHECK(drawn == 5);
+    job.progress = nullptr;
+    CHECK(render_pictures(job, rendered.path("still.png")).size() == 2);
+}
+
 TEST_CASE("render: a sheet has its frames side by side, and the keys at its right", "[pictures]") {
     if (!can_draw()) return;
     const Rendered rendered;

@@ -14,8 +14,7 @@ using namespace espalier;
 namespace {
 
 std::string terminals(const std::string& axiom, const std::string& homomorphism = "") {
-    const std::string text =
-        "lsystem: 1\nderivation length: 0\naxiom: " + axiom + "\n" + homomorphism + "endlsystem\n";
+    const std::string text = "lsystem: 1\nderivation length: 0\naxiom: " + axiom + "\n" + homomorphism + "endlsystem\n";
     const std::shared_ptr<const Model> model = read_model_text(text, "model.l");
     Derivation derivation(compile(model), {});
     ModuleString string;

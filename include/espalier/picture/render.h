@@ -26,6 +26,8 @@ struct RenderJob {
     /// Instead of the style's background that of the author, else a dark one where most colours are hardly seen on
     /// white.
     bool chooses_background = false;
+    /// In a film, pictures between two frames that follow each other, in which the plants unfold.
+    int between = 0;
 };
 
 // Files appear complete or not at all; the same job gives the same pictures. All throw UserError for arrays and fields

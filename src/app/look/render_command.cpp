@@ -140,6 +140,10 @@ private:
             .add_option("--frames", frames_, "number of pictures in a film, evenly chosen from those of --step")
             ->check(CLI::Range(1, 100000));
         app()
+            .add_option("--between", between_,
+                        "number of pictures of a film between two frames, in which organs unfold; default: 0")
+            ->check(CLI::Range(0, 100));
+        app()
             .add_option("--rate", rate_, "pictures per second of a film; default: the film takes about 10 s")
             ->check(CLI::Range(0.1, 120.0));
     }
@@ -287,6 +291,7 @@ private:
 
     std::vector<fs::path> draw(RenderJob& job, const fs::path& output) const {
         const bool many = is_film(output) || !sheet_.empty();
+        if (!sheet_.empty() || !is_film(output)) require_no_between(output);
         job.frames = chosen_frames(job.run, !step_.empty() ? step_ : many ? "all" : "last");
         if (!sheet_.empty()) {
             const PictureSize cells = sheet_cells();
@@ -305,9 +310,17 @@ private:
         const bool turns_only = job.frames.size() == 1 && orbit_ != 0;
         const std::size_t count = frames_ > 0 ? static_cast<std::size_t>(frames_) : turns_only ? pictures_of_a_turn : 0;
         if (count > 0) job.frames = evenly(job.frames, count);
-        const double rate = rate_ > 0 ? rate_ : std::clamp(static_cast<double>(job.frames.size()) / 10, 5.0, 30.0);
+        job.between = between_;
+        const auto pictures = static_cast<double>(job.frames.size()) * (between_ + 1);
+        const double rate = rate_ > 0 ? rate_ : std::clamp(pictures / 10, 5.0, 30.0);
         render_film(job, rate, output);
         return {output};
+    }
+
+    void require_no_between(const fs::path& output) const {
+        if (between_ == 0) return;
+        throw UserError(fmt::format("--between {}: '{}' is no film; take --output growth.ogv (or .mp4, .webm, .gif)",
+                                    between_, output.string()));
     }
 
     void print_files(const std::vector<fs::path>& files) const {
@@ -333,7 +346,7 @@ private:
     std::vector<std::string> fields_;
     CLI::Option* ground_option_ = nullptr;
     bool ground_ = false;
-    int frames_ = 0;
+    int frames_ = 0, between_ = 0;
     double rate_ = 0, orbit_ = 0;
     bool follow_ = false, no_shade_ = false, no_legend_ = false, scale_bar_ = false, time_ = false;
 };

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "archive/unfolding.h"
 #include "picture/files/film.h"
 #include "picture/files/frame_painter.h"
 #include "picture/stage/colouring.h"
@@ -41,21 +42,45 @@ public:
         place_.turns = place_.turns || job.orbit != 0;
     }
 
+    /// Those of the frames, and those between them.
+    std::size_t pictures() const { return (job_.frames.size() - 1) * pictures_of_frame() + 1; }
+
     vtkSmartPointer<vtkImageData> picture(std::size_t i) {
-        Stage& stage = painter_.stage();
-        const RecordedFrame& frame = *job_.frames[i];
-        if (!stage.shown() || stage.shown()->step != frame.step) stage.show(frame);
+        const std::size_t frame = i / pictures_of_frame(), part = i % pictures_of_frame();
+        if (part == 0) {
+            show(*job_.frames[frame]);
+        } else {
+            show_between(frame, static_cast<double>(part) / static_cast<double>(pictures_of_frame()));
+        }
         CameraPlace place = place_;
         place.azimuth += turned(i);
-        stage.place_camera(place, job_.follow);
+        painter_.stage().place_camera(place, job_.follow);
         auto drawn = painter_.picture();
-        if (job_.progress) job_.progress(i + 1, job_.frames.size());
+        if (job_.progress) job_.progress(i + 1, pictures());
         return drawn;
     }
 
     Stage& stage() { return painter_.stage(); }
 
 private:
+    std::size_t pictures_of_frame() const { return static_cast<std::size_t>(job_.between) + 1; }
+
+    void show(const RecordedFrame& frame) {
+        Stage& stage = painter_.stage();
+        if (!unfolding_ && stage.shown() && stage.shown()->step == frame.step) return;
+        unfolding_.reset();
+        stage.show(frame);
+    }
+
+    void show_between(std::size_t frame, double share) {
+        const RecordedFrame &early = *job_.frames[frame], &late = *job_.frames[frame + 1];
+        if (early.plants.empty() || late.plants.empty() || early.step == late.step) return show(early);
+        if (!unfolding_) unfolding_.emplace(job_.run.geometry(early), job_.run.geometry(late));
+        RecordedFrame now = early;
+        now.time = std::lerp(early.time, late.time, share);
+        painter_.stage().show(now, std::make_shared<RecordedGeometry>(unfolding_->at(share)));
+    }
+
     static bool is_empty(const StageSurvey& survey) { return survey.outline.empty() && !survey.has_labels; }
 
     // A plant may begin with nothing to see; one that ends so is hardly what was meant.
@@ -79,7 +104,7 @@ private:
 
     // Whole turns end one picture before they began, so that a film goes round without a stop.
     double turned(std::size_t i) const {
-        const std::size_t count = job_.frames.size();
+        const std::size_t count = pictures();
         if (count < 2) return 0;
         const bool is_whole = std::fmod(std::abs(job_.orbit), 360.0) == 0;
         return job_.orbit * static_cast<double>(i) / static_cast<double>(is_whole ? count : count - 1);
@@ -88,6 +113,7 @@ private:
     const RenderJob& job_;
     FramePainter painter_;
     CameraPlace place_;
+    std::optional<archive::Unfolding> unfolding_;  ///< while pictures between two frames are drawn
 };
 
 void copy_into(vtkImageData& sheet, vtkImageData& cell, int left, int bottom) {
@@ -151,7 +177,9 @@ std::vector<const RecordedFrame*> evenly(const std::vector<const RecordedFrame*>
 
 std::vector<fs::path> render_pictures(const RenderJob& job, const fs::path& path) {
     require_png(path);
-    JobPainter painter(job);
+    RenderJob stills = job;
+    stills.between = 0;
+    JobPainter painter(stills);
     std::vector<fs::path> files;
     for (std::size_t i = 0; i < job.frames.size(); ++i) {
         files.push_back(job.frames.size() == 1 ? path : numbered(path, job.frames[i]->step));
@@ -167,7 +195,7 @@ void render_film(const RenderJob& job, double pictures_per_second, const fs::pat
     JobPainter painter(opaque);
     write_file(path, [&](const fs::path& temporary) {
         const std::unique_ptr<Film> film = film_of(temporary, job.size, pictures_per_second);
-        for (std::size_t i = 0; i < job.frames.size(); ++i) film->add(*painter.picture(i));
+        for (std::size_t i = 0; i < painter.pictures(); ++i) film->add(*painter.picture(i));
         film->finish();
         return true;
     });
@@ -176,6 +204,7 @@ void render_film(const RenderJob& job, double pictures_per_second, const fs::pat
 void render_sheet(const RenderJob& job, int columns, const fs::path& path) {
     require_png(path);
     RenderJob cells = job;
+    cells.between = 0;
     cells.style.legend = false;
     cells.style.title.clear();
     cells.style.time_label = false;

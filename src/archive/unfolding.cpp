@@ -1,0 +1,183 @@
+#include "archive/unfolding.h"
+
+#include <glm/geometric.hpp>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticPointLocator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+namespace espalier::archive {
+namespace {
+
+/// The n-th thing that a module of a plant draws.
+using DrawnPart = std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>;
+
+struct DrawnPartHash {
+    std::size_t operator()(const DrawnPart& part) const {
+        const auto& [plant, identity, number] = part;
+        return static_cast<std::size_t>((identity ^ plant) * 0x9e3779b97f4a7c15u + number);
+    }
+};
+
+/// Counts what each module draws, so that a part has the same number in both frames.
+class PartNumbers {
+public:
+    DrawnPart next(std::uint32_t plant, std::uint64_t identity) {
+        return {plant, identity, count_[{plant, identity}]++};
+    }
+
+private:
+    std::map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t> count_;
+};
+
+/// From one vector to another: along a great circle, its length changing linearly.
+glm::vec3 turned(const glm::vec3& from, const glm::vec3& to, float share) {
+    const float before = glm::length(from), after = glm::length(to);
+    if (before == 0 || after == 0) return glm::mix(from, to, share);
+    const glm::vec3 a = from / before, b = to / after;
+    const float angle = std::acos(std::clamp(glm::dot(a, b), -1.0F, 1.0F));
+    constexpr float straight = 1e-4F, opposite = 3.14F;  // beyond both no circle is determined
+    const glm::vec3 direction =
+        angle < straight || angle > opposite
+            ? (share < 0.5F && angle > opposite ? a : b)
+            : (std::sin((1 - share) * angle) * a + std::sin(share * angle) * b) / std::sin(angle);
+    return std::lerp(before, after, share) * direction;
+}
+
+/// Finds the tip nearest to a point; none among none.
+class NearestTip {
+public:
+    explicit NearestTip(const std::vector<RecordedInternode>& internodes) {
+        vtkNew<vtkPoints> tips;
+        for (const RecordedInternode& internode : internodes) {
+            tips->InsertNextPoint(internode.tip.x, internode.tip.y, internode.tip.z);
+        }
+        data_->SetPoints(tips);
+        if (internodes.empty()) return;
+        locator_->SetDataSet(data_);
+        locator_->BuildLocator();
+    }
+
+    std::int32_t of(const glm::vec3& point) {
+        if (data_->GetNumberOfPoints() == 0) return RecordedInternode::none;
+        const double place[3] = {point.x, point.y, point.z};
+        return static_cast<std::int32_t>(locator_->FindClosestPoint(place));
+    }
+
+private:
+    vtkNew<vtkPolyData> data_;
+    vtkNew<vtkStaticPointLocator> locator_;
+};
+
+/// Points that are no points of axes, module by module.
+std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<std::int32_t>> organ_points_of(
+    const RecordedGeometry& geometry, const std::vector<RecordedInternode>& internodes) {
+    std::vector<bool> of_axis(geometry.points.size());
+    for (const RecordedInternode& internode : internodes) {
+        of_axis[static_cast<std::size_t>(internode.base_point)] = true;
+        of_axis[static_cast<std::size_t>(internode.tip_point)] = true;
+    }
+    std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<std::int32_t>> organs;
+    for (std::size_t i = 0; i < geometry.points.size(); ++i) {
+        if (of_axis[i]) continue;
+        organs[{geometry.of_points.plants[i], geometry.of_points.identities[i]}].push_back(
+            static_cast<std::int32_t>(i));
+    }
+    return organs;
+}
+
+}  // namespace
+
+Unfolding::Unfolding(const RecordedGeometry& early, RecordedGeometry late) : late_(std::move(late)) {
+    const std::vector<RecordedInternode> before = internodes_of(early);
+    match_internodes(before);
+    match_organs(early, before);
+}
+
+void Unfolding::match_internodes(const std::vector<RecordedInternode>& before) {
+    std::unordered_map<DrawnPart, const RecordedInternode*, DrawnPartHash> known;
+    PartNumbers numbers_before, numbers_after;
+    for (const RecordedInternode& internode : before) {
+        known.emplace(numbers_before.next(internode.plant, internode.identity), &internode);
+    }
+    for (const RecordedInternode& late : internodes_of(late_)) {
+        Growing& growing = internodes_.emplace_back(Growing{late});
+        const auto found = known.find(numbers_after.next(late.plant, late.identity));
+        growing.was_base = late.base;
+        if (found == known.end()) continue;
+        const RecordedInternode& was = *found->second;
+        growing.is_new = false;
+        growing.was_base = was.base;
+        growing.was = was.tip - was.base;
+        growing.was_base_radius = was.base_radius;
+        growing.was_tip_radius = was.tip_radius;
+    }
+}
+
+void Unfolding::match_organs(const RecordedGeometry& early, const std::vector<RecordedInternode>& before) {
+    std::vector<RecordedInternode> after;
+    for (const Growing& growing : internodes_) after.push_back(growing.late);
+    const auto were = organ_points_of(early, before);
+    NearestTip tips_before(before), tips_after(after);
+    const auto place = [](const RecordedGeometry& geometry, std::int32_t point) {
+        return geometry.points[static_cast<std::size_t>(point)];
+    };
+    for (const auto& [module, points] : organ_points_of(late_, after)) {
+        const std::int32_t bearer = tips_after.of(place(late_, points.front()));
+        const glm::vec3 foot =
+            bearer == none ? place(late_, points.front()) : after[static_cast<std::size_t>(bearer)].tip;
+        const auto found = were.find(module);
+        const bool is_known = found != were.end() && found->second.size() == points.size();
+        glm::vec3 was_foot = foot;
+        if (is_known) {
+            const std::int32_t tip = tips_before.of(place(early, found->second.front()));
+            was_foot = tip == none || bearer == none ? foot : before[static_cast<std::size_t>(tip)].tip;
+        }
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const glm::vec3 from = is_known ? place(early, found->second[i]) - was_foot : glm::vec3(0);
+            organ_points_.push_back({points[i], bearer, from, place(late_, points[i]) - foot});
+        }
+    }
+}
+
+RecordedGeometry Unfolding::at(double share) const {
+    const auto now = static_cast<float>(share);
+    RecordedGeometry geometry = late_;
+    std::vector<glm::vec3> tips(internodes_.size()), bases(internodes_.size());
+    for (std::size_t i = 0; i < internodes_.size(); ++i) {
+        const Growing& growing = internodes_[i];
+        const RecordedInternode& late = growing.late;
+        if (late.bearer == none) {
+            bases[i] = glm::mix(growing.was_base, late.base, now);
+        } else {
+            const auto bearer = static_cast<std::size_t>(late.bearer);
+            bases[i] = late.base == internodes_[bearer].late.tip ? tips[bearer] : bases[bearer];
+        }
+        const glm::vec3 to = late.tip - late.base;
+        tips[i] = bases[i] + (growing.is_new ? now * to : turned(growing.was, to, now));
+        const auto base_point = static_cast<std::size_t>(late.base_point),
+                   tip_point = static_cast<std::size_t>(late.tip_point);
+        const bool begins_axis = i == 0 || internodes_[i - 1].late.axis != late.axis;
+        if (begins_axis) {
+            geometry.points[base_point] = bases[i];
+            geometry.radii[base_point] = std::lerp(growing.was_base_radius, late.base_radius, now);
+        }
+        geometry.points[tip_point] = tips[i];
+        geometry.radii[tip_point] = std::lerp(growing.was_tip_radius, late.tip_radius, now);
+    }
+    for (const OrganPoint& organ : organ_points_) {
+        const glm::vec3 foot = organ.bearer == none ? late_.points[static_cast<std::size_t>(organ.point)] - organ.to
+                                                    : tips[static_cast<std::size_t>(organ.bearer)];
+        geometry.points[static_cast<std::size_t>(organ.point)] = foot + glm::mix(organ.from, organ.to, now);
+    }
+    return geometry;
+}
+
+}  // namespace espalier::archive
