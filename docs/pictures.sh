@@ -30,7 +30,7 @@ grow root-2d environments/root-2d.toml
 grow topiary environments/topiary-3d.toml
 grow forest environments/forest.toml --set plant.0.grid.columns=7 --set plant.0.grid.rows=7
 grow forest-patch environments/forest-patch.toml --every 50
-grow lychnis models/herbs/lychnis.l --colour-map models/plants.map
+grow lychnis models/herbs/lychnis.l
 
 render two-trees.png two-trees --size 640x480 --azimuth 20 --elevation 10
 render two-roots.png two-roots --size 640x480 --field water:volume --azimuth 15 --elevation 8 --no-legend
@@ -51,7 +51,7 @@ for scene in hedge ivy root-flare; do
     render "$scene.png" "$scene" --size 320x300 --azimuth 15
 done
 plant_of_notation() { # NAME FILE
-    grow "$1" "$2" --colour-map models/plants.map
+    grow "$1" "$2"
     render "$1.png" "$1" --size 300x300
 }
 for plant in dandelion sunflower weeping-willow bush palm pineapple wind-pine; do

@@ -46,6 +46,17 @@ void warn_of_files_beside(const ModelArguments& arguments, ObjectFiles& object) 
     }
 }
 
+// The models of a library share one, in the folder of the model or in the folder above. Colours change nothing that
+// grows.
+fs::path colour_map_of_library(const fs::path& model) {
+    const fs::path folder = model.has_parent_path() ? model.parent_path() : ".";
+    for (const fs::path& place : {folder, folder / ".."}) {
+        const fs::path file = (place / "plants.map").lexically_normal();
+        if (fs::is_regular_file(file)) return file;
+    }
+    return {};
+}
+
 }  // namespace
 
 bool is_scene(const fs::path& path) {
@@ -59,6 +70,7 @@ ObjectFiles object_of(const ModelArguments& arguments) {
     } else {
         object.model = arguments.file;
         warn_of_files_beside(arguments, object);
+        object.colours_of_library = colour_map_of_library(arguments.file);
     }
     if (!arguments.view.empty()) object.view = arguments.view;
     if (!arguments.animation.empty()) object.animation = arguments.animation;

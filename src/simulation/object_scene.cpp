@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace espalier::simulation {
 namespace {
 
@@ -47,6 +49,10 @@ std::string scene_text(const ObjectFiles& object) {
     return text;
 }
 
+bool chooses_colours(const Model& model) {
+    return model.alphabet.find_symbol(";") || model.alphabet.find_symbol(",");
+}
+
 }  // namespace
 
 Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options) {
@@ -62,6 +68,11 @@ Scene scene_of_object(const ObjectFiles& object, const SceneOptions& options) {
     scene.notes.diagnostics.insert(scene.notes.diagnostics.begin(), object.diagnostics.begin(),
                                    object.diagnostics.end());
     const Model& model = source_of(*scene.plants.front().model);
+    if (!object.colours_of_library.empty() && !scene.plants.front().palette && chooses_colours(model)) {
+        ObjectFiles coloured = object;
+        coloured.colour_maps[1] = std::exchange(coloured.colours_of_library, {});
+        return scene_of_object(coloured, options);
+    }
     if (object.warns_of_unanswered && scene.environment.processes.empty() && asks_processes(model)) {
         Diagnostic warning;
         warning.severity = Diagnostic::Severity::warning;

@@ -385,3 +385,22 @@ TEST_CASE_METHOD(Objects, "--insert does what a mouse did, in runs, their repeti
     CHECK(run("run waits.toml --quiet --output scene").code == 0);
     CHECK_THAT(run("run waits.toml --insert X@1").err, Contains("--insert applies to a model"));
 }
+
+TEST_CASE_METHOD(Objects, "models that choose colours take the colour map of their library", "[app]") {
+    const std::string lines = "lsystem: 1\nderivation length: 0\naxiom: ;(7)F(1)\nendlsystem\n";
+    for (const char* folder : {"library/herbs", "alone/deep/down"})
+        std::filesystem::create_directories(path() / folder);
+    write("library/plants.map", std::string(3 * 256, '\x40'));
+    write("library/herbs/red.l", lines);
+    write("library/herbs/plain.l", "lsystem: 1\nderivation length: 0\naxiom: F(1)\nendlsystem\n");
+    const auto has_colours = [&](const std::string& options) {
+        const Outcome outcome = run("run " + options + " --quiet --overwrite --output out");
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        return text_of(path() / "out/plants/0000.vtp").find("rgb") != std::string::npos;
+    };
+    CHECK(has_colours("library/herbs/red.l"));
+    CHECK_FALSE(has_colours("library/herbs/plain.l"));
+    write("alone/deep/down/red.l", lines);
+    CHECK_FALSE(has_colours("alone/deep/down/red.l"));
+}
