@@ -163,6 +163,27 @@ TEST_CASE("pineapple: the spirals through an organ at half height are 8 and 13",
     CHECK(fruit.interpretation.geometry.polygons.size() == 130 + 45);
 }
 
+TEST_CASE("pineapple: its organs leave no hole", "[phyllotaxis]") {
+    LonePlant fruit("models/phyllotaxis/pineapple.l");
+    fruit.grow(175);
+    const std::vector<Organ>& scales = fruit.interpretation.geometry.organs;
+    double worst = 0;  // from a place on the fruit to the nearest scale, in its radii
+    for (int level = 10; level <= 90; ++level) {
+        const double part = level / 100.0, radius = 3.6 * std::sqrt(1 - 0.7 * std::pow(1.7 * part - 0.8, 2));
+        for (int angle = 0; angle < 360; angle += 3) {
+            const double turn = angle * std::numbers::pi / 180;
+            const glm::dvec3 place(radius * std::cos(turn), 2 + 14 * part, radius * std::sin(turn));
+            double nearest = INFINITY;
+            for (const Organ& scale : scales) {
+                if (scale.shape != Organ::Shape::sphere) continue;
+                nearest = std::min(nearest, glm::distance(place, scale.pose.position) / (scale.size.x / 2));
+            }
+            worst = std::max(worst, nearest);
+        }
+    }
+    CHECK(worst < 1);
+}
+
 TEST_CASE("cone: scales shrink towards the tip, and have area by their size", "[phyllotaxis]") {
     LonePlant cone("models/phyllotaxis/cone.l", {{"SIZE", "0.55"}, {"LENGTH", "7"}});
     cone.grow(300);
