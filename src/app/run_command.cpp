@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -42,6 +43,17 @@ void give_back_what_is_large() {
     constexpr int large = 1 << 20;
     mallopt(M_MMAP_THRESHOLD, large);
 #endif
+}
+
+// The process that does not answer cannot be left: the program ends where it is.
+[[noreturn]] void end_without_answer(const std::string& why, bool json) {
+    std::fputs((why + "\n").c_str(), stderr);
+    if (json) {
+        const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", exit_code::run_failed}, {"message", why}};
+        std::fputs((result.dump(2) + "\n").c_str(), stdout);
+        std::fflush(stdout);
+    }
+    std::_Exit(exit_code::run_failed);
 }
 
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {
@@ -159,6 +171,8 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.arguments = words_of(arguments);
     options.inputs = &inputs;
     options.interrupt = &interrupt;
+    options.patience = arguments.timeout;
+    options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
     if (!arguments.quiet) options.warn = print_warnings;
     ProgressReport report(arguments.quiet);
     options.progress = [&](const Progress& progress) { report(progress); };
@@ -203,6 +217,10 @@ public:
             .add_option("--checkpoint-every", arguments_.checkpoint_every,
                         "write a checkpoint every N steps for `espalier resume`; default: only when interrupted")
             ->check(CLI::Range(1, 1000000000));
+        app()
+            .add_option("--timeout", arguments_.timeout,
+                        "seconds that a process may take to answer the queries of one step; 0: any time; default: 3600")
+            ->check(CLI::Range(0.0, 1e9));
         app().add_flag("--resume", arguments_.resume)->group("");  // what `resume` starts
         app().add_flag(child_flag, is_child_)->group("");
         app().add_flag("--quiet", arguments_.quiet, "print errors only");

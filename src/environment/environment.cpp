@@ -4,6 +4,7 @@
 
 #include "base/registered_part.h"
 #include "base/text.h"
+#include "environment/exchange/answering.h"
 #include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
@@ -66,11 +67,16 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
     }
     if (processes_.size() == 1) default_ = 0;
     batches_.resize(processes_.size());
+    answering_ = std::make_unique<Answering>();
 }
 
 Environment::~Environment() = default;
 Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
+
+Environment::Consultation Environment::consultation() const {
+    return {answering_->process, answering_->number};
+}
 
 std::optional<std::size_t> Environment::find(const std::string& name) const {
     for (std::size_t process = 0; process < names_.size(); ++process) {

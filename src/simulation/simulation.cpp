@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 #include "espalier/timeline/timeline.h"
 
+#include "answer_watch.h"
 #include "base/bytes.h"
 #include "disk_budget.h"
 #include "memory_budget.h"
@@ -135,6 +136,11 @@ private:
     }
 
     void grow() {
+        std::optional<AnswerWatch> watch;
+        if (options_.patience > 0 && options_.expired && world_.environment().size() > 0) {
+            watch.emplace(world_.environment(), options_.patience,
+                          [this](const std::string& process) { give_up(process); });
+        }
         if (!options_.resume) {
             world_.start();
             note_step();
@@ -176,6 +182,17 @@ private:
             write_record("failed: " + why);
         } catch (const std::exception&) {
         }
+    }
+
+    void give_up(const std::string& process) {
+        const std::string why = fmt::format(
+            "process '{}' has not answered the queries of a step for {} s; --timeout SECONDS gives it longer", process,
+            options_.patience);
+        try {
+            write_record("failed: " + why);
+        } catch (const std::exception&) {
+        }
+        options_.expired(why);
     }
 
     void write_record(const std::string& exit) {

@@ -327,3 +327,19 @@ TEST_CASE_METHOD(BadInput, "with --json a failure is an object too", "[app]") {
     CHECK_THAT(failure["message"].get<std::string>(), Contains("nowhere.toml"));
     CHECK(json::parse(run("run bush.l --json --stpes 3").out)["code"] == 1);
 }
+
+TEST_CASE_METHOD(BadInput, "a process that does not answer in time ends the run, and says so in run.json", "[app]") {
+    write("leaves.l",
+          "environment light;\nlsystem: 1\nderivation length: 3\naxiom: A(400)\n"
+          "A(n) : n > 0 --> f(1)?light(1)A(n - 1)\ndecomposition\nmaximum depth: 500\n"
+          "A(n) : n > 0 --> f(1)?light(1)A(n - 1)\nendlsystem\n");
+    const std::string slow =
+        "[[plant]]\nmodel = 'leaves.l'\n[environment.light]\nprocess = 'chiba'\nnumber_of_samples = 131072\n"
+        "radius = 1\n";
+    const Outcome outcome = run_scene(slow, "--timeout 0.05 --json");
+    CHECK(outcome.code == 2);
+    CHECK_THAT(outcome.err, Contains("process 'light' has not answered") && Contains("--timeout"));
+    CHECK(json::parse(outcome.out)["exit"] == "failed");
+    CHECK_THAT(exit_of("out"), Contains("failed: process 'light' has not answered"));
+    CHECK_THAT(run("run scene.toml --timeout -1").err, Contains("--timeout"));
+}

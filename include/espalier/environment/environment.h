@@ -45,6 +45,14 @@ public:
     /// An answer that is NaN or infinite throws RunError.
     void exchange(const WorldView& world, std::span<ModuleString*> strings);
 
+    /// The process that is answering now, and which consultation of the run this is.
+    struct Consultation {
+        const std::string* process = nullptr;  ///< null: none is answering
+        std::uint64_t number = 0;
+    };
+    /// Another thread may ask at any time.
+    Consultation consultation() const;
+
     /// Quantities of all processes for one plant, named "process.quantity", in scene order.
     std::vector<Quantity> statistics(std::uint32_t plant) const;
 
@@ -60,6 +68,8 @@ private:
         Column<double> sent;             ///< the parameters as the process sees them, if they are rounded
         std::vector<Answer> answers;
     };
+
+    struct Answering;
 
     void gather(const WorldView& world);
     bool borrow(const WorldView& world);
@@ -85,6 +95,7 @@ private:
     std::optional<std::size_t> default_;
     bool routed_ = false;
     bool keeps_unanswered_ = false;
+    std::unique_ptr<Answering> answering_;
     std::vector<Batch> batches_;                       ///< one per process
     std::vector<std::optional<std::size_t>> by_name_;  ///< process of each name that `last_model_` declares
     const Model* last_model_ = nullptr;

@@ -27,6 +27,11 @@ struct RunOptions {
     std::size_t memory = 0;                        ///< bytes; 0: half of the machine
     std::size_t disk = 0;                          ///< bytes that may be written; 0: default_disk
     const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
+    /// Seconds that a process may take to answer the queries of one step; 0: any time. A process cannot be stopped:
+    /// `expired` is called on another thread, with what to tell the user, after run.json says how the run ended. It is
+    /// to end the program; if it returns, the run goes on waiting.
+    double patience = 0;
+    std::function<void(const std::string& why)> expired = nullptr;
     /// The arguments of `espalier run` that change the timeline; for run.json.
     std::vector<std::string> arguments = {};
     /// What has been read so far and during the run; goes to run.json. Null: unknown.

@@ -2,6 +2,7 @@
 #include "espalier/base/error.h"
 #include "espalier/environment/environment.h"
 
+#include "environment/exchange/answering.h"
 #include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
@@ -222,6 +223,7 @@ void Environment::throw_unsound(const Query& query, std::size_t process, const P
 
 void Environment::consult(std::size_t process, const WorldView& world) {
     Batch& batch = batches_[process];
+    const Answering::Turn turn(*answering_, names_[process]);
     try {
         processes_[process]->advance(world, batch.queries, fields_);
         processes_[process]->answer(world, batch.queries, batch.answers, fields_);
