@@ -1,0 +1,59 @@
+// Outlines of leaves, as the turtle walks around them.
+#include "language/weber_penn/translation.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace espalier::language::weber_penn {
+namespace {
+
+using Outline = std::vector<glm::dvec2>;  // right half from base to tip: (across, along), both by the leaf's length
+
+Outline half_outline(int shape) {
+    switch (shape) {
+        case 1:
+            return {{0, 0}, {0.5, 0.05}, {0, 1}};
+        case 2:
+            return {{0, 0}, {0.12, 0.12}, {0.42, 0.38}, {0.46, 0.55}, {0.2, 0.52}, {0.26, 0.8}, {0, 1}};
+        case 3:
+            return {{0, 0}, {0.25, 0.08}, {0.5, 0.62}, {0.18, 0.48}, {0.14, 0.75}, {0, 1}};
+        case 4:
+            return {{0, 0}, {0.4, -0.05}, {0.3, 0.2}, {0.5, 0.6}, {0.16, 0.45}, {0.14, 0.75}, {0, 1}};
+        default:
+            return {{0, 0}, {0.3, 0.15}, {0.5, 0.42}, {0.36, 0.75}, {0, 1}};
+    }
+}
+
+/// Turns and moves from the base around one half and back along the midrib; the turtle looks along the leaf at first.
+std::string walk_around(const Outline& half, double side, double width, const std::string& size) {
+    std::string modules = "[ { .";
+    double heading = 0;
+    for (std::size_t k = 1; k < half.size(); ++k) {
+        const glm::dvec2 step = (half[k] - half[k - 1]) * glm::dvec2(side * width, 1);
+        const double angle = std::atan2(step.x, step.y) * 180 / std::numbers::pi;
+        modules += fmt::format(" +({:.4g}) f({:.4g} * {})", angle - heading, glm::length(step), size);
+        heading = angle;
+    }
+    return modules + " } ]";
+}
+
+std::string blade(const Outline& half, double width, const std::string& size) {
+    return walk_around(half, 1, width, size) + " " + walk_around(half, -1, width, size);
+}
+
+}  // namespace
+
+std::string leaf_polygons(const Species& species, const std::string& size) {
+    const int shape = static_cast<int>(species.value("LeafShape"));
+    const double width = species.value("LeafScaleX");
+    const Outline half = half_outline(shape);
+    if (shape != 5) return blade(half, width, size);
+    const std::string leaflet = blade(half, width, "0.6 * " + size);
+    return fmt::format("f(0.4 * {}) {} [ +(70) {} ] [ -(70) {} ]", size, leaflet, leaflet, leaflet);
+}
+
+}  // namespace espalier::language::weber_penn
