@@ -54,9 +54,10 @@ constexpr const char* inside = R"(#define INSIDE(x, y, z) (sqrt(((x) - foot_x) ^
 	scale * PruneWidth * ENVELOPE((scale - (y) + foot_y) / (scale - base)))
 )";
 
-// Parameters of a stem: the next segment and child, the turn of that child about the stem, the length of a segment, the
+// Parameters of a stem: the next segment and child, how many children it leaves to its clones from one to the next (and
+// itself), the turn of that child about the stem, the length of a segment, the
 // radius at the base, the number of children, the seed of its chance, and what each segment bends back after splits.
-constexpr const char* stem = "k, j, turn, segment, radius, children, seed, back";
+constexpr const char* stem = "k, j, stride, turn, segment, radius, children, seed, back";
 constexpr const char* frame = "hx, hy, hz, ux, uy, uz";
 
 class Translation {
@@ -302,7 +303,7 @@ private:
         if (!species_.prunes()) {
             decomposition_ +=
                 filled(ignored + std::string("Bud<n>(length, radius, children) -->\n\t") + begins +
-                           "Node<n>(0, 0, ran(360), length / CurveRes_<c>, radius, children, ran(1000), 0)\n",
+                           "Node<n>(0, 0, 1, ran(360), length / CurveRes_<c>, radius, children, ran(1000), 0)\n",
                        words(level));
             return;
         }
@@ -311,7 +312,7 @@ private:
             filled(std::string("?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) ") + ignored +
                        "?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) Bud<n>(length, radius, children) :\n\t{" + foot +
                        "k = 0; back = 0; seed = ran(1000); segment = length / CurveRes_<c>;\n" + pruning(level) +
-                       "\t} segment > 0 --> Node<n>(0, 0, ran(360), segment, radius, children, seed, 0)\n"
+                       "\t} segment > 0 --> Node<n>(0, 0, 1, ran(360), segment, radius, children, seed, 0)\n"
                        "?P(x, y, z) ?H(hx, hy, hz) ?U(ux, uy, uz) Bud<n>(length, radius, children) --> *\n",
                    words(level));
     }
@@ -346,9 +347,12 @@ private:
                     " :\n\t{clones = CLONES_<n>(k, seed);} clones > 0 --> Fork<n>(0, clones, <frame><at>, <stem>)\n";
             decomposition_ += filled(
                 "Fork<n>(i, clones, <frame><at>, <stem>) : i < clones -->\n"
-                "\t[ Split<n>(i + 1, clones, <frame><at>, k, j, turn, segment, radius, children, ran(1000), back) ]\n"
+                "\t[ Split<n>(i + 1, clones, <frame><at>, k, j + (i + 1) * stride, stride * (clones + 1),\n"
+                "\t\tturn + 90 * (i + 1), segment, radius, children, ran(1000), back) ]\n"
                 "\tFork<n>(i + 1, clones, <frame><at>, <stem>)\n"
-                "Fork<n>(i, clones, <frame><at>, <stem>) --> Split<n>(0, clones, <frame><at>, <stem>)\n",
+                "Fork<n>(i, clones, <frame><at>, <stem>) -->\n"
+                "\tSplit<n>(0, clones, <frame><at>, k, j, stride * (clones + 1), turn, segment, radius, children, "
+                "seed, back)\n",
                 words(level));
             decomposition_ += filled(split_production(level), words(level));
         }
@@ -388,12 +392,14 @@ private:
             text += "Node<n>(<stem>) : j < children && PLACE_<n>(j, children) * CurveRes_<c> < k + 1 {\n" +
                     child_values(level) + "\t} -->\n\t[ f((place * CurveRes_<c> - k) * segment) /(roll) &(pitch) " +
                     child(level) +
-                    " ]\n\tNode<n>(k, j + 1, turn + Rotate_<d> + WITHIN(RotateV_<d>), segment, radius, children, seed, "
+                    " ]\n\tNode<n>(k, j + stride, stride, turn + Rotate_<d> + WITHIN(RotateV_<d>), segment, radius, "
+                    "children, seed, "
                     "back)\n";
         }
         text +=
             "Node<n>(<stem>) : k + 1 < CurveRes_<c> -->\n"
-            "\tWood<n>(k, segment, radius) <ask>Stem<n>(k + 1, j, turn, segment, radius, children, seed, back)\n";
+            "\tWood<n>(k, segment, radius) <ask>Stem<n>(k + 1, j, stride, turn, segment, radius, children, seed, "
+            "back)\n";
         const std::string fan = is_last(level) && has_fans() ? " Fan(0, children)" : "";
         text += "Node<n>(<stem>) --> Wood<n>(k, segment, radius)" + fan + "\n";
         decomposition_ += filled(text, words(level));
@@ -423,8 +429,9 @@ private:
         text += value("DownAngleV", child) < 0
                     ? "\tpitch = DownAngle_<d> + DownAngleV_<d> * (1 - 2 * CONICAL(" + top + "));\n"
                     : "\tpitch = DownAngle_<d> + WITHIN(DownAngleV_<d>);\n";
-        text += value("Rotate", child) < 0 ? "\troll = (2 * (j % 2) - 1) * (180 + Rotate_<d> + WITHIN(RotateV_<d>));\n"
-                                           : "\troll = turn;\n";
+        text += value("Rotate", child) < 0
+                    ? "\troll = (2 * (floor(j / stride) % 2) - 1) * (180 + Rotate_<d> + WITHIN(RotateV_<d>));\n"
+                    : "\troll = turn;\n";
         if (is_last(level)) return text;
         text += "\tshare = Length_<d> + WITHIN(LengthV_<d>);\n";
         text += level == 0 ? "\tchild = length * share * SHAPE(" + top + ");\n"

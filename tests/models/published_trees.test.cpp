@@ -1,0 +1,238 @@
+// Trees of published procedures: Holton's strands, Viennot's ramification matrices, Reeves' and Blau's particles.
+#include "catch.h"
+#include "experiments/growth.h"
+#include "models/measure.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+using namespace espalier;
+
+namespace {
+
+/// The modules of one symbol as a tree: parameters, and the places of those that grow from each, side branches first.
+struct ModuleTree {
+    std::vector<std::vector<double>> nodes;
+    std::vector<std::vector<std::size_t>> children;
+    std::vector<int> sides;  ///< of the bracket a node begins: 1 left, -1 right, 0 none
+};
+
+ModuleTree tree_of(const LonePlant& plant, const std::string& symbol) {
+    constexpr auto none = std::size_t(-1);
+    const Alphabet& alphabet = plant.model->alphabet;
+    const std::vector<std::size_t> offsets = parameter_offsets(plant.string, alphabet);
+    ModuleTree tree;
+    tree.nodes = parameters_of(plant.string, alphabet, symbol);
+    tree.children.resize(tree.nodes.size());
+    tree.sides.resize(tree.nodes.size());
+    std::vector<std::size_t> stack;
+    std::size_t last = none, next = 0;
+    int side = 0;
+    for (std::size_t i = 0; i < plant.string.size(); ++i) {
+        const std::string& name = alphabet.name(plant.string.letters[i]);
+        if (name == "[") stack.push_back(last);
+        if (name == "+") side = plant.string.parameters[offsets[i]] < 0 ? -1 : 1;
+        if (name == "]") {
+            last = stack.back();
+            stack.pop_back();
+        }
+        if (name != symbol) continue;
+        if (last != none) tree.children[last].push_back(next);
+        tree.sides[next] = side;
+        last = next++;
+    }
+    return tree;
+}
+
+LonePlant grown_tree(const std::string& name, Defines defines, std::uint64_t seed = 0) {
+    LonePlant plant(fmt::format("models/trees/{}.l", name), std::move(defines), seed);
+    plant.grow(static_cast<int>(plant.derivation.length()));
+    return plant;
+}
+
+}  // namespace
+
+TEST_CASE("holton: 2500 strands of a fir part into 2461.53 and 38.47, at 1.770 and 113.230 degrees", "[trees]") {
+    LonePlant fir("models/trees/holton.l", {{"WHOLE", "0"}});
+    fir.grow(1);
+    const auto strands = values_of(fir.string, fir.model->alphabet, "Internode");
+    REQUIRE(strands.size() == 3);
+    CHECK(strands[1] == Approx(38.47).epsilon(1e-12));
+    CHECK(strands[2] == Approx(2461.53).epsilon(1e-12));
+    const auto& internodes = fir.interpretation.geometry.internodes;
+    const glm::dvec3 trunk = direction_of(internodes[0]);
+    CHECK(degrees_between(trunk, direction_of(internodes[2])) == Approx(1.770).margin(5e-4));
+    CHECK(degrees_between(trunk, direction_of(internodes[1])) == Approx(113.230).margin(5e-4));
+}
+
+TEST_CASE("holton: strands and squares of diameters are kept at every fork, and end in as many tips", "[trees]") {
+    const LonePlant fir = grown_tree("holton", {{"STRANDS", "600"}});
+    const ModuleTree tree = tree_of(fir, "Internode");
+    std::size_t tips = 0, forks = 0;
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const double strands = tree.nodes[i][0];
+        CHECK(strands == std::floor(strands));
+        if (tree.children[i].empty()) {
+            CHECK(strands == 1);
+            ++tips;
+            continue;
+        }
+        REQUIRE(tree.children[i].size() == 2);
+        ++forks;
+        CHECK(tree.nodes[tree.children[i][0]][0] + tree.nodes[tree.children[i][1]][0] == strands);
+    }
+    CHECK(tips == 600);
+    CHECK(forks == 599);
+    // Diameters and angles, in the drawing.
+    const LonePlant small = grown_tree("holton", {{"STRANDS", "60"}});
+    const PlantGeometry& geometry = small.interpretation.geometry;
+    const auto children = children_of(geometry);
+    int measured = 0;
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        if (children[i].size() != 2) continue;
+        const Internode &parent = geometry.internodes[i], &off = geometry.internodes[children[i][0]],
+                        &on = geometry.internodes[children[i][1]];
+        const double area = off.tip_radius * off.tip_radius + on.tip_radius * on.tip_radius;
+        CHECK(area == Approx(parent.tip_radius * parent.tip_radius).epsilon(1e-9));
+        CHECK(degrees_between(direction_of(off), direction_of(on)) == Approx(parent.order == 0 ? 115 : 35));
+        ++measured;
+    }
+    CHECK(measured == 59);
+}
+
+TEST_CASE("holton: lengths go with the root of the strands, within their bounds; drawn ones do not act on", "[trees]") {
+    const LonePlant fir = grown_tree("holton", {{"STRANDS", "200"}});
+    const auto tips = parameters_of(fir.string, fir.model->alphabet, "Tip");
+    // The trunk is never clamped: its last end has the length 0.13 sqrt(1 / 200).
+    for (const auto& tip : tips) {
+        if (tip[2] == 0) CHECK(tip[1] == Approx(0.13 * std::sqrt(1. / 200)).epsilon(1e-9));
+    }
+    LonePlant first("models/trees/holton.l");
+    first.grow(1);
+    const auto ends = parameters_of(first.string, first.model->alphabet, "Tip");
+    const auto internodes = parameters_of(first.string, first.model->alphabet, "Internode");
+    const double off = internodes[1][0], ratio = std::sqrt(off / 2500);
+    REQUIRE(off == 38);
+    CHECK(ratio < 4);
+    CHECK(ends[0][1] == Approx(0.13 * 4));          // at its lower bound
+    CHECK(internodes[1][1] == Approx(0.13 * 0.3));  // drawn at another
+    CHECK(internodes[2][1] == Approx(0.13 * std::sqrt(2462. / 2500)));
+}
+
+TEST_CASE("ramification: trees have the Strahler number and the matrix that were asked for", "[trees]") {
+    for (const int matrix : {0, 1, 2}) {
+        const int order = matrix == 2 ? 6 : 8;
+        const LonePlant tree =
+            grown_tree("ramification", {{"MATRIX", std::to_string(matrix)}, {"ORDER", std::to_string(order)}}, 3);
+        for (const double left : values_of(tree.string, tree.model->alphabet, "Apex")) REQUIRE(left == 1);
+        const ModuleTree edges = tree_of(tree, "Edge");
+        CHECK(edges.nodes.front()[0] == order);
+        std::map<int, int> forks;
+        std::map<std::pair<int, int>, int> bi_orders;
+        for (std::size_t i = 0; i < edges.nodes.size(); ++i) {
+            const int k = static_cast<int>(edges.nodes[i][0]);
+            if (edges.children[i].empty()) {
+                CHECK(k == 1);
+                continue;
+            }
+            REQUIRE(edges.children[i].size() == 2);
+            const int low = static_cast<int>(edges.nodes[edges.children[i][0]][0]);
+            const int high = static_cast<int>(edges.nodes[edges.children[i][1]][0]);
+            CHECK(k == (low == high ? low + 1 : std::max(low, high)));  // Strahler's rule
+            ++forks[k];
+            ++bi_orders[{k, low == high ? k : low}];
+        }
+        for (const auto& [k, count] : forks) {
+            for (int j = 1; j <= k; ++j) {
+                const double wanted = matrix == 0   ? std::pow(0.5, std::min(j, k - 1))
+                                      : matrix == 1 ? (j == k)
+                                      : j == k      ? 0.2
+                                      : j == k - 1  ? 0.8
+                                                    : 0;
+                const double error = std::sqrt(wanted * (1 - wanted) / count);
+                INFO("matrix " << matrix << ", row " << k << ", column " << j << " of " << count << " forks");
+                CHECK(std::abs(bi_orders[{k, j}] / static_cast<double>(count) - wanted) <= 3 * error + 1e-12);
+            }
+        }
+    }
+}
+
+TEST_CASE("ramification: widths depend on the order alone, sides are by chance, in turn or one", "[trees]") {
+    const LonePlant tree = grown_tree("ramification", {{"ORDER", "5"}}, 2);
+    std::map<double, double> widths;
+    const auto& geometry = tree.interpretation.geometry;
+    const auto orders = values_of(tree.string, tree.model->alphabet, "Edge");
+    REQUIRE(orders.size() == geometry.internodes.size());
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+        const double radius = geometry.internodes[i].tip_radius;
+        CHECK(widths.try_emplace(orders[i], radius).first->second == radius);
+    }
+    CHECK(widths.size() == 5);
+    // Sides of the smaller branches along the axis that keeps the order of the root.
+    for (const int sides : {0, 1, 2}) {
+        const LonePlant fern = grown_tree(
+            "ramification", {{"MATRIX", "2"}, {"ORDER", "2"}, {"FERN", "40"}, {"SIDES", std::to_string(sides)}}, 5);
+        std::string seen;
+        const ModuleTree edges = tree_of(fern, "Edge");
+        for (std::size_t i = 0; i < edges.nodes.size(); ++i) {
+            if (!edges.children[i].empty()) seen += edges.sides[edges.children[i][0]] > 0 ? 'l' : 'r';
+        }
+        REQUIRE(seen.size() > 8);
+        const bool alternates = seen.find("ll") == std::string::npos && seen.find("rr") == std::string::npos;
+        CHECK(alternates == (sides == 1));
+        CHECK((seen.find('r') == std::string::npos) == (sides == 2));
+    }
+}
+
+TEST_CASE("structured-particles: branches end inside the outline, and short ones alone bear particles", "[trees]") {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const LonePlant tree = grown_tree("structured-particles", {}, seed);
+        CHECK(parameters_of(tree.string, tree.model->alphabet, "Branch").empty());
+        const double height = total_length(tree.interpretation.geometry) > 0
+                                  ? (tree.interpretation.geometry.internodes.front().tip.y / 0.22)
+                                  : 0;
+        const double middle = height * 0.61, half_height = height * 0.39, half_width = 2.75;
+        std::size_t ends = 0;
+        for (const Internode& internode : tree.interpretation.geometry.internodes) {
+            if (internode.order == 0) continue;
+            const glm::dvec3 tip = internode.tip;
+            const double square = (tip.x * tip.x + tip.z * tip.z) / (half_width * half_width) +
+                                  (tip.y - middle) * (tip.y - middle) / (half_height * half_height);
+            CHECK(square <= 1);
+            ++ends;
+        }
+        CHECK(ends > 500);
+        const auto twigs = parameters_of(tree.string, tree.model->alphabet, "Twig");
+        CHECK(tree.counts().at("Particle") % 9 == 0);
+        CHECK(tree.counts().at("Particle") > 1000);
+        CHECK(twigs.empty());  // each became its segment and its particles
+    }
+}
+
+TEST_CASE("structured-particles: without short branches there are no particles", "[trees]") {
+    LonePlant tree("models/trees/structured-particles.l", {{"LIMIT", "0.75"}}, 4);
+    tree.grow(2);
+    // In the second step, branches of the trunk are bent to the outline; those near its ends are short.
+    for (const Internode& internode : tree.interpretation.geometry.internodes) {
+        if (internode.order == 0) continue;
+        CHECK(length_of(internode) < 0.75 + 1e-9);
+    }
+    LonePlant never("models/trees/structured-particles.l", {{"LIMIT", "0.05"}}, 4);
+    never.grow(3);
+    CHECK(never.counts()["Particle"] <= 9 * never.counts()["F"] / 10);
+}
+
+TEST_CASE("structured-particles: the mean height of 1000 trees is the one that was set", "[trees]") {
+    const auto compiled = compile(read_model(source_path("models/trees/structured-particles.l"), {}));
+    double sum = 0;
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        DerivationSettings settings;
+        settings.seed = seed;
+        Derivation derivation(compiled, settings);
+        ModuleString string;
+        derivation.start(string);
+        sum += values_of(string, source_of(*compiled).alphabet, "Trunk", 1).front();
+    }
+    CHECK(sum / 1000 == Approx(9).epsilon(0.01));
+}

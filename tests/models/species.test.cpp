@@ -1,0 +1,276 @@
+// Species of Weber & Penn 1995: lengths, radii and numbers by the closed formulas of the paper.
+#include "espalier/language/notation.h"
+
+#include "catch.h"
+#include "experiments/growth.h"
+#include "models/measure.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+using namespace espalier;
+
+namespace {
+
+/// A species of a few lines, grown to its end.
+struct GrownSpecies {
+    std::shared_ptr<const Model> model;
+    ModuleString string;
+    PlantGeometry geometry;
+
+    explicit GrownSpecies(const std::string& lines)
+        : model(read_model_text(registered<NotationType>().at("species")->translate(lines, "tree.species"), "tree")) {
+        Derivation derivation(compile(model), {});
+        derivation.start(string);
+        for (double step = 0; step <= derivation.length(); ++step) {
+            Interpretation look = interpret(*model, string, {}, &derivation);
+            write_turtle_answers(look, string);
+            geometry = std::move(look.geometry);
+            ModuleString next;
+            if (step < derivation.length()) {
+                derivation.step(string, next);
+                string = std::move(next);
+            }
+        }
+    }
+
+    std::vector<std::vector<double>> wood(int level) const {
+        return parameters_of(string, model->alphabet, fmt::format("Wood{}", level));
+    }
+};
+
+LonePlant grown_species(const std::string& name, Defines defines) {
+    LonePlant plant(fmt::format("models/species/{}.species", name), std::move(defines));
+    plant.grow(static_cast<int>(plant.derivation.length()));
+    return plant;
+}
+
+std::vector<std::vector<double>> first_segments(const ModuleString& string, const Alphabet& alphabet, int level) {
+    std::vector<std::vector<double>> first;
+    for (const auto& wood : parameters_of(string, alphabet, fmt::format("Wood{}", level))) {
+        if (wood[0] == 0) first.push_back(wood);
+    }
+    return first;
+}
+
+/// The level of the stem that an internode is of, from the name of its module.
+int level_of_wood(const LonePlant& plant, const Internode& internode) {
+    return plant.model->alphabet.name(plant.string.letters[internode.module]).back() - '0';
+}
+
+double published_shape(int shape, double r) {
+    const double degree = std::numbers::pi / 180;
+    switch (shape) {
+        case 0:
+            return 0.2 + 0.8 * r;
+        case 1:
+            return 0.2 + 0.8 * std::sin(180 * degree * r);
+        case 2:
+            return 0.2 + 0.8 * std::sin(90 * degree * r);
+        case 3:
+            return 1;
+        case 4:
+            return 0.5 + 0.5 * r;
+        case 5:
+            return r <= 0.7 ? r / 0.7 : (1 - r) / 0.3;
+        case 6:
+            return 1 - 0.8 * r;
+        default:
+            return r <= 0.7 ? 0.5 + 0.5 * r / 0.7 : 0.5 + 0.5 * (1 - r) / 0.3;
+    }
+}
+
+double willow_envelope(double ratio) {
+    if (ratio <= 0 || ratio >= 1) return 0;
+    return ratio < 0.4 ? std::pow(ratio / 0.4, 0.5) : std::pow((1 - ratio) / 0.6, 0.001);
+}
+
+}  // namespace
+
+TEST_CASE("species: branches are as long as each shape says", "[species]") {
+    for (int shape = 0; shape < 8; ++shape) {
+        const GrownSpecies tree(
+            fmt::format("Levels = 2\nScale = 10\nBaseSize = 0.2\n1Branches = 20\nShape = {}\n"
+                        "1Length = 0.4\n0CurveRes, 1CurveRes = 4, 1\n",
+                        shape));
+        const auto branches = tree.wood(1);
+        REQUIRE(branches.size() == 20);
+        for (std::size_t j = 0; j < 20; ++j) {
+            const double from_top = 1 - (static_cast<double>(j) + 0.5) / 20;
+            CHECK(branches[j][1] == Approx(10 * 0.4 * published_shape(shape, from_top)).epsilon(1e-12));
+        }
+    }
+}
+
+TEST_CASE("species: the quaking aspen has the lengths, radii and numbers of its table", "[species]") {
+    const LonePlant aspen = grown_species("quaking-aspen", {{"ScaleV", "0"}});
+    const Alphabet& alphabet = aspen.model->alphabet;
+    double height = 0;
+    for (const auto& wood : parameters_of(aspen.string, alphabet, "Wood0")) {
+        height += wood[1];
+        CHECK(wood[2] == Approx(0.195).epsilon(1e-12));
+    }
+    CHECK(height == Approx(13));
+    CHECK(aspen.interpretation.geometry.internodes.front().tip_radius == Approx(0.195 * (1 + 0.6 * 0.99) * 0.93));
+    const auto branches = first_segments(aspen.string, alphabet, 1);
+    REQUIRE(branches.size() == 50);
+    int twigs = 0;
+    for (std::size_t j = 0; j < 50; ++j) {
+        const double from_top = 1 - (static_cast<double>(j) + 0.5) / 50;
+        const double length = 13 * 0.3 * published_shape(7, from_top);
+        CHECK(5 * branches[j][1] == Approx(length).epsilon(1e-12));
+        CHECK(branches[j][2] <= 0.195 * std::pow(length / 13, 1.2) * (1 + 1e-12));
+        twigs += static_cast<int>(std::floor(30 * (0.2 + 0.8 * length / 13 / 0.3) + 0.5));
+    }
+    CHECK(branches[0][2] == Approx(0.195 * std::pow(13 * 0.3 * published_shape(7, 0.99) / 13, 1.2)));
+    CHECK(first_segments(aspen.string, alphabet, 2).size() == static_cast<std::size_t>(twigs));
+}
+
+TEST_CASE("species: of every level there are stems, children become shorter along their parent", "[species]") {
+    const LonePlant tupelo = grown_species(
+        "black-tupelo",
+        {{"ScaleV", "0"}, {"LengthV_1", "0"}, {"LengthV_2", "0"}, {"Branches_1", "3"}, {"QUALITY", "0.1"}});
+    const auto branches = first_segments(tupelo.string, tupelo.model->alphabet, 1);
+    const auto boughs = first_segments(tupelo.string, tupelo.model->alphabet, 2);
+    REQUIRE(branches.size() == 3);
+    // The first branch of level 1 bears n of level 2, each 0.6 (length - 0.6 offset) long.
+    const double length = 10 * branches[0][1], ratio = length / 23 / 0.3;
+    CHECK(length == Approx(23 * 0.3 * published_shape(4, 1 - 0.5 / 3)));
+    const int n = static_cast<int>(std::floor(25 * (0.2 + 0.8 * ratio) + 0.5));
+    for (int j = 0; j < n; ++j) {
+        const double offset = (j + 0.5) / n * length;
+        CHECK(10 * boughs[static_cast<std::size_t>(j)][1] == Approx(0.6 * (length - 0.6 * offset)));
+    }
+    CHECK(first_segments(tupelo.string, tupelo.model->alphabet, 3).size() > 200);
+}
+
+TEST_CASE("species: with PruneRatio 1 every branch lies in the envelope of the crown, with 0 it does not",
+          "[species]") {
+    const auto outside = [](const char* ratio) {
+        const LonePlant willow = grown_species(
+            "weeping-willow", {{"ScaleV", "0"}, {"PruneRatio", ratio}, {"Branches_3", "4"}, {"QUALITY", "0.07"}});
+        int count = 0;
+        for (const Internode& internode : willow.interpretation.geometry.internodes) {
+            if (level_of_wood(willow, internode) == 0) continue;
+            const double radius = std::hypot(internode.tip.x, internode.tip.z);
+            const double limit = 15 * 0.4 * willow_envelope((15 - internode.tip.y) / (15 - 0.05 * 15));
+            count += radius > limit + 1e-6;
+        }
+        return count;
+    };
+    CHECK(outside("1") == 0);
+    CHECK(outside("0") > 20);
+}
+
+TEST_CASE("species: the oak splits in three at its first segment, and its clones share 40 branches", "[species]") {
+    const LonePlant oak = grown_species("black-oak", {{"ScaleV", "0"}, {"Branches_2", "10"}, {"QUALITY", "0.2"}});
+    std::map<int, int> trunks;
+    for (const auto& wood : parameters_of(oak.string, oak.model->alphabet, "Wood0"))
+        ++trunks[static_cast<int>(wood[0])];
+    CHECK(trunks[0] == 1);
+    CHECK(trunks[1] == 3);
+    // A stem of CurveRes 8 without base splits would split 0.4 times at each of the joints 2 to 7.
+    CHECK(trunks[7] > 3);
+    CHECK(first_segments(oak.string, oak.model->alphabet, 1).size() == 40);
+}
+
+TEST_CASE("species: clones keep the number of splits and turn away less, the more their stem leans", "[species]") {
+    const GrownSpecies upright("Levels = 1\n0SegSplits = 1\n0SplitAngle = 20\n0CurveRes = 5\n");
+    std::map<double, int> segments;
+    for (const auto& wood : upright.wood(0)) ++segments[wood[0]];
+    for (int k = 0; k < 5; ++k) CHECK(segments[k] == 1 << k);
+    int turned = 0;
+    for (const Internode& internode : upright.geometry.internodes) {
+        const double angle = degrees_between(direction_of(internode), {0, 1, 0});
+        CHECK(angle < 20 + 1e-6);
+        turned += angle > 19.9;
+    }
+    CHECK(turned >= 2);
+}
+
+TEST_CASE("species: a negative CurveV makes a helix with this angle to its axis", "[species]") {
+    const GrownSpecies helix("Levels = 1\n0CurveRes = 12\n0CurveV = -30\n");
+    glm::dvec3 sum(0);
+    for (const Internode& internode : helix.geometry.internodes) {
+        CHECK(degrees_between(direction_of(internode), {0, 1, 0}) == Approx(30));
+        sum += internode.tip - internode.base;
+    }
+    CHECK(std::hypot(sum.x, sum.z) < 0.05 * sum.y);
+}
+
+TEST_CASE("species: tapers are those of a cylinder, a cone, a round end and a chain of spheres", "[species]") {
+    const auto radii = [](const std::string& taper) {
+        const GrownSpecies tree("Levels = 1\nScale = 8\nRatio = 0.0625\n0CurveRes = 1\n0Taper = " + taper + "\n");
+        std::vector<std::pair<double, double>> found;
+        for (const Internode& internode : tree.geometry.internodes)
+            found.emplace_back(internode.tip.y, internode.tip_radius);
+        return found;
+    };
+    for (const auto& [height, radius] : radii("0")) CHECK(radius == Approx(0.5));
+    for (const auto& [height, radius] : radii("0.5"))
+        CHECK(radius == Approx(0.5 * (1 - 0.5 * height / 8)).margin(0.01));
+    for (const auto& [height, radius] : radii("2")) {
+        const double from_tip = std::min(8 - height, 0.5);
+        CHECK(radius == Approx(std::sqrt(std::max(0., 0.25 - std::pow(0.5 - from_tip, 2)))).margin(0.02));
+    }
+    for (const auto& [height, radius] : radii("3")) {
+        const double in_sphere = std::fmod(8 - height, 1.0) - 0.5;
+        CHECK(radius == Approx(std::sqrt(std::max(0., 0.25 - in_sphere * in_sphere))).margin(0.1));
+    }
+}
+
+TEST_CASE("species: boughs bend by nCurve and back by nCurveBack; the larch hangs its twigs", "[species]") {
+    const LonePlant larch = grown_species("european-larch", {{"QUALITY", "0.05"}});
+    std::map<std::uint32_t, std::pair<double, double>> ends;
+    for (const Internode& internode : larch.interpretation.geometry.internodes) {
+        if (level_of_wood(larch, internode) != 2) continue;
+        ends.try_emplace(internode.axis, internode.base.y, 0).first->second.second = internode.tip.y;
+    }
+    int hanging = 0;
+    for (const auto& [axis, heights] : ends) hanging += heights.second < heights.first;
+    CHECK(hanging > 0.9 * static_cast<double>(ends.size()));
+    const GrownSpecies bough("Levels = 1\n0CurveRes, 0Curve, 0CurveBack = 10, 25, -75\n");
+    // The joints 1 to 4 turn by 2 * 25 / 10 degrees, 5 to 9 by 2 * -75 / 10.
+    const auto& internodes = bough.geometry.internodes;
+    REQUIRE(internodes.size() == 11);
+    CHECK(degrees_between(direction_of(internodes[0]), direction_of(internodes[5])) == Approx(20));
+    CHECK(degrees_between(direction_of(internodes[5]), direction_of(internodes[10])) == Approx(75));
+}
+
+TEST_CASE("species: fir branches at the foot are five times as long as at the top; the poplar is a column",
+          "[species]") {
+    const LonePlant fir = grown_species("balsam-fir", {{"ScaleV", "0"}, {"LengthV_1", "0"}, {"LEVELS", "2"}});
+    const auto branches = first_segments(fir.string, fir.model->alphabet, 1);
+    CHECK(branches.front()[1] / branches.back()[1] == Approx(5).epsilon(0.02));
+    const LonePlant poplar = grown_species("lombardy-poplar", {{"QUALITY", "0.1"}});
+    const Box& box = poplar.interpretation.geometry.bounds;
+    CHECK(box.upper.y > 4 * std::max(box.upper.x - box.lower.x, box.upper.z - box.lower.z));
+}
+
+TEST_CASE("species: the palm bears its 26 fronds at the top, with 90 leaflets at most", "[species]") {
+    const LonePlant palm = grown_species("coconut-palm", {{"ScaleV", "0"}});
+    const auto fronds = first_segments(palm.string, palm.model->alphabet, 1);
+    CHECK(fronds.size() == 26);
+    int leaflets = 0;
+    for (int j = 0; j < 26; ++j) {
+        leaflets += static_cast<int>(std::lround(90 * (0.5 + 0.5 * (0.96 + 0.04 * (j + 0.5) / 26))));
+    }
+    CHECK(palm.counts()["Leaf"] == leaflets);
+}
+
+TEST_CASE("species: all of the library derive and draw, about as high as their scale", "[species]") {
+    int count = 0;
+    for (const auto& file : std::filesystem::directory_iterator(source_path("models/species"))) {
+        INFO(file.path());
+        LonePlant plant("models/species/" + file.path().filename().string(),
+                        {{"ScaleV", "0"}, {"QUALITY", "0.1"}, {"LEVELS", "2"}});
+        plant.grow(static_cast<int>(plant.derivation.length()));
+        const PlantGeometry& geometry = plant.interpretation.geometry;
+        CHECK(geometry.internodes.size() > 100);
+        CHECK(geometry.bounds.upper.y > 5);
+        CHECK(geometry.bounds.upper.y < 40);
+        ++count;
+    }
+    CHECK(count >= 8);
+}
