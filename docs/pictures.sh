@@ -60,6 +60,15 @@ done
 for plant in grass fern daisy palm spruce agave tree; do
     plant_of_notation "sdl-$plant" "models/sdl/$plant.sdl"
 done
+species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a large tree takes gigabytes
+    grow "species-$1" "models/species/$1.species" --colour-map models/plants.map --every 1000 "${@:2}"
+    render "species-$1.png" "species-$1" --size 300x300
+}
+for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir european-larch sassafras; do
+    species "$plant"
+done
+species black-oak --define ScaleV=3
+species weeping-willow --define Branches_3=60 --define QUALITY=0.5
 self_organizing() { # PICTURE [OPTIONS]
     grow "$1" environments/self-organizing.toml --set plant.0.define.YEARS=20 "${@:2}"
     render "$1.png" "$1" --size 320x360 --azimuth 20

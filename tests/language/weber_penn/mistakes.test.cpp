@@ -1,4 +1,5 @@
 // Mistakes in species files: each at its place, with what to write instead.
+#include "espalier/base/error.h"
 #include "espalier/language/notation.h"
 
 #include "catch.h"
