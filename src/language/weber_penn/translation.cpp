@@ -192,7 +192,7 @@ private:
     }
 
     std::string splits_macro(int level) const {
-        const std::string at_base = level == 0 ? "(k) == 1 ? BaseSplits_0 : " : "";
+        const std::string at_base = level == 0 ? "(k) == 1 && BaseSplits_0 > 0 ? BaseSplits_0 : " : "";
         return "#define CLONES_<n>(k, seed) (" + at_base +
                "floor(SegSplits_<c> * (k) + KEPT(seed, 0)) - floor(SegSplits_<c> * ((k) - 1) + KEPT(seed, 0)))\n";
     }
@@ -371,6 +371,7 @@ private:
 	spread = )" + at_base +
                            spread + R"(;
 	back = back - angle / (CurveRes_<c> - k);
+	angle = angle + angle / (CurveRes_<c> - k);
 	qx = hx * cos(spread) + hz * sin(spread); hz = hz * cos(spread) - hx * sin(spread);
 	rx = ux * cos(spread) + uz * sin(spread); uz = uz * cos(spread) - ux * sin(spread);
 	hx = qx * cos(angle) + rx * sin(angle); ux = rx * cos(angle) - qx * sin(angle);
@@ -456,21 +457,21 @@ private:
         const std::string width = "2 * RADIUS_<n>(radius, segment * CurveRes_<c>, ";
         const std::string core = lobed ? fmt::format(" * {}", format_exact(1 - value("LobeDepth"))) : "";
         const std::string foot = ";(BarkColour) " + (lobed ? lobes() + " !(" + width + "0)) @Gs " : "") + "!(" + width +
-                                 "0)" + core + ") G(0.02 * segment) ";
+                                 "0)" + core + ") G(0.01 * segment) ";
         const auto piece = [&](const std::string& length, const std::string& end) {
             const std::string surface = lobed ? " !(" + width + end + ")) @Gc(1)" : "";
             return "!(" + width + end + ")" + core + ") G(" + length + ")" + surface;
         };
         std::string text;
         if (pieces(level).empty()) {
-            text = "Wood<n>(k, segment, radius) : k == 0 --> " + foot + piece("0.98 * segment", "1 / CurveRes_<c>") +
+            text = "Wood<n>(k, segment, radius) : k == 0 --> " + foot + piece("0.99 * segment", "1 / CurveRes_<c>") +
                    "\nWood<n>(k, segment, radius) --> " + piece("segment", "(k + 1) / CurveRes_<c>") + "\n";
         } else {
             const std::string part = "(k + PART_<n>(i + 1, k)) / CurveRes_<c>";
-            text = "Wood<n>(k, segment, radius) : k == 0 --> " + foot + "Piece<n>(0, k, 0.98 * segment, radius)\n" +
+            text = "Wood<n>(k, segment, radius) : k == 0 --> " + foot + "Piece<n>(0, k, segment, radius)\n" +
                    "Wood<n>(k, segment, radius) --> Piece<n>(0, k, segment, radius)\n" +
                    "Piece<n>(i, k, segment, radius) : i < PIECES_<n>(k) -->\n\t" +
-                   piece("segment * (PART_<n>(i + 1, k) - PART_<n>(i, k))", part) +
+                   piece("segment * (PART_<n>(i + 1, k) - (i + k == 0 ? 0.01 : PART_<n>(i, k)))", part) +
                    " Piece<n>(i + 1, k, segment, radius)\nPiece<n>(i, k, segment, radius) --> *\n";
         }
         drawing_ += filled(text, words(level));
