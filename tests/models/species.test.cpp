@@ -264,6 +264,32 @@ TEST_CASE("species: the palm bears its 26 fronds at the top, with 90 leaflets at
     CHECK(palm.counts()["Leaf"] == leaflets);
 }
 
+TEST_CASE("species: leaves have two halves, three leaflets six; a fan stands at the end of its stem", "[species]") {
+    for (int shape = 0; shape <= 5; ++shape) {
+        const GrownSpecies tree(fmt::format("Levels = 1\nScale = 2\nLeaves = 7\nLeafShape = {}\n", shape));
+        CHECK(tree.geometry.polygons.size() == (shape == 5 ? 42 : 14));
+    }
+    const GrownSpecies fan("Levels = 1\nScale = 2\n1DownAngle, 1Rotate = 0, 90\nLeaves, LeafScale = -5, 0.3\n");
+    CHECK(fan.geometry.polygons.size() == 10);
+    for (const Polygon& polygon : fan.geometry.polygons) {
+        CHECK(glm::distance(fan.geometry.vertices[polygon.first], {0, 2, 0}) < 1e-9);
+    }
+}
+
+TEST_CASE("species: the surface of a trunk has lobes of the depth that was set", "[species]") {
+    const GrownSpecies tree(
+        "Levels = 1\nScale = 5\nRatio = 0.1\n0Taper = 0\nLobes, LobeDepth = 5, 0.2\n0CurveRes = 3\n");
+    double least = 9, most = 0;
+    for (const auto& vertex : tree.geometry.mesh.vertices) {
+        const double distance = std::hypot(vertex.position.x, vertex.position.z);
+        if (distance < 0.1) continue;  // the middle of a cap
+        least = std::min(least, distance);
+        most = std::max(most, distance);
+    }
+    CHECK(least == Approx(0.5 * 0.8).epsilon(0.01));
+    CHECK(most == Approx(0.5 * 1.2).epsilon(0.01));
+}
+
 TEST_CASE("species: all of the library derive and draw, about as high as their scale", "[species]") {
     int count = 0;
     for (const auto& file : std::filesystem::directory_iterator(source_path("models/species"))) {

@@ -274,7 +274,7 @@ private:
             "\tscale = Scale + WITHIN(ScaleV);\n\tbase = BaseSize * scale;\n"
             "\ttrunk_length = (Length_0 + WITHIN(LengthV_0)) * scale * (ZScale + WITHIN(ZScaleV));\n"
             "\ttrunk_radius = trunk_length * Ratio * (Scale_0 + WITHIN(ScaleV_0));\n"
-            "\tbare = min(base / trunk_length, 0.99);\n";
+            "\tbare = min(base / max(trunk_length, 1e-9), 0.99);\n";
         if (species_.prunes()) text += "\tfoot_x = 0;\n\tfoot_y = 0;\n\tfoot_z = 0;\n";
         return text;
     }
