@@ -52,7 +52,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates) {
     const std::string nearest = nearest_name(name, candidates);
-    return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+    return nearest.empty() || nearest == name ? "" : " (did you mean '" + nearest + "'?)";
 }
 
 std::string format_general(double value) {

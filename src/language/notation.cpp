@@ -3,6 +3,8 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "language/plain_text.h"
+
 #include <fmt/format.h>
 
 namespace espalier::language {
@@ -14,9 +16,13 @@ const NotationType* notation_of(const std::filesystem::path& path) {
     return nullptr;
 }
 
+std::string translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path) {
+    require_text(text, path.string());
+    return notation.translate(with_plain_lines(text), path);
+}
+
 std::string translated(const std::filesystem::path& path) {
-    const NotationType* notation = notation_of(path);
-    if (notation) return notation->translate(read_text(path), path);
+    if (const NotationType* notation = notation_of(path)) return translated(*notation, read_text(path), path);
     std::string extensions;
     for (const auto& [name, known] : registered<NotationType>()) extensions += " " + known->extension;
     throw UserError(fmt::format("{} is in no notation that can be translated; their extensions are{}", path.string(),

@@ -3,10 +3,10 @@
 #include "espalier/base/file.h"
 #include "espalier/language/notation.h"
 
-#include "base/characters.h"
 #include "language/definitions.h"
 #include "language/other_language.h"
 #include "language/parser/model.h"
+#include "language/plain_text.h"
 #include "language/preprocessor/preprocessor.h"
 #include "language/source.h"
 
@@ -16,17 +16,6 @@
 
 namespace espalier::language {
 namespace {
-
-/// Throws UserError if a text is none, so that its bytes are not reported one by one.
-void require_text(const std::string& text, const std::string& name) {
-    constexpr int most_control_characters = 8;
-    int found = 0;
-    for (const char c : text) {
-        const bool control = static_cast<unsigned char>(c) < 0x20 && !is_blank(c) && c != '\n';
-        if (c != '\0' && (!control || ++found <= most_control_characters)) continue;
-        throw UserError(fmt::format("{} is a binary file, not the text of a model", name));
-    }
-}
 
 std::shared_ptr<const Model> read(std::string text, const std::string& name, const std::filesystem::path& path,
                                   const std::filesystem::path& folder, const ReadOptions& options) {

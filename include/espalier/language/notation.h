@@ -22,6 +22,8 @@ struct NotationType {
 /// The notation that files of this extension are written in; null for models themselves.
 const NotationType* notation_of(const std::filesystem::path& path);
 
+/// The model that a text in a notation stands for, however its lines end. Throws UserError for bytes that are no text.
+std::string translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path);
 /// The model that a file in a notation stands for. Throws UserError for a file in none.
 std::string translated(const std::filesystem::path& path);
 

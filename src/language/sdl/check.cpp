@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
@@ -19,10 +21,13 @@ public:
     void components() {
         if (names_.empty() && mistakes_.none())
             mistakes_.error({0, 1, 1}, "a skeleton needs at least one component: start[0, 1, 0, 0];");
-        std::set<std::string> seen;
+        std::map<std::string, int> lines;
         for (const Component& component : skeleton_.components) {
-            if (!seen.insert(component.name).second) {
-                mistakes_.error(component.at, fmt::format("component '{}' is defined a second time", component.name));
+            const auto [first, is_new] = lines.emplace(component.name, component.at.line);
+            if (!is_new) {
+                mistakes_.error(component.at,
+                                fmt::format("component '{}' is defined a second time; the first one is in line {}",
+                                            component.name, first->second));
             }
             beginning(component);
         }
@@ -37,20 +42,25 @@ public:
                                                      "{0} -> (...) | (...);",
                                                      rule.master));
             }
+            weights(rule);
             for (const RightSide& side : rule.right_sides) slaves(side.slaves);
         }
     }
 
     void fibres() {
-        std::set<std::string> seen;
+        std::map<std::string, int> lines;
         for (const Fibre& fibre : skeleton_.fibres) {
             for (const std::string& name : fibre.components) require_known(name, fibre.at);
             const std::vector<std::string> all_others{""};
             for (const std::string& name : fibre.components.empty() ? all_others : fibre.components) {
-                if (seen.insert(name).second) continue;
-                mistakes_.error(fibre.at, name.empty()
-                                              ? "only one set of fibres may leave out the names of its components"
-                                              : fmt::format("'{}' has fibres already", name));
+                const auto [first, is_new] = lines.emplace(name, fibre.at.line);
+                if (is_new) continue;
+                mistakes_.error(fibre.at,
+                                name.empty()
+                                    ? fmt::format("the fibres of all other components are set already, in "
+                                                  "line {}; name the components that these belong to",
+                                                  first->second)
+                                    : fmt::format("'{}' has fibres already, set in line {}", name, first->second));
             }
         }
     }
@@ -64,9 +74,11 @@ public:
                 bends.insert(fibre ? fibre->contour : std::vector<double>{});
             }
             if (bends.size() <= 1) continue;
-            mistakes_.error(component.at, fmt::format("the masters of '{}' have fibres with different contours, so its "
-                                                      "slaves would not know where to begin",
-                                                      component.name));
+            mistakes_.error(component.at,
+                            fmt::format("the masters of '{}' have fibres with different contours, so its "
+                                        "slaves would not know where to begin; give each of these masters "
+                                        "a NULL component of its own",
+                                        component.name));
         }
     }
 
@@ -79,10 +91,20 @@ private:
         const double deviation = place.deviation ? place.deviation->number.value_or(0) : 0;
         constexpr double rounding = 1e-12;
         if (middle - deviation >= -rounding && middle + deviation <= 1 + rounding) return;
-        mistakes_.error(place.at, fmt::format("'{}' begins between {} and {} of its master; a place on the master is "
-                                              "from 0 to 1",
-                                              component.name, format_general(middle - deviation),
-                                              format_general(middle + deviation)));
+        const std::string low = format_general(middle - deviation), high = format_general(middle + deviation);
+        mistakes_.error(
+            place.at, fmt::format("'{}' begins {} of its master; a place on the master is from 0 to 1", component.name,
+                                  deviation == 0 ? "at " + low : fmt::format("between {} and {}", low, high)));
+    }
+
+    void weights(const Rule& rule) {
+        const bool can_be_chosen = std::any_of(rule.right_sides.begin(), rule.right_sides.end(), [](const auto& side) {
+            return !side.weight || side.weight->number != 0.0;
+        });
+        if (can_be_chosen) return;
+        mistakes_.error(rule.at, fmt::format("all right sides of '{0}' have the weight 0, so none can be chosen; write "
+                                             "{0} -> (); for a component without slaves",
+                                             rule.master));
     }
 
     void slaves(const std::vector<Slave>& list) {

@@ -19,7 +19,8 @@ public:
     Fibre fibre() {
         const std::array<std::string, 2> types{"wooden", "leaf"};
         fibre_.at = in_.next().at;
-        if (!in_.looking_at(types[0]) && !in_.looking_at(types[1])) in_.fail("'wooden' or 'leaf'", types);
+        if (!in_.looking_at(types[0]) && !in_.looking_at(types[1]))
+            in_.fail("'wooden', 'leaf' or the '}' of the fibres", types);
         fibre_.type = in_.take().text == "leaf" ? Fibre::Type::leaf : Fibre::Type::wooden;
         fibre_.is_flat = fibre_.type == Fibre::Type::leaf;
         if (!in_.looking_at("{")) {
@@ -27,9 +28,9 @@ public:
                 fibre_.components.push_back(in_.expect_name("a component of these fibres").text);
             } while (in_.accept(","));
         }
-        in_.expect("{", "before the functions of the fibres");
+        in_.expect("{", "before the settings of these fibres, or ',' and another component");
         while (!in_.accept("}")) {
-            if (in_.at_end()) in_.fail("'}' after the functions of the fibres");
+            if (in_.at_end()) in_.fail("'}' after the settings of these fibres");
             try {
                 setting();
             } catch (const SyntaxError& mistake) {
@@ -61,15 +62,22 @@ private:
     void values(const std::string& name) {
         if (name == "cut") cut();
         if (name == "ring") fibre_.rings.push_back(strengths());
-        if (name == "contour") fibre_.contour = numbers("degrees of bending", -360, 360);
+        if (name == "contour") fibre_.contour = numbers("the bending of a part of the fibre, in degrees,", -360, 360);
         if (name == "correction") correction();
         if (name == "quality") quality();
         if (name == "material") material();
     }
 
     void cut() {
-        fibre_.width = fibre_.thickness = parse_formula(in_, cut_names);
-        if (in_.accept(",")) fibre_.thickness = parse_formula(in_, cut_names);
+        fibre_.width = fibre_.thickness = diameter("the width of the cut");
+        if (in_.accept(",")) fibre_.thickness = diameter("the thickness of the cut");
+    }
+
+    Formula diameter(const char* what) {
+        const Location at = in_.next().at;
+        const Formula formula = parse_formula(in_, cut_names, what);
+        if (formula.number.value_or(0) >= 0) return formula;
+        throw SyntaxError{at, fmt::format("{} is 0 or more, not {}", what, formula.text)};
     }
 
     std::vector<double> strengths() {
@@ -106,7 +114,7 @@ private:
 
     double number(const char* what, double least, double most) {
         const Location at = in_.next().at;
-        const Formula formula = parse_formula(in_, {});
+        const Formula formula = parse_formula(in_, {}, what);
         const double value = formula.number.value_or(least - 1);
         if (value >= least && value <= most) return value;
         throw SyntaxError{at, fmt::format("{} is from {} to {}, not {}", what, least, most, formula.text)};

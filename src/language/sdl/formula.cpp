@@ -20,6 +20,11 @@ struct Function {
 constexpr std::array<Function, 9> functions{
     {{"sin", 1}, {"cos", 1}, {"sqrt", 1}, {"exp", 1}, {"abs", 1}, {"floor", 1}, {"min", 2}, {"max", 2}, {"noise", 3}}};
 
+/// Only a root and a power of known numbers may have none.
+bool is_finite(std::string_view function, double argument) {
+    return function == "sqrt" ? argument >= 0 : function != "exp" || std::isfinite(std::exp(argument));
+}
+
 std::string written(double value) {
     return format_exact(value == 0 ? 0 : value);
 }
@@ -30,7 +35,8 @@ Formula constant(double value) {
 
 class FormulaParser {
 public:
-    FormulaParser(TokenReader& in, std::span<const std::string> names) : in_(in), names_(names) {}
+    FormulaParser(TokenReader& in, std::span<const std::string> names, std::string_view what)
+        : in_(in), names_(names), what_(what) {}
 
     Formula sum() {
         Formula left = product();
@@ -73,7 +79,7 @@ private:
             if (!inner.number) inner = {fmt::format("({})", inner.text), {}, true};
             return inner;
         }
-        if (in_.next().kind != Token::Kind::name) in_.fail("a number");
+        if (in_.next().kind != Token::Kind::name) in_.fail(fmt::format("a number for {}", what_));
         for (const Function& function : functions) {
             if (in_.looking_at(function.name)) return call(function);
         }
@@ -82,21 +88,30 @@ private:
     }
 
     Formula call(const Function& function) {
+        const Location at = in_.next().at;
+        std::vector<double> known;
         std::string text = in_.take().text + "(";
         in_.expect("(", fmt::format("after '{}'", function.name));
         for (int k = 0; k < function.arguments; ++k) {
             if (k > 0)
                 in_.expect(",", fmt::format("in '{}', which has {} arguments", function.name, function.arguments));
-            text += (k > 0 ? ", " : "") + sum().text;
+            const Formula argument = sum();
+            if (argument.number) known.push_back(*argument.number);
+            text += (k > 0 ? ", " : "") + argument.text;
         }
         in_.expect(")", fmt::format("after the arguments of '{}'", function.name));
+        if (!known.empty() && !is_finite(function.name, known.front())) {
+            throw SyntaxError{at, fmt::format("{}) is no finite number", text)};
+        }
         return {text + ")", {}, true};
     }
 
     [[noreturn]] void fail_name() const {
         std::vector<std::string> known(names_.begin(), names_.end());
         for (const Function& function : functions) known.emplace_back(function.name);
-        in_.fail("a number, or an expression of " + joined(names_), known);
+        in_.fail(
+            fmt::format("a number for {}{}", what_, names_.empty() ? "" : ", or an expression of " + joined(names_)),
+            known);
     }
 
     static std::string joined(std::span<const std::string> names) {
@@ -111,7 +126,10 @@ private:
         if (a.number && b.number) {
             const double x = *a.number, y = *b.number;
             const double value = sign.text == "+" ? x + y : sign.text == "-" ? x - y : sign.text == "*" ? x * y : x / y;
-            if (!std::isfinite(value)) throw SyntaxError{sign.at, "a division by zero, or too large a number"};
+            if (sign.text == "/" && y == 0) throw SyntaxError{sign.at, "this divides by zero"};
+            if (!std::isfinite(value)) {
+                throw SyntaxError{sign.at, "the result is too large for a number, which is at most 1.8e308"};
+            }
             return constant(value);
         }
         const bool needs_parentheses = b.text.starts_with("-");
@@ -120,13 +138,14 @@ private:
 
     TokenReader& in_;
     std::span<const std::string> names_;
+    std::string_view what_;
     int depth_ = 0;
 };
 
 }  // namespace
 
-Formula parse_formula(TokenReader& in, std::span<const std::string> names) {
-    return FormulaParser(in, names).sum();
+Formula parse_formula(TokenReader& in, std::span<const std::string> names, std::string_view what) {
+    return FormulaParser(in, names, what).sum();
 }
 
 std::string sum(const std::string& base, const Formula& formula) {

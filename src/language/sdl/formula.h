@@ -10,8 +10,8 @@
 
 namespace espalier::language::sdl {
 
-/// A sum of products of numbers, functions and the given names. Throws SyntaxError.
-Formula parse_formula(TokenReader& in, std::span<const std::string> names);
+/// A sum of products of numbers, functions and the given names; `what` it is for stands in messages. Throws SyntaxError.
+Formula parse_formula(TokenReader& in, std::span<const std::string> names, std::string_view what);
 
 /// `base` plus the formula, without a sum that changes nothing.
 std::string sum(const std::string& base, const Formula& formula);

@@ -12,16 +12,18 @@ namespace {
 
 constexpr int most_generations = 100000, most_slaves = 1000, most_depth = 50;
 const std::array<std::string, 5> attribute_names{"length", "vertical", "horizontal", "generation", "i"};
+const std::array<std::string, 4> weight_names{"length", "vertical", "horizontal", "generation"};
 
 class SkeletonParser {
 public:
     SkeletonParser(TokenReader& in, Mistakes& mistakes) : in_(in), mistakes_(mistakes) {}
 
     Skeleton skeleton() {
+        if (in_.at_end()) throw SyntaxError{in_.next().at, "there is no skeleton here; it begins with 'define {'"};
         open_block("define", "a skeleton begins with its components");
-        statements([&] { component(); });
+        statements("define", [&] { component(); });
         open_block("rules", "the rules follow the components");
-        statements([&] { rule(); });
+        statements("rules", [&] { rule(); });
         while (!in_.at_end()) further_block();
         return std::move(skeleton_);
     }
@@ -35,9 +37,9 @@ private:
 
     /// Statements up to the brace that ends the block. A mistake ends the statement, not the block.
     template <class Statement>
-    void statements(Statement statement) {
+    void statements(const char* block, Statement statement) {
         while (!in_.accept("}")) {
-            if (in_.at_end()) in_.fail("'}' at the end of the block");
+            if (in_.at_end()) in_.fail(fmt::format("'}}' at the end of '{}'", block));
             try {
                 statement();
             } catch (const SyntaxError& mistake) {
@@ -59,6 +61,7 @@ private:
         const std::array<std::string, 1> null{"NULL"};
         const bool is_nearly_null = !nearest_name(in_.next().text, null).empty();
         if (!component.is_null && is_nearly_null) in_.fail("NULL or a beginning", null);
+        if (component.is_null && in_.looking_at(",")) in_.fail("']': a component that is NULL has no features");
         if (!component.is_null) features(component);
         in_.expect("]", fmt::format("after the features of '{}'", component.name));
         in_.expect(";", "after a component");
@@ -83,23 +86,25 @@ private:
                                 Component::feature_names[k], component.name));
             }
             if (k > 0) in_.take();
-            component.features[k] = attribute(Component::feature_names[k]);
+            component.features[k] =
+                attribute(fmt::format("the {} of '{}'", Component::feature_names[k], component.name));
         }
         if (in_.looking_at(",")) in_.fail("']': a component has four features");
     }
 
-    Attribute attribute(const char* what) {
+    Attribute attribute(const std::string& what) {
         Attribute attribute;
         attribute.at = in_.next().at;
-        attribute.middle = parse_formula(in_, attribute_names);
+        attribute.middle = parse_formula(in_, attribute_names, what);
         if (!in_.accept(":")) return attribute;
         const Location at = in_.next().at;
-        attribute.deviation = parse_formula(in_, attribute_names);
+        attribute.deviation = parse_formula(in_, attribute_names, "the deviation of " + what);
         if (attribute.deviation->number.value_or(0) < 0) {
-            throw SyntaxError{at, fmt::format("the deviation of the {} is {}; it is the largest distance from the "
-                                              "middle, 0 or more",
+            throw SyntaxError{at, fmt::format("the deviation of {} is the largest distance from the middle, 0 or "
+                                              "more, not {}",
                                               what, attribute.deviation->text)};
         }
+        if (in_.looking_at(":")) in_.fail(fmt::format("',' or ']': {} has one deviation", what));
         return attribute;
     }
 
@@ -121,7 +126,7 @@ private:
         side.slaves = slaves(1);
         if (!in_.accept(":")) return side;
         const Location at = in_.next().at;
-        side.weight = parse_formula(in_, attribute_names);
+        side.weight = parse_formula(in_, weight_names, "the weight of a right side");
         if (side.weight->number.value_or(0) < 0) {
             throw SyntaxError{at, fmt::format("a weight is 0 or more, not {}", side.weight->text)};
         }
@@ -133,6 +138,7 @@ private:
         in_.expect("(", "before the slaves");
         std::vector<Slave> list;
         while (!in_.accept(")")) {
+            if (in_.looking_at(",")) in_.fail("a component: slaves are separated by blanks");
             if (in_.next().kind != Token::Kind::name) in_.fail("a component or ')'");
             Slave slave;
             slave.at = in_.next().at;
@@ -149,7 +155,9 @@ private:
         if (in_.accept("fibres")) {
             in_.expect("{", "after 'fibres'");
             for (Fibre& fibre : parse_fibres(in_, mistakes_)) skeleton_.fibres.push_back(std::move(fibre));
-        } else if (in_.accept("generations")) {
+        } else if (in_.looking_at("generations")) {
+            if (skeleton_.says_generations) throw SyntaxError{in_.next().at, "'generations' is said twice"};
+            in_.take();
             skeleton_.generations = in_.expect_whole("the number of generations", 0, most_generations);
             skeleton_.says_generations = true;
             in_.expect(";", "after the number of generations");
@@ -173,8 +181,11 @@ Skeleton parse(const std::string& text, const std::string& file) {
     try {
         TokenReader in(tokens_of(text, number, mistakes));
         try {
-            skeleton = SkeletonParser(in, mistakes).skeleton();
-            check(skeleton, mistakes);
+            // Characters that belong to no token would bring further mistakes, which are none.
+            if (mistakes.none()) {
+                skeleton = SkeletonParser(in, mistakes).skeleton();
+                check(skeleton, mistakes);
+            }
         } catch (const SyntaxError& mistake) {
             mistakes.error(mistake);
         }

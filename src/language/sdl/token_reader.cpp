@@ -37,8 +37,9 @@ Token TokenReader::expect(std::string_view text, std::string_view where) {
 Token TokenReader::expect_name(std::string_view what) {
     if (next().kind != Token::Kind::name) fail(what);
     if (std::find(words.begin(), words.end(), next().text) != words.end()) {
-        throw SyntaxError{next().at,
-                          fmt::format("'{}' is a word of the language; {} needs another name", next().text, what)};
+        throw SyntaxError{
+            next().at,
+            fmt::format("'{}' is a word of the language and names no component; choose another name", next().text)};
     }
     return take();
 }
@@ -49,7 +50,9 @@ double TokenReader::expect_number(std::string_view what) {
     if (next().kind != Token::Kind::number) fail(what);
     const Token number = take();
     const double value = std::strtod(number.text.c_str(), nullptr);
-    if (!std::isfinite(value)) throw SyntaxError{number.at, fmt::format("{} is too large", number.text)};
+    if (!std::isfinite(value))
+        throw SyntaxError{number.at,
+                          fmt::format("{} is too large for a number, which is at most 1.8e308", number.text)};
     return negative ? -value : value;
 }
 
@@ -67,6 +70,12 @@ void TokenReader::fail(std::string_view expected, std::span<const std::string> k
 }
 
 void TokenReader::skip_statement() {
+    // A ']' that comes before any '[' ends the list in which the mistake stands.
+    for (std::size_t k = at_; k < tokens_.size() && tokens_[k].text != "[" && tokens_[k].text != "}"; ++k) {
+        if (tokens_[k].text != "]") continue;
+        at_ = k;
+        break;
+    }
     while (!at_end() && !looking_at("}")) {
         if (take().text == ";") return;
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace espalier::language::sdl {
@@ -39,16 +40,36 @@ private:
     }
 
     void token() {
+        if (at(0) == '/' && at(1) == '*') return block_comment();
         constexpr std::string_view signs = "{}[]();,:*+-/^|";
         if (is_name_start(at(0))) return add(Token::Kind::name, name_length(0));
+        if (text_.compare(at_, 8, "#include") == 0) return include_line();
         if (at(0) == '#' && is_name_start(at(1))) return add(Token::Kind::directive, 1 + name_length(1));
         if (is_digit(at(0)) || (at(0) == '.' && is_digit(at(1)))) return add(Token::Kind::number, number_length());
         if (at(0) == '-' && at(1) == '>') return add(Token::Kind::sign, 2);
         if (signs.find(at(0)) != std::string_view::npos) return add(Token::Kind::sign, 1);
         std::size_t length = 1;
         while (is_continuation_byte(at(length))) ++length;
-        mistakes_.error(here(), fmt::format("'{}' has no meaning here", text_.substr(at_, length)));
+        const bool is_letter = static_cast<unsigned char>(at(0)) >= 0x80;
+        mistakes_.error(here(),
+                        fmt::format("'{}' has no meaning here{}", text_.substr(at_, length),
+                                    is_letter ? "; names consist of the letters a to z and A to Z, digits and _" : ""));
         at_ += length;
+    }
+
+    void include_line() {
+        mistakes_.error(here(), "'#include' has no meaning here; a skeleton is one file");
+        at_ = std::min(text_.find('\n', at_), text_.size());
+    }
+
+    void block_comment() {
+        mistakes_.error(here(), "'/*' begins no comment here; begin each line of a comment with '//'");
+        const std::size_t end = std::min(text_.find("*/", at_ + 2), text_.size() - 2) + 2;
+        for (; at_ < end; ++at_) {
+            if (text_[at_] != '\n') continue;
+            ++line_;
+            line_start_ = at_ + 1;
+        }
     }
 
     std::size_t name_length(std::size_t from) const {
