@@ -1,5 +1,7 @@
 #include "model_arguments.h"
 
+#include "espalier/language/notation.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -87,7 +89,7 @@ ObjectFiles object_of(const ModelArguments& arguments) {
     object.defines = Defines(arguments.defines.begin(), arguments.defines.end());
     const bool has_side_files =
         !arguments.view.empty() || !arguments.animation.empty() || !arguments.environment.empty();
-    if (has_side_files) object.arithmetic = Arithmetic::cpfg;
+    if (has_side_files && !notation_of(object.model)) object.arithmetic = Arithmetic::cpfg;
     object.arithmetic = arguments.arithmetic.value_or(object.arithmetic);
     return object;
 }

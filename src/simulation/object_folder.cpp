@@ -1,5 +1,6 @@
 // Which files of a folder make its model.
 #include "espalier/base/file.h"
+#include "espalier/language/notation.h"
 #include "espalier/simulation/object.h"
 
 #include "plain_lines.h"
@@ -136,13 +137,12 @@ private:
     bool materials_ = false;
 };
 
-std::vector<fs::path> files_with(const fs::path& folder, const std::string& extension) {
+std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::string>& extensions) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (!name.starts_with('.') && entry.is_regular_file() && entry.path().extension() == extension) {
-            files.push_back(folder / name);
-        }
+        const std::string name = entry.path().filename().string(), extension = entry.path().extension().string();
+        const bool is_meant = std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+        if (is_meant && !name.starts_with('.') && entry.is_regular_file()) files.push_back(folder / name);
     }
     std::sort(files.begin(), files.end());
     return files;
@@ -154,8 +154,8 @@ std::string names_of(const std::vector<fs::path>& files) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-fs::path only_file(const fs::path& folder, const std::string& extension, const std::string& option) {
-    const std::vector<fs::path> files = files_with(folder, extension);
+fs::path only_file(const fs::path& folder, const std::vector<std::string>& extensions, const std::string& option) {
+    const std::vector<fs::path> files = files_with(folder, extensions);
     if (files.size() <= 1) return files.empty() ? fs::path() : files.front();
     throw UserError(fmt::format("{} has no '{}', and several files could be meant: {}. Say which{}", folder.string(),
                                 specifications_name, names_of(files), option));
@@ -163,7 +163,7 @@ fs::path only_file(const fs::path& folder, const std::string& extension, const s
 
 // Colours change nothing that grows, so several files are no mistake.
 void take_colours(const fs::path& folder, ObjectFiles& object) {
-    const std::vector<fs::path> maps = files_with(folder, ".map"), materials = files_with(folder, ".mat");
+    const std::vector<fs::path> maps = files_with(folder, {".map"}), materials = files_with(folder, {".mat"});
     if (maps.size() == 1) {
         object.colour_maps[1] = maps.front();
     } else if (maps.empty() && materials.size() == 1) {
@@ -176,14 +176,16 @@ void take_colours(const fs::path& folder, ObjectFiles& object) {
 }
 
 void take_by_extension(const fs::path& folder, ObjectFiles& object) {
-    object.model = only_file(folder, ".l", fmt::format(": espalier run {}/MODEL.l", folder.string()));
+    std::vector<std::string> extensions{".l"};
+    for (const auto& [name, notation] : registered<NotationType>()) extensions.push_back(notation->extension);
+    object.model = only_file(folder, extensions, fmt::format(": espalier run {}/MODEL", folder.string()));
     if (object.model.empty()) {
-        throw UserError(fmt::format("{} holds no model: neither a file '{}' nor one that ends in .l", folder.string(),
-                                    specifications_name));
+        throw UserError(fmt::format("{} holds no model: neither a file '{}' nor one that ends in {}", folder.string(),
+                                    specifications_name, fmt::join(extensions, ", ")));
     }
-    object.view = only_file(folder, ".v", " with --view");
-    object.animation = only_file(folder, ".a", " with --animate");
-    object.environment = only_file(folder, ".e", " with --environment");
+    object.view = only_file(folder, {".v"}, " with --view");
+    object.animation = only_file(folder, {".a"}, " with --animate");
+    object.environment = only_file(folder, {".e"}, " with --environment");
     take_colours(folder, object);
 }
 
@@ -216,12 +218,13 @@ ObjectFiles read_object_folder(const fs::path& folder) {
     ObjectFiles object;
     object.name = folder_name(folder);
     object.folder = folder;
-    object.arithmetic = Arithmetic::cpfg;
     if (fs::is_regular_file(folder / specifications_name)) {
         take_by_specifications(folder, object);
     } else {
         take_by_extension(folder, object);
     }
+    // Other notations have no arithmetic of cpfg.
+    if (!notation_of(object.model)) object.arithmetic = Arithmetic::cpfg;
     return object;
 }
 

@@ -134,6 +134,21 @@ TEST_CASE_METHOD(ObjectFolder, "without specifications files are recognised by t
     CHECK(object.environment.empty());
 }
 
+TEST_CASE_METHOD(ObjectFolder, "the model of an object may be in any notation", "[simulation]") {
+    for (const char* name : {"plant.l", "other.l"}) std::filesystem::remove(folder().path() / name);
+    folder().write("straw.sdl", "define{ a[0,1,0,0]; } rules{ a -> (a); }\n");
+    const ObjectFiles object = read();
+    CHECK(name_of(object.model) == "straw.sdl");
+    CHECK(name_of(object.view) == "plant.v");
+    CHECK(object.arithmetic != Arithmetic::cpfg);
+    folder().write("stem.pgraph", "pgraph 1\nHorn stem\ncamera -> stem\n");
+    CHECK_THAT(message(), Contains("stem.pgraph, straw.sdl"));
+    std::filesystem::remove(folder().path() / "straw.sdl");
+    CHECK(name_of(read().model) == "stem.pgraph");
+    std::filesystem::remove(folder().path() / "stem.pgraph");
+    CHECK_THAT(message(), Contains("nor one that ends in .l, .pgraph, .sdl"));
+}
+
 TEST_CASE_METHOD(ObjectFolder, "a choice that is not clear is an error that names the choices", "[simulation]") {
     CHECK_THAT(message(), Contains("other.l, plant.l"));
     std::filesystem::remove(folder().path() / "other.l");

@@ -28,8 +28,9 @@ struct ObjectFiles {
 };
 
 /// Reads a folder as the virtual laboratory keeps them: the first command `cpfg ...` of its file `specifications` says
-/// which files to take and how. Without that file, extensions decide. Its arithmetic is cpfg's. Throws UserError for
-/// files that are missing or lead out of the folder, for a choice that is not clear, and for objects of lpfg.
+/// which files to take and how. Without that file, extensions decide. Its arithmetic is cpfg's, except for models in
+/// other notations. Throws UserError for files that are missing or lead out of the folder, for a choice that is not
+/// clear, and for objects of lpfg.
 ObjectFiles read_object_folder(const std::filesystem::path& folder);
 
 /// The scene of an object: one plant at the origin and its environment.
