@@ -57,7 +57,7 @@ plant_of_notation() { # NAME FILE
 for plant in dandelion sunflower weeping-willow bush palm pineapple wind-pine; do
     plant_of_notation "pgraph-$plant" "models/pgraph/$plant.pgraph"
 done
-for plant in grass fern daisy palm spruce agave tree; do
+for plant in grass fern daisy palm spruce agave tree bush; do
     plant_of_notation "sdl-$plant" "models/sdl/$plant.sdl"
 done
 species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a large tree takes gigabytes

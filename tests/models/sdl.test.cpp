@@ -86,6 +86,16 @@ TEST_CASE("agave.sdl: 34 leaves, which enclose a volume", "[models]") {
     CHECK(enclosed_volume(mesh) > 0);
 }
 
+TEST_CASE("bush.sdl: each generation has three times as many new twigs as the one before, and four leaves for each",
+          "[models]") {
+    LonePlant bush = plant("bush");
+    for (int n = 1, twigs = 0, born = 3; n <= 6; ++n, born *= 3) {
+        bush.grow(1);
+        CHECK(bush.counts()["twig"] == (twigs += born));
+        CHECK(bush.counts()["leaf"] == 4 * (twigs - 3));
+    }
+}
+
 TEST_CASE("tree.sdl: of the boughs, 5 % end, 60 % fork in two and 35 % in three", "[models]") {
     LonePlant tree = plant("tree");
     tree.grow(5);
