@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace espalier::language::pgraph {
@@ -14,7 +15,8 @@ namespace {
 
 constexpr int newest_version = 1;
 
-/// The text with blanks instead of comments, except on the lines of #define, where comments are settings.
+/// The text with blanks instead of comments, except on the lines of #define, where comments are settings, and for one
+/// that never ends.
 std::string without_comments(std::string text) {
     const auto line_end = [&](std::size_t k) { return std::min(text.find('\n', k), text.size()); };
     for (std::size_t k = 0; k < text.size();) {
@@ -23,7 +25,8 @@ std::string without_comments(std::string text) {
             k = line_end(k);
         } else if (text.compare(k, 2, "//") == 0 || text.compare(k, 2, "/*") == 0) {
             const bool is_block = text[k + 1] == '*';
-            const std::size_t end = is_block ? std::min(text.find("*/", k + 2), text.size() - 2) + 2 : line_end(k);
+            if (is_block && text.find("*/", k + 2) == std::string::npos) return text;
+            const std::size_t end = is_block ? text.find("*/", k + 2) + 2 : line_end(k);
             for (; k < end; ++k) {
                 if (text[k] != '\n') text[k] = ' ';
             }
@@ -49,10 +52,20 @@ public:
             ++number_;
             line_ = line;
             while (!line_.empty() && is_blank(line_.back())) line_.pop_back();
-            if (!line_.empty() && line_.find_first_not_of(" \t") != std::string::npos) read_line();
+            if (line_.find_first_not_of(" \t") == std::string::npos) continue;
+            if (const std::size_t open = line_.find("/*"); open != std::string::npos && !line_.starts_with("#define")) {
+                mistake(open, "this comment is never closed: '*/' is missing");
+                break;
+            }
+            if (!has_version_ && words_of(line_, " \t").front() != "pgraph") break;  // what follows is no graph
+            read_line();
         }
-        if (!has_version_) mistake(0, fmt::format("a graph begins with the line 'pgraph {}'", newest_version));
-        check_links();
+        if (!has_version_ && mistakes_.empty()) {
+            number_ = std::max(number_, 1);
+            mistake(0, fmt::format("a graph begins with the line 'pgraph {}'", newest_version));
+        } else if (has_version_) {
+            check_links();
+        }
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
         return std::move(graph_);
     }
@@ -83,6 +96,17 @@ private:
         if (name.size() < 2 || !std::all_of(name.begin(), name.end(), fits)) {
             return mistake(line_.find(name), "the name of a #define is written in capitals, at least two");
         }
+        if (line_.back() == '\\') return mistake(line_.size() - 1, "a #define is one line, without a '\\' at its end");
+        if (const auto comment = line_.rfind("/*"); comment != std::string::npos) {
+            if (line_.find("*/", comment + 2) == std::string::npos) {
+                return mistake(comment, "a comment behind a #define ends on its line: '*/' is missing");
+            }
+        }
+        const auto [first, is_new] = define_lines_.emplace(name, number_);
+        if (!is_new) {
+            return mistake(line_.find(name, 7),
+                           fmt::format("'{}' is defined already, in line {}", name, first->second));
+        }
         graph_.defines.push_back(line_);
     }
 
@@ -100,6 +124,9 @@ private:
             skips_keys_ = true;
             std::vector<std::string> names;
             for (const ComponentType& each : component_types()) names.push_back(each.name);
+            if (!graph_.components.empty() && find_type(graph_.components.back().type)->find(words.front())) {
+                return mistake(0, fmt::format("'{}' is a key, which stands behind blanks", words.front()));
+            }
             return mistake(0, fmt::format("'{}' is no component; the components are {}{}", words.front(),
                                           fmt::join(names, ", "), did_you_mean(words.front(), names)));
         }
@@ -107,8 +134,11 @@ private:
         const std::string name = words.size() > 1 ? words[1] : "";
         const std::size_t column = name.empty() ? line_.size() : line_.find(name, words.front().size());
         if (words.size() != 2 || !is_component_name(name) || name == camera) {
-            mistake(column, fmt::format("expected a name of two or more small letters after '{}', which is not '{}'",
-                                        type->name, camera));
+            mistake(column, words.size() < 2 ? fmt::format("expected a name after '{}'", type->name)
+                                             : fmt::format("'{}' is no name of a component; a name has two or more of "
+                                                           "a to z, 0 to 9 and _, begins with a letter, and is not "
+                                                           "'{}'",
+                                                           words.size() > 2 ? line_.substr(column) : name, camera));
         } else if (graph_.find(name)) {
             mistake(column,
                     fmt::format("there is a component '{}' already, in line {}", name, graph_.find(name)->place.line));
@@ -161,6 +191,10 @@ private:
         for (std::size_t k = 0; k < words.size(); ++k) {
             column = line_.find(words[k], column);
             if (k % 2 == 0) {
+                if (words[k].find('>') != std::string::npos) {
+                    if (k > 0) graph_.links.pop_back();
+                    return mistake(column, "a link is two components with an arrow and blanks between: camera -> stem");
+                }
                 if (k > 0) graph_.links.back().to = words[k];
                 if (k + 1 < words.size()) graph_.links.push_back({words[k], "", LinkKind::child, place(column)});
             } else if (!read_arrow(words[k], column) || k + 1 == words.size()) {
@@ -184,6 +218,9 @@ private:
     }
 
     void check_links() {
+        if (graph_.components.empty() && mistakes_.empty()) {
+            report({file_, 1, 1}, "a graph needs a component and a link from the camera to it: camera -> stem");
+        }
         std::vector<std::string> names{camera};
         for (const Component& component : graph_.components) names.push_back(component.name);
         for (const Link& link : graph_.links) {
@@ -209,6 +246,7 @@ private:
 
     std::string file_, text_, line_;
     int number_ = 0;
+    std::map<std::string, int> define_lines_;
     bool has_version_ = false;
     bool skips_keys_ = false;  // those of a component that is not known
     Graph graph_;

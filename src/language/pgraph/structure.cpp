@@ -25,12 +25,16 @@ Structure::Structure(const Graph& graph) : graph_(graph) {
     std::vector<std::string> path;
     std::set<std::string> reached;
     find_back_links(camera, path, reached);
+    if (links_from(camera).empty()) {
+        const Component& first = graph.components.front();
+        report(first.place, fmt::format("no link begins at the camera: write 'camera -> {}'", first.name));
+        stop_if_wrong();
+    }
     for (const Component& component : graph.components) {
         if (reached.contains(component.name)) continue;
         report(component.place,
                fmt::format("no link leads from the camera to '{}'; without one it has no instances", component.name));
     }
-    if (links_from(camera).empty()) report({}, "nothing hangs on the camera: write 'camera -> ...'");
     stop_if_wrong();
     find_bodies();
     check_nesting();

@@ -66,6 +66,10 @@ private:
         if (key.kind == KeyKind::axis && differs_by_instance(value.function)) {
             report(value.place, fmt::format("the function of '{}' is one of x alone", key.name));
         }
+        const bool differs = std::any_of(value.parts.begin(), value.parts.end(), differs_by_instance);
+        if (key.kind == KeyKind::list && differs) {
+            report(value.place, fmt::format("the numbers of '{}' are the same for all instances", key.name));
+        }
         const bool is_vector = key.kind == KeyKind::list && key.summary == "x, y, z";
         if (is_vector && value.parts.size() != 3) report(value.place, fmt::format("'{}' is x, y, z", key.name));
         if (key.kind == KeyKind::list && value.parts.size() < 2) {

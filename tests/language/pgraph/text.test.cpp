@@ -61,6 +61,62 @@ TEST_CASE("Values are refused that are none or out of range", "[pgraph]") {
           "3:9: 'shape' is none|sphere|cylinder|box, not 'spere' (did you mean 'sphere'?)");
 }
 
+TEST_CASE("Lines that are no component, key or link are refused at their place, with what to write", "[pgraph]") {
+    const std::string stem = "Horn stem\n";
+    CHECK(
+        graph_mistakes("Horn Stem\n") ==
+        "2:6: 'Stem' is no name of a component; a name has two or more of a to z, 0 to 9 and _, begins with a letter, "
+        "and is not 'camera'");
+    CHECK_THAT(graph_mistakes("Horn s\n"), Catch::StartsWith("2:6: 's' is no name of a component"));
+    CHECK_THAT(graph_mistakes("Horn stem;\n"), Catch::StartsWith("2:6: 'stem;' is no name of a component"));
+    CHECK_THAT(graph_mistakes("Horn my stem\n"), Catch::StartsWith("2:6: 'my stem' is no name of a component"));
+    CHECK(graph_mistakes("Horn\n") == "2:5: expected a name after 'Horn'");
+    CHECK(graph_mistakes(stem + "length 2\n") == "3:1: 'length' is a key, which stands behind blanks");
+    CHECK(graph_mistakes("  length 2\n" + stem) ==
+          "2:3: a key belongs to a component, which stands above it without blanks in front");
+    for (const std::string link : {"camera->stem", "camera -> ->stem", "->stem", "camera -> -B-> stem"}) {
+        INFO(link);
+        CHECK_THAT(graph_mistakes(stem + link + "\n"),
+                   Catch::Contains(": a link is two components with an arrow and blanks between: camera -> stem"));
+    }
+    CHECK(graph_mistakes(stem) == "2:6: no link begins at the camera: write 'camera -> stem'");
+    CHECK(graph_mistakes("") == "1:1: a graph needs a component and a link from the camera to it: camera -> stem");
+    CHECK(graph_mistakes(stem + "/* never closed\ncamera -> stem\n") ==
+          "3:1: this comment is never closed: '*/' is missing");
+}
+
+TEST_CASE("Lines of #define that would change what follows them are refused", "[pgraph]") {
+    const std::string stem = "Horn stem\n  length AB\ncamera -> stem\n";
+    CHECK(graph_mistakes("#define AB 1\n#define AB 2\n" + stem) == "3:9: 'AB' is defined already, in line 2");
+    CHECK(graph_mistakes("#define AB 1 \\\n" + stem) == "2:14: a #define is one line, without a '\\' at its end");
+    CHECK(graph_mistakes("#define AB 1 /* open\n" + stem) ==
+          "2:14: a comment behind a #define ends on its line: '*/' is missing");
+    CHECK(graph_mistakes("#define ab 1\n" + stem).starts_with("2:9: the name of a #define is written in capitals"));
+    CHECK(graph_mistakes("#define AB CD\n#define CD AB\n" + stem) ==
+          "5:10: 'AB' is no expression: 'AB' is not a constant");
+}
+
+TEST_CASE("A list of numbers is the same for all instances", "[pgraph]") {
+    CHECK(graph_mistakes("Leaf blade\n  outline i, n\ncamera -> blade\n") ==
+          "3:11: the numbers of 'outline' are the same for all instances");
+    CHECK(graph_mistakes("World wind\n  gravity ran(1), 0, 0\nHorn stem\ncamera -> wind -> stem\n") ==
+          "3:11: the numbers of 'gravity' are the same for all instances");
+}
+
+TEST_CASE("What is no graph at all is told by its first line alone", "[pgraph]") {
+    const auto said = [](const std::string& text) {
+        try {
+            pgraph::parse(text, "x.pgraph");
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(said("") == "x.pgraph:1:1: a graph begins with the line 'pgraph 1'");
+    CHECK(said("// a comment\ndefine{ a[0,1,0,0]; }\nrules{ }\n") ==
+          "x.pgraph:2:1: a graph begins with the line 'pgraph 1'");
+}
+
 TEST_CASE("A graph without its version, or of another, is refused", "[pgraph]") {
     CHECK_THROWS_WITH(pgraph::parse("Horn stem\ncamera -> stem\n", "x"),
                       Catch::Contains("a graph begins with the line 'pgraph 1'"));
