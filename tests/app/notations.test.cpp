@@ -62,10 +62,10 @@ TEST_CASE_METHOD(Workplace, "graphs and skeletons that outgrow --memory stop wit
         const Outcome outcome = run("run " + name + " --quiet --memory 64M --overwrite --output out");
         INFO(outcome.err);
         CHECK(outcome.code == 2);
-        CHECK_THAT(outcome.err, Contains("step 4") && Contains("modules") && Contains("of memory"));
+        CHECK_THAT(outcome.err, Contains("step 3") && Contains("modules") && Contains("of memory"));
         const auto record = nlohmann::json::parse(text_of(path() / "out/run.json"));
         CHECK_THAT(record["exit"].get<std::string>(), Contains("failed: "));
-        CHECK(record["steps_done"] == 3);
+        CHECK(record["steps_done"] == 2);
         CHECK(fs::exists(path() / "out/statistics.csv"));
     }
 }
