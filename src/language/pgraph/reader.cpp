@@ -1,3 +1,5 @@
+#include "espalier/language/model_settings.h"
+
 #include "base/characters.h"
 #include "base/text.h"
 #include "language/pgraph/graph.h"
@@ -65,6 +67,7 @@ public:
             mistake(0, fmt::format("a graph begins with the line 'pgraph {}'", newest_version));
         } else if (has_version_) {
             check_links();
+            check_settings();
         }
         if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
         return std::move(graph_);
@@ -108,6 +111,9 @@ private:
                            fmt::format("'{}' is defined already, in line {}", name, first->second));
         }
         graph_.defines.push_back(line_);
+        definitions_.resize(definitions_.size() + std::size_t(number_ - 1 - newlines_in_definitions_), '\n');
+        definitions_ += line_ + "\n";
+        newlines_in_definitions_ = number_;
     }
 
     void read_version(const std::vector<std::string>& words) {
@@ -217,6 +223,14 @@ private:
         return false;
     }
 
+    void check_settings() {
+        try {
+            ModelSettings::parse(definitions_, file_);
+        } catch (const UserError& error) {
+            for (const Diagnostic& mistake : error.diagnostics()) report(mistake.place, mistake.message);
+        }
+    }
+
     void check_links() {
         if (graph_.components.empty() && mistakes_.empty()) {
             report({file_, 1, 1}, "a graph needs a component and a link from the camera to it: camera -> stem");
@@ -247,6 +261,8 @@ private:
     std::string file_, text_, line_;
     int number_ = 0;
     std::map<std::string, int> define_lines_;
+    std::string definitions_;  // the lines of #define, each at its own line
+    int newlines_in_definitions_ = 0;
     bool has_version_ = false;
     bool skips_keys_ = false;  // those of a component that is not known
     Graph graph_;

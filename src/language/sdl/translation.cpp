@@ -190,7 +190,8 @@ private:
         for (const RightSide& side : rule.right_sides) {
             text += fmt::format("{0}{1} : waits == 1 -->\n\t{0}(length, vertical, horizontal, 0){2}",
                                 module(rule.master), formals(rule.master), births(rule.master, side.slaves));
-            if (side.weight) text += " : " + with_value(side.weight->text, "generation", "Q");
+            if (side.weight && rule.right_sides.size() > 1)
+                text += " : " + with_value(side.weight->text, "generation", "Q");
             text += "\n";
         }
         return text;

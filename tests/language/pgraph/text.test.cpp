@@ -91,6 +91,8 @@ TEST_CASE("Lines of #define that would change what follows them are refused", "[
     CHECK(graph_mistakes("#define AB 1 \\\n" + stem) == "2:14: a #define is one line, without a '\\' at its end");
     CHECK(graph_mistakes("#define AB 1 /* open\n" + stem) ==
           "2:14: a comment behind a #define ends on its line: '*/' is missing");
+    CHECK_THAT(graph_mistakes("\n#define AB 1 /* wide; 5..9 */\n" + stem),
+               Catch::StartsWith("3:") && Catch::Contains("must be a number between 5 and 9, not 1"));
     CHECK(graph_mistakes("#define ab 1\n" + stem).starts_with("2:9: the name of a #define is written in capitals"));
     CHECK(graph_mistakes("#define AB CD\n#define CD AB\n" + stem) ==
           "5:10: 'AB' is no expression: 'AB' is not a constant");

@@ -5,6 +5,7 @@
 
 #include "catch.h"
 #include "language/sdl/skeleton.h"
+#include "language/sdl/translation.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -153,6 +154,12 @@ TEST_CASE("nesting that no one writes is a mistake, not a crash", "[sdl]") {
     CHECK(complaint(rule).find("nested more than 50 deep") != std::string::npos);
     CHECK(complaint("define{ a[" + std::string(100000, '-') + "1,1,0,0]; } rules{}").find("nested") !=
           std::string::npos);
+}
+
+TEST_CASE("the weight of a single right side changes nothing", "[sdl]") {
+    const std::string weighted = "define{ a[0,1,0,0]; } rules{ a -> (a) : 1 / generation; }";
+    const std::string plain = "define{ a[0,1,0,0]; } rules{ a -> (a); }";
+    CHECK(sdl::model_of(sdl::parse(weighted, "x.sdl"), "x.sdl") == sdl::model_of(sdl::parse(plain, "x.sdl"), "x.sdl"));
 }
 
 TEST_CASE("files of the notation are models for every command", "[sdl]") {
