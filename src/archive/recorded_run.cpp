@@ -156,6 +156,16 @@ RecordedView view_of(const fs::path& file, const Json& json) {
     return view;
 }
 
+std::map<std::array<std::uint8_t, 3>, RecordedMaterial> materials_of(const fs::path& file, const Json& json) {
+    std::map<std::array<std::uint8_t, 3>, RecordedMaterial> materials;
+    for (const Json& material : json) {
+        const glm::dvec3 emission = glm::clamp(vector_of(file, material.at("emission")), 0.0, 1.0);
+        const double opacity = std::clamp(material.at("opacity").get<double>(), 0.0, 1.0);
+        materials.emplace(material.at("rgb").get<std::array<std::uint8_t, 3>>(), RecordedMaterial{emission, opacity});
+    }
+    return materials;
+}
+
 // Cells between commas; in quotes commas are text.
 std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> cells(1);
@@ -222,12 +232,18 @@ RecordedRun::RecordedRun(const fs::path& path) : folder_(folder_of_run(path)) {
         if (run.contains("units")) units_ = run["units"].get<std::map<std::string, std::string>>();
         ground_area_ = ground_area_of(run);
         if (run.contains("view")) view_ = view_of(folder_ / "run.json", run["view"]);
+        if (run.contains("materials")) materials_ = materials_of(folder_ / "run.json", run["materials"]);
     } catch (const Json::exception& error) {
         throw UserError(fmt::format("{} is not what a run writes: {}", (folder_ / "run.json").string(), error.what()));
     }
     if (!(dt_ > 0) || !std::isfinite(dt_)) fail(folder_ / "run.json", fmt::format("a step cannot last {}", dt_));
     exit_ = exit_of_run(folder_);
     frames_ = read_frames(folder_, dt_);
+}
+
+RecordedMaterial RecordedRun::material(const std::array<std::uint8_t, 3>& rgb) const {
+    const auto found = materials_.find(rgb);
+    return found == materials_.end() ? RecordedMaterial{} : found->second;
 }
 
 // Who is killed cannot say so, but holds no lock any more.

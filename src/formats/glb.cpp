@@ -63,7 +63,7 @@ std::size_t Glb::add_accessor(const T* values, std::size_t count, int component_
 std::optional<std::size_t> Glb::texture(const std::string& file) {
     const auto [at, is_new] = texture_number_.emplace(file, std::nullopt);
     if (!is_new || file.empty()) return at->second;
-    const std::string png = png_of(run_, file);
+    const std::string png = png_of(run_.folder(), file);
     if (png.empty()) {
         missing_.push_back(file);
         return at->second;
@@ -83,13 +83,18 @@ std::string Glb::hint() const {
 std::size_t Glb::material(const MeshMaterial& look) {
     const auto known = material_number_.find(look);
     if (known != material_number_.end()) return known->second;
-    const glm::vec3 colour = linear_light(look.rgb);
-    Json surface = {
-        {"baseColorFactor", {colour.x, colour.y, colour.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}};
+    const RecordedMaterial recorded = run_.material(look.rgb);
+    const ColourParts parts = parts_of(look.rgb, recorded);
+    const glm::vec3 colour = linear_light(parts.reflected), light = linear_light(parts.emitted);
+    Json surface = {{"baseColorFactor", {colour.x, colour.y, colour.z, recorded.opacity}},
+                    {"metallicFactor", 0},
+                    {"roughnessFactor", 0.9}};
     Json material = {{"name", material_name(look)}, {"doubleSided", true}};
+    if (light != glm::vec3(0)) material["emissiveFactor"] = {light.x, light.y, light.z};
+    if (recorded.opacity < 1) material["alphaMode"] = "BLEND";
     if (const auto number = texture(look.texture)) {
         surface["baseColorTexture"] = {{"index", *number}};
-        if (cut_out_.contains(*number)) material["alphaMode"] = "MASK";
+        if (cut_out_.contains(*number) && recorded.opacity == 1) material["alphaMode"] = "MASK";
     }
     material["pbrMetallicRoughness"] = std::move(surface);
     materials_.push_back(std::move(material));

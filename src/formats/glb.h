@@ -20,7 +20,7 @@ public:
     using Json = nlohmann::ordered_json;
 
     /// Textures are looked for as `texture_image` does.
-    explicit Glb(std::filesystem::path run) : run_(std::move(run)) {}
+    explicit Glb(const RecordedRun& run) : run_(run) {}
 
     /// Vertices and triangles of one mesh; returns the mesh's number. `material_of` counts in `materials`.
     std::size_t add_mesh(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
@@ -56,7 +56,7 @@ private:
     Json accessors_ = Json::array(), views_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array(),
          nodes_ = Json::array(), samplers_ = Json::array(), channels_ = Json::array();
     Json images_ = Json::array(), textures_ = Json::array();
-    std::filesystem::path run_;
+    const RecordedRun& run_;
     std::map<MeshMaterial, std::size_t> material_number_;
     std::map<std::string, std::optional<std::size_t>> texture_number_;
     std::vector<std::string> missing_;  ///< textures

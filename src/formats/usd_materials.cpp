@@ -12,10 +12,28 @@ const std::string& UsdMaterials::name(const MeshMaterial& look) {
     const auto [at, is_new] = names_.emplace(look, "");
     if (!is_new) return at->second;
     const std::string& copy = copies_.copy(look.texture).name;
-    if (copy.empty()) return at->second;
-    at->second = fmt::format("texture_{}", looks_.size());
+    if (copy.empty() && run_.material(look.rgb).is_plain()) return at->second;
+    at->second = fmt::format("{}_{}", copy.empty() ? "material" : "texture", looks_.size());
     looks_.emplace_back(&at->first, copy);
     return at->second;
+}
+
+/// The lines of the surface that a recorded material decides.
+std::string UsdMaterials::surface(const MeshMaterial& look, bool has_picture) const {
+    const RecordedMaterial material = run_.material(look.rgb);
+    const ColourParts parts = parts_of(look.rgb, material);
+    const glm::vec3 reflected = linear_light(parts.reflected), emitted = linear_light(parts.emitted);
+    std::string text;
+    const auto add = [&](const char* input, const glm::vec3& colour) {
+        fmt::format_to(std::back_inserter(text), "                color3f inputs:{} = ({}, {}, {})\n", input, colour.x,
+                       colour.y, colour.z);
+    };
+    if (!has_picture) {
+        add("diffuseColor", reflected);
+        fmt::format_to(std::back_inserter(text), "                float inputs:opacity = {}\n", material.opacity);
+    }
+    if (emitted != glm::vec3(0)) add("emissiveColor", emitted);
+    return text;
 }
 
 void UsdMaterials::append_to(std::string& text) const {
@@ -41,7 +59,22 @@ void UsdMaterials::append_to(std::string& text) const {
 )",
                    of_colours);
     for (const auto& [look, copy] : looks_) {
-        const glm::vec3 colour = linear_light(look->rgb);
+        if (copy.empty()) {
+            fmt::format_to(std::back_inserter(text), R"(        def Material "{0}"
+        {{
+            token outputs:surface.connect = </world/materials/{0}/surface.outputs:surface>
+            def Shader "surface"
+            {{
+                uniform token info:id = "UsdPreviewSurface"
+{1}                float inputs:roughness = 0.9
+                token outputs:surface
+            }}
+        }}
+)",
+                           names_.at(*look), surface(*look, false));
+            continue;
+        }
+        const glm::vec3 colour = linear_light(parts_of(look->rgb, run_.material(look->rgb)).reflected);
         fmt::format_to(std::back_inserter(text),
                        R"(        def Material "{0}"
         {{
@@ -52,7 +85,7 @@ void UsdMaterials::append_to(std::string& text) const {
                 color3f inputs:diffuseColor.connect = </world/materials/{0}/picture.outputs:rgb>
                 float inputs:opacity.connect = </world/materials/{0}/picture.outputs:a>
                 float inputs:opacityThreshold = 0.5
-                float inputs:roughness = 0.9
+{5}                float inputs:roughness = 0.9
                 token outputs:surface
             }}
             def Shader "picture"
@@ -74,7 +107,7 @@ void UsdMaterials::append_to(std::string& text) const {
             }}
         }}
 )",
-                       names_.at(*look), copy, colour.x, colour.y, colour.z);
+                       names_.at(*look), copy, colour.x, colour.y, colour.z, surface(*look, true));
     }
     text += "    }\n";
 }

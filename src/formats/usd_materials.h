@@ -1,4 +1,5 @@
-// Materials of a USD file: one for each texture and colour that goes with it, and one for all else.
+// Materials of a USD file: one for each texture and colour that goes with it, one for each colour that emits light or
+// is transparent, and one for all else.
 #pragma once
 
 #include "espalier/formats/exporter.h"
@@ -15,12 +16,12 @@ namespace espalier::formats {
 
 class UsdMaterials {
 public:
-    /// The material of what wears no texture: it has its displayColor.
+    /// The material of all else: it has its displayColor.
     static constexpr const char* of_colours = "colours";
 
-    explicit UsdMaterials(const ExportJob& job) : copies_(job) {}
+    explicit UsdMaterials(const ExportJob& job) : run_(job.run), copies_(job) {}
 
-    /// The name of its prim below /world/materials; "" for what has no texture, or one that is no picture.
+    /// The name of its prim below /world/materials; "" for a plain colour without a picture.
     const std::string& name(const MeshMaterial& look);
     /// The scope of all that were asked for: a UsdPreviewSurface each, whose picture is read by `st` and times the
     /// colour.
@@ -29,9 +30,12 @@ public:
     std::string hint() const { return copies_.hint(); }
 
 private:
+    std::string surface(const MeshMaterial& look, bool has_picture) const;
+
+    const RecordedRun& run_;
     TextureCopies copies_;
     std::map<MeshMaterial, std::string> names_;
-    std::vector<std::pair<const MeshMaterial*, std::string>> looks_;  ///< by number, with the copied picture
+    std::vector<std::pair<const MeshMaterial*, std::string>> looks_;  ///< by number; with the copied picture, or ""
 };
 
 }  // namespace espalier::formats

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace espalier::geometry {
 namespace {
@@ -47,6 +48,15 @@ void read_colour_map(const std::filesystem::path& path, int set, Palette& palett
         material.diffuse = colour_at(bytes, std::size_t(i) * bytes_of_colour, 1);
         palette.entries[set * set_size + i] = material;
     }
+}
+
+std::array<std::uint8_t, 3> shown_colour(const Material& material) {
+    std::array<std::uint8_t, 3> colour{};
+    for (int k = 0; k < 3; ++k) {
+        const double light = std::clamp(material.diffuse[k] + material.emissive[k], 0.0, 1.0);
+        colour[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(255 * light));
+    }
+    return colour;
 }
 
 void read_materials(const std::filesystem::path& path, int set, Palette& palette) {

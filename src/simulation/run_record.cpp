@@ -5,6 +5,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
@@ -52,6 +53,23 @@ Json view_json(const Scene& scene) {
     }
     if (view.background_colour) json["background"] = vector_json(*view.background_colour);
     return json;
+}
+
+// Those that emit light or are transparent: recorded colours tell neither.
+Json materials_json(const Scene& scene) {
+    Json materials = Json::array();
+    std::set<std::shared_ptr<const Palette>> seen;
+    for (const Plant& plant : scene.plants) {
+        if (!plant.palette || !seen.insert(plant.palette).second) continue;
+        for (const auto& [index, material] : plant.palette->entries) {
+            const glm::dvec3 emission(glm::clamp(material.emissive, 0.0, 1.0));
+            const double opacity = std::clamp(material.diffuse.a, 0.0, 1.0);
+            if (emission == glm::dvec3(0) && opacity == 1) continue;
+            materials.push_back(
+                {{"rgb", shown_colour(material)}, {"emission", vector_json(emission)}, {"opacity", opacity}});
+        }
+    }
+    return materials;
 }
 
 // With the values that were used, those of environment files among them.
@@ -151,6 +169,7 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
     json["files_before"] = names_json(files_before_);
     json["plants"] = plants_json(world_);
     if (Json view = view_json(scene); !view.is_null()) json["view"] = std::move(view);
+    if (Json materials = materials_json(scene); !materials.empty()) json["materials"] = std::move(materials);
     json["processes"] = processes_json(scene);
     json["units"] = units_json(world_);
     json["timings"] = {{"total", seconds},

@@ -126,11 +126,7 @@ void AttributeArrays::add_colours(OwnerArrays& arrays, const Owners& owners) con
         std::vector<Colour>& table = tables.emplace_back(colours, Colour{255, 255, 255});
         if (!plant.frame->palette) continue;
         for (std::size_t colour = 0; colour < colours; ++colour) {
-            const Material material = plant.frame->palette->material(static_cast<int>(colour));
-            for (int k = 0; k < 3; ++k) {
-                const double light = std::clamp(material.diffuse[k] + material.emissive[k], 0.0, 1.0);
-                table[colour][static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(255 * light));
-            }
+            table[colour] = shown_colour(plant.frame->palette->material(static_cast<int>(colour)));
         }
     }
     const auto values = arrays.append<std::uint8_t>("rgb", owners, 3);

@@ -107,6 +107,52 @@ TEST_CASE("materials of an OBJ have the colours of the colour map", "[export]") 
     CHECK(mtl.find("newmtl rgb_009933\nKa 0 0 0\nKd 0.000000 0.600000 0.200000\n") != std::string::npos);
 }
 
+TEST_CASE("materials that glow or are transparent do so in the files of other programs", "[export]") {
+    const Workplace place;
+    // Index, transparency, ambient, diffuse, emission, specular, shininess.
+    const std::string glowing(
+        "\x02\x00"
+        "\0\0\0"
+        "\x33\x66\x00"
+        "\xcc\x00\x33"
+        "\0\0\0"
+        "\0",
+        15);
+    const std::string glass(
+        "\x03\x99"
+        "\0\0\0"
+        "\x00\x99\x33"
+        "\0\0\0"
+        "\0\0\0"
+        "\0",
+        15);
+    place.write("lamp.mat", glowing + glass);
+    place.write("lamp.l",
+                "lsystem: 1\nderivation length: 0\n"
+                "axiom: !(0.1) ;(2) F(1) ;(3) { . +(30) f(1) . -(120) f(1) . }\nendlsystem\n");
+    REQUIRE(place.run("run lamp.l --materials lamp.mat --output run --quiet").code == 0);
+    REQUIRE(place.run("export run --format obj,gltf,usd --mesh-axes").code == 0);
+    const auto written = [&](const std::string& extension) {
+        for (const auto& entry : std::filesystem::directory_iterator(place.path() / "run/export")) {
+            if (entry.path().extension() == extension) return text_of(entry.path());
+        }
+        return std::string();
+    };
+    const auto says = [](const std::string& text, const std::string& words) {
+        INFO(words);
+        CHECK(text.find(words) != std::string::npos);
+    };
+    const std::string mtl = written(".mtl"), glb = written(".glb"), usd = written(".usda");
+    says(mtl,
+         "newmtl rgb_ff6633\nKa 0 0 0\nKd 0.200000 0.400000 0.000000\nKs 0 0 0\nd 1\nillum 1\n"
+         "Ke 0.800000 0.000000 0.200000\n");
+    says(mtl, "newmtl rgb_009933\nKa 0 0 0\nKd 0.000000 0.600000 0.200000\nKs 0 0 0\nd 0.4\n");
+    says(glb, "\"emissiveFactor\":[0.6038");
+    says(glb, "\"alphaMode\":\"BLEND\"");
+    says(usd, "color3f inputs:emissiveColor = (0.6038");
+    says(usd, "float inputs:opacity = 0.4\n");
+}
+
 TEST_CASE("leaf-texture draws a picture, and explains what it cannot draw", "[export]") {
     const Workplace place;
     const Outcome outcome = place.run("leaf-texture --blobs 9 --size 128 --output made/leaves.png");

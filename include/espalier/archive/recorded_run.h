@@ -148,6 +148,14 @@ struct RecordedView {
     std::optional<std::array<std::uint8_t, 3>> background;
 };
 
+/// What a recorded colour does not tell of the material behind it.
+struct RecordedMaterial {
+    glm::dvec3 emission{0};  ///< the part of the colour that it emits, in [0, 1] of the screen
+    double opacity = 1;
+
+    bool is_plain() const { return opacity == 1 && emission == glm::dvec3(0); }
+};
+
 /// background.vtp: the triangles of what stands around the plants.
 struct RecordedBackground {
     Column<glm::vec3> points, normals;
@@ -194,6 +202,8 @@ public:
     const std::optional<RecordedView>& view() const { return view_; }
     /// None if the view files name no background scene.
     std::optional<RecordedBackground> background() const;
+    /// The material behind a colour of `rgb`; of several with this colour the first that emits light or is transparent.
+    RecordedMaterial material(const std::array<std::uint8_t, 3>& rgb) const;
     RecordedTable statistics() const;
     RecordedLives lifespans() const;
 
@@ -206,6 +216,7 @@ private:
     std::vector<RecordedPlant> plants_;
     std::vector<RecordedFrame> frames_;
     std::optional<RecordedView> view_;
+    std::map<std::array<std::uint8_t, 3>, RecordedMaterial> materials_;
 };
 
 }  // namespace espalier::archive
@@ -225,6 +236,7 @@ using archive::RecordedGeometry;
 using archive::RecordedInternode;
 using archive::RecordedLife;
 using archive::RecordedLives;
+using archive::RecordedMaterial;
 using archive::RecordedPlant;
 using archive::RecordedRun;
 using archive::RecordedTable;

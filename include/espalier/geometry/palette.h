@@ -3,6 +3,8 @@
 
 #include <glm/vec4.hpp>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 
@@ -23,6 +25,9 @@ struct Palette {
     Material material(int colour) const;
 };
 
+/// What is seen of it in even light: what it reflects and emits, red, green and blue.
+std::array<std::uint8_t, 3> shown_colour(const Material& material);
+
 /// Adds a colour map (256 x 3 bytes) or a material file (15 bytes an entry) as set `set` (1 is the turtle's).
 /// Throws UserError if the file is missing or is neither.
 void read_colour_map(const std::filesystem::path& path, int set, Palette& palette);
@@ -36,5 +41,6 @@ using geometry::Material;
 using geometry::Palette;
 using geometry::read_colour_map;
 using geometry::read_materials;
+using geometry::shown_colour;
 
 }  // namespace espalier

@@ -30,7 +30,7 @@ glm::vec4 quaternion(const glm::quat& q) {
 /// Every plant a node with a mesh, or with one for each piece.
 ExportedFile write_frame(const ExportJob& job, const RecordedFrame& frame) {
     const FrameMesh mesh = mesh_of(job.run.geometry(frame), standing(job.options));
-    Glb glb(job.run.folder());
+    Glb glb(job.run);
     std::vector<std::size_t> roots;
     std::size_t vertices = 0;
     const auto add = [&](const FrameMesh& own, const std::string& name) {
@@ -122,7 +122,7 @@ private:
 class Instances {
 public:
     Instances(const ExportJob& job, const RecordedFrame& frame)
-        : job_(job), frame_(frame), glb_(job.run.folder()), meshes_(glb_) {}
+        : job_(job), frame_(frame), glb_(job.run), meshes_(glb_) {}
 
     ExportedFile write() {
         const RecordedGeometry geometry = job_.run.geometry(frame_);
@@ -190,8 +190,7 @@ private:
 
 class Growth {
 public:
-    explicit Growth(const ExportJob& job)
-        : job_(job), nodes_(standing(job.options)), glb_(job.run.folder()), meshes_(glb_) {}
+    explicit Growth(const ExportJob& job) : job_(job), nodes_(standing(job.options)), glb_(job.run), meshes_(glb_) {}
 
     ExportedFile write() {
         for (const RecordedFrame* frame : job_.frames) {

@@ -4,6 +4,7 @@
 
 #include "archive/meshes/mesh_pieces.h"
 #include "archive/meshes/surface_mesh.h"
+#include "formats/colour.h"
 #include "formats/mesh_files.h"
 #include "formats/textures.h"
 
@@ -19,14 +20,20 @@ std::string numbered_name(const MeshMaterial& material, std::size_t number) {
     return material.texture.empty() ? material_name(material) : fmt::format("{}_{}", material_name(material), number);
 }
 
-std::string mtl(const FrameMesh& mesh, TextureCopies& textures) {
+std::string mtl(const RecordedRun& run, const FrameMesh& mesh, TextureCopies& textures) {
     std::string text = "# made by espalier\n";
     for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
         const MeshMaterial& material = mesh.materials[i];
-        const auto [red, green, blue] = material.rgb;
+        const RecordedMaterial recorded = run.material(material.rgb);
+        const auto [reflected, emitted] = parts_of(material.rgb, recorded);
         fmt::format_to(std::back_inserter(text),
-                       "newmtl {}\nKa 0 0 0\nKd {:.6f} {:.6f} {:.6f}\nKs 0 0 0\nd 1\nillum 1\n",
-                       numbered_name(material, i), red / 255.0, green / 255.0, blue / 255.0);
+                       "newmtl {}\nKa 0 0 0\nKd {:.6f} {:.6f} {:.6f}\nKs 0 0 0\nd {}\nillum 1\n",
+                       numbered_name(material, i), reflected[0] / 255.0, reflected[1] / 255.0, reflected[2] / 255.0,
+                       recorded.opacity);
+        if (emitted != Rgb{0, 0, 0}) {
+            fmt::format_to(std::back_inserter(text), "Ke {:.6f} {:.6f} {:.6f}\n", emitted[0] / 255.0,
+                           emitted[1] / 255.0, emitted[2] / 255.0);
+        }
         const TextureCopy& copy = textures.copy(material.texture);
         if (!copy.name.empty()) text += "map_Kd " + copy.name + "\n";
         if (copy.is_transparent) text += "map_d " + copy.name + "\n";
@@ -96,7 +103,7 @@ public:
             const auto library = std::filesystem::path(path).replace_extension("mtl");
             ObjText text(job.run, library.filename().string());
             for (const Object& object : objects) text.add_mesh(object.mesh, object.piece);
-            write_text(library, mtl(mesh, textures));
+            write_text(library, mtl(job.run, mesh, textures));
             write_text(path, text.text());
             job.report({path, vertices, mesh.triangles.size(), 0, "",
                         joined_hints({hint_of_triangles(job, mesh.triangles.size()), textures.hint()})});

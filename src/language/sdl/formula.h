@@ -10,7 +10,8 @@
 
 namespace espalier::language::sdl {
 
-/// A sum of products of numbers, functions and the given names; `what` it is for stands in messages. Throws SyntaxError.
+/// A sum of products of numbers, functions and the given names; `what` it is for stands in messages. Throws
+/// SyntaxError.
 Formula parse_formula(TokenReader& in, std::span<const std::string> names, std::string_view what);
 
 /// `base` plus the formula, without a sum that changes nothing.
