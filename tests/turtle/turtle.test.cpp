@@ -149,6 +149,21 @@ TEST_CASE("elasticity 0.5 towards the ground turns a horizontal segment by 0.5 r
     CHECK(glm::length(pose.position - pose.heading) < 1e-15);  // it acts before the step
 }
 
+TEST_CASE("@Tv turns along the vector that a field has where the turtle is, the more, the longer it is", "[turtle]") {
+    const auto after = [](const std::string& text, const std::string& field) {
+        Drawing drawing(text);
+        drawing.model.texts = {field};
+        return drawing.pose();
+    };
+    const Pose turned = after("f(2)@Tv(0,0.1)", "0, 0, y");
+    CHECK(angle_between(turned.heading, glm::dvec3(0, 1, 0)) == Approx(0.2));
+    CHECK(turned.heading.z == Approx(std::sin(0.2)));
+    CHECK(after("+(50)@Tv(0,0.3)", "0, -1, 0").heading == pose_after("+(50)@Th(0,-1,0,0.3)").heading);
+    CHECK(after("f(1)@Tv(0,5)", "x, 0, z").heading == glm::dvec3(0, 1, 0));
+    CHECK_THROWS_WITH(after("@Tv(0,1)", "1 / x, 0, 0"), Catch::Contains("the field 1 / x, 0, 0 has no value here"));
+    CHECK_THROWS_WITH(pose_after("@Tv(0,1)"), Catch::Contains("the name of a field"));
+}
+
 TEST_CASE("@Th turns towards a direction at once, by the strength times the sine of the angle between", "[turtle]") {
     CHECK(angle_between(pose_after("+(90)@Th(0,-3,0,0.5)").heading, -X) == Approx(0.5));
     CHECK(angle_between(pose_after("+(30)@Th(0,-1,0,0.4)").heading, pose_after("+(30)").heading) == Approx(0.2));

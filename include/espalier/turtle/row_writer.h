@@ -40,6 +40,8 @@ public:
         if (next_ == end_) make_room();
         return *next_++;
     }
+    /// Those written from this one on.
+    std::span<Row> from(std::size_t first) { return {begin_ + first, next_}; }
     std::size_t size() const { return std::size_t(next_ - begin_); }
     bool full() const { return next_ == end_; }
 

@@ -1,6 +1,7 @@
 // The walk of one turtle along one string: what a symbol acts upon.
 #pragma once
 
+#include "espalier/geometry/free_form.h"
 #include "espalier/turtle/interpretation.h"
 #include "espalier/turtle/row_writer.h"
 
@@ -86,6 +87,19 @@ struct WalkState {
         glm::dvec3 origin;
         std::array<std::array<std::optional<glm::dvec3>, 5>, 5> points;  ///< counted from 0 or from 1
     };
+    /// Points in rows, between which a surface is drawn.
+    struct OpenNet {
+        std::size_t columns;
+        std::uint32_t module;
+        std::uint16_t colour;
+        Look look;
+        std::vector<glm::dvec3> points;
+    };
+    struct OpenDeformation {
+        FreeForm form;
+        std::size_t internodes;  ///< drawn before it
+        DrawnSoFar others;
+    };
     struct SystemScale {
         double scale, width;
         bool has_width;
@@ -106,6 +120,9 @@ struct WalkState {
     std::vector<glm::dvec3> open_vertices;
     std::vector<OpenCylinder> cylinders;
     std::map<double, OpenPatch> patches;
+    std::vector<OpenNet> nets;
+    std::vector<OpenDeformation> deformations;
+    bool is_deformed = false;  ///< something drawn was moved, so its bounds are others
 
     /// Forgets everything, keeps the memory.
     void clear();
@@ -190,6 +207,17 @@ public:
     void patch_point(double id, double row, double column);
     void draw_patch(double id, double rows, double columns);
 
+    /// Nets of points, row by row; a point belongs to the net opened last.
+    void begin_net(double columns);
+    void net_point();
+    void draw_net();
+
+    /// What is drawn until the deformation ends is moved then. The turtle itself goes on undisturbed.
+    void begin_deformation(FreeForm form);
+    void end_deformation();
+
+    /// A text of the model by its number; null if there is none.
+    const std::string* text(double number) const;
     /// The first value is the number of a text, printf's format for the others.
     void write_label(std::span<const double> values);
 

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "language/parser/constant.h"
+#include "language/vector_field.h"
 
 #include <fmt/format.h>
 
@@ -131,6 +132,8 @@ bool DeclarationParser::declaration() {
         in_.end_statement("the declaration");
     } else if (in_.accept_keyword("const")) {
         constant_declaration();
+    } else if (in_.accept_keyword("field")) {
+        field_declaration();
     } else {
         return false;
     }
@@ -182,6 +185,33 @@ void DeclarationParser::constant_declaration() {
     if (!value) throw SyntaxError{at, fmt::format("the constant '{}' has no value that is known now", name)};
     names_.define_constant(name, *value, at);
     in_.end_statement("the constant");
+}
+
+// field swirl = -z, 0, x; becomes a text of the model, of which the name is the number.
+void DeclarationParser::field_declaration() {
+    in_.skip();
+    const Location at = in_.here();
+    const std::string name(in_.accept_name());
+    if (name.empty()) in_.expected("the name of a field");
+    in_.expect("=", fmt::format("after 'field {}'", name));
+    const std::size_t begin = in_.position();
+    names_.set_formals(&VectorField::coordinates());
+    names_.set_constants_only(true);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis > 0) in_.expect(",", fmt::format("between the components of the field '{}': x, y, z", name));
+        expressions_.expression();
+    }
+    names_.set_formals(nullptr);
+    names_.set_constants_only(false);
+    const std::string text(in_.text(begin, in_.position()));
+    try {
+        VectorField::parse(text);
+    } catch (const UserError& error) {
+        throw SyntaxError{at, fmt::format("the field '{}': {}", name, error.what())};
+    }
+    names_.define_constant(name, static_cast<double>(model_.texts.size()), at);
+    model_.texts.push_back(text);
+    in_.end_statement("the field");
 }
 
 }  // namespace espalier::language

@@ -1,4 +1,4 @@
-// Reads what a model declares: arrays and external variables, modules with names, processes, constants.
+// Reads what a model declares: arrays and external variables, modules with names, processes, constants, fields.
 #pragma once
 
 #include "espalier/lsystem/lsystem.h"
@@ -18,7 +18,7 @@ public:
                       Model& model)
         : in_(in), names_(names), mistakes_(mistakes), symbols_(symbols), expressions_(expressions), model_(model) {}
 
-    /// `module ...;`, `environment ...;` or `const ...;`; false if none of them stands here.
+    /// `module ...;`, `environment ...;`, `const ...;` or `field ...;`; false if none of them stands here.
     bool declaration();
     /// The braces after `define:`.
     void definitions();
@@ -31,6 +31,7 @@ private:
     void module_declaration();
     void process_declaration();
     void constant_declaration();
+    void field_declaration();
 
     Scanner& in_;
     Names& names_;

@@ -9,9 +9,10 @@
 namespace espalier::language {
 namespace {
 
-const std::array<std::string, 15> header{"lsystem", "ring",        "seed",  "derivation length", "ignore", "consider",
-                                         "define",  "start each",  "start", "end each",          "end",    "axiom",
-                                         "module",  "environment", "const"};
+const std::array<std::string, 16> header{"lsystem", "ring",        "seed",   "derivation length",
+                                         "ignore",  "consider",    "define", "start each",
+                                         "start",   "end each",    "end",    "axiom",
+                                         "module",  "environment", "const",  "field"};
 const std::array<std::string, 6> section{"decomposition", "homomorphism", "maximum depth",
                                          "warnings",      "no warnings",  "endlsystem"};
 

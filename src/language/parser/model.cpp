@@ -70,6 +70,7 @@ private:
             mistakes_.error(mistake);
             expressions_.reset();
             names_.set_constants_only(false);
+            names_.set_formals(nullptr);
             in_.recover(start);
             names_.note_skipped(in_.text(start, in_.position()));
         }
@@ -80,7 +81,7 @@ private:
         if (!accept_lsystem()) {
             const std::string keyword = nearest_keyword();
             const bool fits = keyword == "lsystem" || keyword == "module" || keyword == "environment" ||
-                              keyword == "const" || keyword.starts_with('#');
+                              keyword == "const" || keyword == "field" || keyword.starts_with('#');
             if (keyword.empty() && !model_.systems.empty()) {
                 if (!std::exchange(outside_reported_, true)) {
                     mistakes_.warning(in_.here(), "text after 'endlsystem' is ignored");

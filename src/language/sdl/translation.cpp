@@ -24,27 +24,21 @@ constexpr const char* rough = "#define ROUGH(amplitude, x, y, z) amplitude * noi
 
 /// Names of the model that no component may have: symbols of the turtle, macros and words of the language.
 bool is_taken(const std::string& name) {
-    static const std::set<std::string> taken{"Gs",           "Gc",
-                                             "Ge",           "Gt",
-                                             "Gm",           "Gf",
-                                             "Tx",           "MUTATED",
-                                             "TURN",         "PART",
-                                             "ROUGH",        "GENERATIONS",
-                                             "length",       "vertical",
-                                             "horizontal",   "waits",
-                                             "generation",   "width",
-                                             "ratio",        "grain",
-                                             "begin",        "lsystem",
-                                             "ring",         "seed",
-                                             "derivation",   "ignore",
-                                             "consider",     "define",
-                                             "start",        "Start",
-                                             "end",          "End",
-                                             "axiom",        "module",
-                                             "environment",  "const",
-                                             "maximum",      "decomposition",
-                                             "homomorphism", "warnings",
-                                             "no",           "endlsystem"};
+    static const std::set<std::string> taken{"Gs",           "Gc",          "Ge",
+                                             "Gt",           "Gm",          "Gf",
+                                             "Tx",           "MUTATED",     "TURN",
+                                             "PART",         "ROUGH",       "GENERATIONS",
+                                             "length",       "vertical",    "horizontal",
+                                             "waits",        "generation",  "width",
+                                             "ratio",        "grain",       "begin",
+                                             "lsystem",      "ring",        "seed",
+                                             "derivation",   "ignore",      "consider",
+                                             "define",       "start",       "Start",
+                                             "end",          "End",         "axiom",
+                                             "module",       "environment", "const",
+                                             "field",        "maximum",     "decomposition",
+                                             "homomorphism", "warnings",    "no",
+                                             "endlsystem"};
     return name.size() == 1 || taken.count(name) > 0;
 }
 

@@ -1,10 +1,16 @@
-// How strongly each tropism acts from here on. Tropisms are counted from 1; another number changes nothing. And one
-// turn towards a direction of the model's own.
+// How strongly each tropism acts from here on. Tropisms are counted from 1; another number changes nothing. And turns
+// towards a direction or along a field of the model's own.
 #include "espalier/turtle/symbol.h"
 
+#include "language/vector_field.h"
+
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <map>
+#include <optional>
+#include <string>
 
 namespace espalier::turtle {
 namespace {
@@ -17,14 +23,28 @@ void increase(Walk& walk, std::span<const double> parameters, double sign) {
 }
 
 // The turn of Prusinkiewicz & Lindenmayer 1990, section 2.3, once and now.
-void turn_towards(Walk& walk, std::span<const double> parameters) {
+void turn_towards(Walk& walk, const glm::dvec3& direction, double strength) {
     Tropism tropism;
-    tropism.direction = {parameters[0], parameters[1], parameters[2]};
-    const double length = glm::length(tropism.direction);
-    if (!std::isfinite(length * parameters[3])) walk.fail("a direction or a strength that is not a number");
+    const double length = glm::length(direction);
+    if (!std::isfinite(length * strength)) walk.fail("a direction or a strength that is not a number");
     if (length == 0) return;
-    tropism.direction /= length;
-    bend_by_tropisms(walk.turtle().pose, std::span(&tropism, 1), parameters.subspan(3, 1));
+    tropism.direction = direction / length;
+    bend_by_tropisms(walk.turtle().pose, std::span(&tropism, 1), std::span(&strength, 1));
+}
+
+/// Fields as each thread has read them, by their text.
+const VectorField& field_of(const std::string& text) {
+    thread_local std::map<std::string, VectorField> fields;
+    const auto known = fields.find(text);
+    return known != fields.end() ? known->second : fields.emplace(text, VectorField::parse(text)).first->second;
+}
+
+void turn_along_field(Walk& walk, std::span<const double> parameters) {
+    const std::string* text = walk.text(parameters[0]);
+    if (!text) walk.fail("the first parameter is the name of a field: 'field NAME = x, y, z;'");
+    const std::optional<glm::dvec3> vector = field_of(*text).at(walk.turtle().pose.position);
+    if (!vector) walk.fail(fmt::format("the field {} has no value here", *text));
+    turn_towards(walk, *vector, parameters[1] * glm::length(*vector));
 }
 
 const Registered<Symbol> towards{
@@ -32,7 +52,15 @@ const Registered<Symbol> towards{
      {4},
      "@Th(x, y, z, strength): turn the heading towards (x, y, z) by strength times the sine of the angle between, in "
      "radians, at most 1",
-     turn_towards}};
+     [](Walk& walk, std::span<const double> parameters) {
+         turn_towards(walk, {parameters[0], parameters[1], parameters[2]}, parameters[3]);
+     }}};
+
+const Registered<Symbol> along_field{
+    {"@Tv",
+     {2},
+     "@Tv(field, strength): the same towards the vector of a field at the turtle, the more, the longer it is",
+     turn_along_field}};
 
 const Registered<Symbol> set{
     {"@Ts", {2}, "@Ts(tropism, elasticity): set the elasticity", [](Walk& walk, std::span<const double> parameters) {

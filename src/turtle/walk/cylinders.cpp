@@ -136,6 +136,8 @@ void Walk::require_room() const {
 
 void Walk::finish() {
     for (std::size_t i = 0; i < cylinders.size(); ++i) draw_cylinder(std::int32_t(i));
+    while (!nets.empty()) draw_net();
+    while (!deformations.empty()) end_deformation();
 }
 
 }  // namespace espalier::turtle

@@ -10,27 +10,27 @@ namespace {
 
 constexpr std::size_t longest_label = 1000;  // bytes; formats such as %99999d are no labels
 
-const std::string* text_at(const Model& model, double index) {
-    if (!(index >= 0 && index < double(model.texts.size()))) return nullptr;
-    return &model.texts[std::size_t(index)];
-}
-
-std::string filled(const Model& model, const std::string& format, std::span<const double> values) {
+std::string filled(const Walk& walk, const std::string& format, std::span<const double> values) {
     const PrintFormat print(format);
     std::vector<PrintFormat::Value> arguments(values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) arguments[k] = {values[k], text_at(model, values[k])};
+    for (std::size_t k = 0; k < values.size(); ++k) arguments[k] = {values[k], walk.text(values[k])};
     return print.fill(arguments);
 }
 
 }  // namespace
 
+const std::string* Walk::text(double number) const {
+    if (!(number >= 0 && number < double(model_->texts.size()))) return nullptr;
+    return &model_->texts[std::size_t(number)];
+}
+
 void Walk::write_label(std::span<const double> values) {
-    const std::string* format = values.empty() ? nullptr : text_at(*model_, values[0]);
+    const std::string* format = values.empty() ? nullptr : text(values[0]);
     if (!format) return;
-    std::string text = filled(*model_, *format, values.subspan(1));
-    if (text.size() > longest_label) text.resize(longest_label);
+    std::string written = filled(*this, *format, values.subspan(1));
+    if (written.size() > longest_label) written.resize(longest_label);
     geometry_->labels.push_back(
-        {module_, turtle().order, std::uint16_t(turtle().colour), turtle().pose.position, std::move(text)});
+        {module_, turtle().order, std::uint16_t(turtle().colour), turtle().pose.position, std::move(written)});
     geometry_->bounds.add(turtle().pose.position);
 }
 

@@ -110,4 +110,51 @@ void Walk::draw_patch(double id, double rows, double columns) {
     require_room();
 }
 
+void Walk::begin_net(double columns) {
+    constexpr double most = 1e6;
+    if (!(columns >= 2 && columns <= most)) fail("a net has two to a million columns");
+    nets.push_back({std::size_t(columns), module_, std::uint16_t(turtle().colour), look(), {}});
+}
+
+void Walk::net_point() {
+    if (!nets.empty()) nets.back().points.push_back(turtle().pose.position);
+}
+
+void Walk::draw_net() {
+    if (nets.empty()) return;
+    const OpenNet net = std::move(nets.back());
+    nets.pop_back();
+    const std::size_t columns = net.columns, rows = net.points.size() / columns;
+    if (rows < 2) return;
+    DrawnMesh& drawn = geometry_->mesh;
+    const std::size_t origin = drawn.vertices.size(), first = drawn.triangles.size();
+    for (std::size_t k = 0; k < rows * columns; ++k) {
+        const glm::dvec2 uv(double(k % columns) / double(columns - 1), double(k / columns) / double(rows - 1));
+        drawn.vertices.push_back({net.points[k], glm::dvec3(0), uv});
+        geometry_->bounds.add(net.points[k]);
+    }
+    const auto add_triangle = [&](std::size_t a, std::size_t b, std::size_t c) {
+        const auto place = [&](std::size_t k) { return drawn.vertices[origin + k].position; };
+        const glm::dvec3 normal = glm::cross(place(b) - place(a), place(c) - place(a));
+        for (const std::size_t k : {a, b, c}) {
+            drawn.triangles.push_back(std::uint32_t(origin + k));
+            drawn.vertices[origin + k].normal += normal;
+        }
+    };
+    for (std::size_t row = 0; row + 1 < rows; ++row) {
+        for (std::size_t k = row * columns; k + 1 < (row + 1) * columns; ++k) {
+            add_triangle(k, k + 1, k + columns + 1);
+            add_triangle(k, k + columns + 1, k + columns);
+        }
+    }
+    for (std::size_t k = origin; k < drawn.vertices.size(); ++k) {
+        glm::dvec3& normal = drawn.vertices[k].normal;
+        const double length = glm::length(normal);
+        normal = length > 0 ? normal / length : glm::dvec3(0, 0, 1);
+    }
+    drawn.pieces.push_back({net.module, std::uint32_t(first), std::uint32_t(drawn.triangles.size() - first),
+                            turtle().order, net.colour, net.look, MeshPiece::Kind::patch});
+    require_room();
+}
+
 }  // namespace espalier::turtle

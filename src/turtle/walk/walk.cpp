@@ -2,6 +2,7 @@
 #include "espalier/turtle/walk.h"
 
 #include "base/text.h"
+#include "geometry/drawn_bounds.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -64,10 +65,14 @@ void WalkState::clear() {
     open_vertices.clear();
     cylinders.clear();
     patches.clear();
+    nets.clear();
+    deformations.clear();
+    is_deformed = false;
 }
 
 bool WalkState::is_between_drawings() const {
-    return !stopped && brushes.size() == 1 && open_polygons.empty() && cylinders.empty() && patches.empty();
+    return !stopped && brushes.size() == 1 && open_polygons.empty() && cylinders.empty() && patches.empty() &&
+           nets.empty() && deformations.empty() && !is_deformed;
 }
 
 bool WalkState::stands_like(const WalkState& other) const {
@@ -134,6 +139,7 @@ void Walk::end() {
     internodes_.close();
     queries_.close();
     answers_.close();
+    if (is_deformed) geometry_->bounds = drawn_bounds(*geometry_);
 }
 
 void Walk::move_and_mark(double distance, bool draws, bool records_vertex) {
