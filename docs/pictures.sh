@@ -54,7 +54,7 @@ plant_of_notation() { # NAME FILE
     grow "$1" "$2"
     render "$1.png" "$1" --size 300x300
 }
-for plant in dandelion sunflower weeping-willow bush palm pineapple wind-pine; do
+for plant in dandelion sunflower weeping-willow bush palm pineapple wind-pine ivy; do
     plant_of_notation "pgraph-$plant" "models/pgraph/$plant.pgraph"
 done
 for plant in grass fern daisy palm spruce agave tree bush; do

@@ -4,6 +4,8 @@
 
 #include "catch.h"
 #include "experiments/growth.h"
+#include "geometry/mesh_checks.h"
+#include "language/pgraph/curve.h"
 #include "language/pgraph/graph.h"
 #include "language/pgraph/translation.h"
 #include "models/measure.h"
@@ -254,15 +256,67 @@ TEST_CASE("World: tropisms turn to its directions instead", "[pgraph]") {
     CHECK(glm::dot(end_of("0, 0, -2"), glm::dvec3(0, 0, -1)) > 0.95);
 }
 
+TEST_CASE("World: a field that is the same everywhere gives what the usual gravity gives", "[pgraph]") {
+    const std::string stem = "Tree stem\n  pitch 50\n  pieces 12\n  gravitropism 0.2\n  phototropism 0.05\n";
+    const PlantGeometry usual = drawn(stem + "camera -> stem\n");
+    const PlantGeometry same =
+        drawn("World world\n  gravity 0 * x, -1, 0\n  light 0, 1 + 0 * y, 0\n" + stem + "camera -> world -> stem\n");
+    for (std::size_t k = 0; k < usual.internodes.size(); ++k) {
+        CHECK(glm::distance(usual.internodes[k].tip, same.internodes[k].tip) < 1e-12);
+    }
+}
+
+TEST_CASE("World: a field that turns about the axis curls what grows in it, in its own sense", "[pgraph]") {
+    const auto winding = [](const std::string& gravity) {
+        const PlantGeometry tree =
+            drawn("World whirl\n  gravity " + gravity +
+                  "\nTree stem\n  move 1\n  turn -90\n  pieces 60\n  length 6\n  gravitropism 0.3\n"
+                  "Simple aside\n  turn -90\n  move 1\ncamera -> whirl -> aside -> stem\n");
+        double angle = 0;
+        for (const Internode& internode : tree.internodes) {
+            angle += glm::cross(internode.base, internode.tip).y > 0 ? 1 : -1;
+        }
+        return angle / double(tree.internodes.size());
+    };
+    CHECK(winding("z, 0, -x") > 0.8);
+    CHECK(winding("-z, 0, x") < -0.8);
+}
+
+TEST_CASE("FFD: what follows it bends, and its leaves only if they shall", "[pgraph]") {
+    const std::string plant = "Tree stem\n  length 2\n  branches 4\nLeaf leaf\n  pieces 2\n";
+    const auto bent = [&](const std::string& leaves, const std::string& move) {
+        std::string moves;
+        for (int k = 0; k < 8; ++k) moves += (k ? ", " : "") + ((k / 2) % 2 ? move : std::string("0, 0, 0"));
+        return drawn("FFD space\n  moves " + moves + "\n  leaves " + leaves + "\n" + plant +
+                     "camera -> space -> stem -B-> leaf\n");
+    };
+    const PlantGeometry straight = drawn(plant + "camera -> stem -B-> leaf\n");
+    const auto tip = [](const PlantGeometry& geometry) { return geometry.internodes.back().tip; };
+    CHECK(glm::distance(tip(bent("bent", "0, 0, 0")), tip(straight)) < 1e-12);
+    CHECK(glm::distance(tip(bent("bent", "1, 0, 0")), tip(straight) + glm::dvec3(1, 0, 0)) < 1e-12);
+    const auto largest_move = [&](const std::string& leaves) {
+        const PlantGeometry moved = bent(leaves, "1, 0, 0");
+        double largest = 0;
+        for (std::size_t k = 0; k < moved.mesh.vertices.size(); ++k) {
+            largest =
+                std::max(largest, glm::distance(moved.mesh.vertices[k].position, straight.mesh.vertices[k].position));
+        }
+        return largest;
+    };
+    CHECK(largest_move("left") == 0);
+    CHECK(largest_move("bent") > 0.5);
+    CHECK(largest_move("carried") == Approx(1));  // as the stem's tip
+}
+
 TEST_CASE("Leaf: flat in one plane, its outline through the control points, and as many waves as it says", "[pgraph]") {
     const std::string leaf = "Leaf leaf\n  length 4\n  width 2\n  outline 0.2, 1, 0.5\n  pieces 8\n";
     const PlantGeometry flat = drawn(leaf + "camera -> leaf\n");
-    CHECK(flat.polygons.size() == 16);
+    CHECK(flat.mesh.triangles.size() == 3 * 2 * 16);
     std::map<double, double> half_widths;
-    for (const glm::dvec3& vertex : flat.vertices) {
-        CHECK(std::abs(vertex.z) < 1e-9);
-        double& width = half_widths[std::round(vertex.y * 1e6) / 1e6];
-        width = std::max(width, std::abs(vertex.x));
+    for (const SurfaceVertex& vertex : flat.mesh.vertices) {
+        CHECK(std::abs(vertex.position.z) < 1e-9);
+        double& width = half_widths[std::round(vertex.position.y * 1e6) / 1e6];
+        width = std::max(width, std::abs(vertex.position.x));
     }
     CHECK(half_widths.at(0) == Approx(0.2));
     CHECK(half_widths.at(2) == Approx(1));
@@ -273,18 +327,72 @@ TEST_CASE("Leaf: flat in one plane, its outline through the control points, and 
         drawn("Leaf leaf\n  outline 1, 1\n  pieces 40\n  waves 3\n  wave_height 0.1\ncamera -> leaf\n");
     int crossings = 0;
     double before = 0, highest = 0;
-    for (std::size_t k = 0; k < wavy.polygons.size(); k += 2) {
-        const Polygon& polygon = wavy.polygons[k];
-        for (std::uint32_t i = 0; i < polygon.count; ++i) {
-            const double height = wavy.vertices[polygon.first + i].z;
-            if (std::abs(height) < 1e-9) continue;
-            crossings += before * height < 0;
-            before = height;
-            highest = std::max(highest, std::abs(height));
-        }
+    for (std::size_t k = 0; k < wavy.mesh.vertices.size(); k += 3) {
+        const double height = wavy.mesh.vertices[k].position.z;
+        if (std::abs(height) < 1e-9) continue;
+        crossings += before * height < 0;
+        before = height;
+        highest = std::max(highest, std::abs(height));
     }
     CHECK(crossings == 5);
     CHECK(highest == Approx(0.1).epsilon(0.02));
+}
+
+TEST_CASE("Leaf: texture coordinates run across and along the blade, from 0 to 1", "[pgraph]") {
+    const PlantGeometry leaf =
+        drawn("Leaf leaf\n  length 4\n  pieces 8\n  bend 10\n  fold 20\n  texture 2\ncamera -> leaf\n");
+    REQUIRE(leaf.mesh.vertices.size() == 27);
+    CHECK(leaf.mesh.pieces.at(0).look.texture == 2);
+    for (std::size_t k = 0; k < 27; ++k) {
+        CHECK(leaf.mesh.vertices[k].uv.x == Approx(0.5 * double(k % 3)));
+        CHECK(leaf.mesh.vertices[k].uv.y == Approx(double(k / 3) / 8));
+    }
+}
+
+TEST_CASE("Horns that follow one another are one closed surface, without an edge open at the joint", "[pgraph]") {
+    const std::string horns =
+        "Horn lower\n  length 2\n  sides 9\n  radius 0.3 .. 0.2\nHorn upper\n  pitch 30\n  sides 9\n  radius 0.2 .. "
+        "0.05\n";
+    const PlantGeometry joined = drawn(horns + "camera -> lower -> upper\n");
+    CHECK(EdgeCount(joined.mesh).closed);
+    CHECK(euler_characteristic(joined.mesh) == 2);
+    CHECK(volume_of(joined.mesh) > 0);
+    // At the joint stands one ring of vertices, and no cap.
+    std::size_t at_joint = 0;
+    for (const SurfaceVertex& vertex : joined.mesh.vertices)
+        at_joint += glm::distance(vertex.position, {0, 2, 0}) < 0.21;
+    CHECK(at_joint <= 10);
+    const PlantGeometry again = drawn("Horn piece\n  sides 7\n  recursion 5\n  pitch 12\ncamera -> piece -> piece\n");
+    CHECK(EdgeCount(again.mesh).closed);
+    CHECK(euler_characteristic(again.mesh) == 2);
+    // One that also stands alone begins a surface of its own there.
+    const PlantGeometry two = drawn(horns + "camera -> lower -> upper\ncamera -> upper\n");
+    CHECK(euler_characteristic(two.mesh) == 4);
+}
+
+TEST_CASE("A branch with a closed surface begins within that of its tree", "[pgraph]") {
+    const PlantGeometry tree = drawn(
+        "Tree stem\n  sides 8\n  branches 3\n  length 3\nHorn twig\n  sides 6\n  radius 0.02 .. 0.01\n"
+        "camera -> stem -B-> twig\n");
+    CHECK(EdgeCount(tree.mesh).closed);
+    CHECK(euler_characteristic(tree.mesh) == 8);  // four closed surfaces
+}
+
+TEST_CASE("A horn along a curve passes through its points, with the curve's length", "[pgraph]") {
+    const std::string curve = "  curve 0, 0, 0, 0.5, 1, 0, 0, 2, 0.5, 0, 3, 0\n";
+    const PlantGeometry horn = drawn("Horn stem\n" + curve + "  pieces 400\ncamera -> stem\n");
+    double length = 0;
+    for (const Internode& internode : horn.internodes) length += length_of(internode);
+    const language::pgraph::CurveThrough through({{0, 0, 0}, {0.5, 1, 0}, {0, 2, 0.5}, {0, 3, 0}});
+    CHECK(length == Approx(through.length()).epsilon(1e-4));
+    for (const glm::dvec3& point : {glm::dvec3(0, 0, 0), {0.5, 1, 0}, {0, 2, 0.5}, {0, 3, 0}}) {
+        double nearest = 9;
+        for (const Internode& internode : horn.internodes) {
+            nearest = std::min({nearest, glm::distance(internode.base, point), glm::distance(internode.tip, point)});
+        }
+        CHECK(nearest < length / 400);
+    }
+    CHECK(glm::distance(horn.internodes.back().tip, glm::dvec3(0, 3, 0)) < 1e-9);
 }
 
 TEST_CASE("Every p-graph of the library survives printing", "[pgraph]") {
@@ -340,7 +448,11 @@ TEST_CASE("The weeping willow: twigs end downwards, and do not without gravitrop
 
 TEST_CASE("The mountain pine: its crown lies downwind", "[pgraph]") {
     const auto vertices = [](const std::string& wind) {
-        return grown_model("wind-pine", {{"WIND", wind}}).interpretation.geometry.vertices;
+        std::vector<glm::dvec3> places;
+        const LonePlant pine = grown_model("wind-pine", {{"WIND", wind}});
+        for (const SurfaceVertex& vertex : pine.interpretation.geometry.mesh.vertices)
+            places.push_back(vertex.position);
+        return places;
     };
     const auto centre_of = [](const std::vector<glm::dvec3>& points) {
         glm::dvec3 sum(0);
@@ -384,4 +496,28 @@ TEST_CASE("The palm: one trunk, and leaflets on every frond", "[pgraph]") {
     CHECK(counts["Trunk"] == 1);
     CHECK(counts["Frond"] == 26);
     CHECK(counts["Leaflet"] == 26 * 70);
+}
+
+TEST_CASE("The ivy: its vines wind around the pole, outside it and never far from it", "[pgraph]") {
+    const LonePlant ivy = grown_model("ivy", {{"LEAVES", "0"}});
+    const auto& internodes = ivy.interpretation.geometry.internodes;
+    REQUIRE(internodes.size() > 400);
+    double wound = 0;
+    for (const Internode& internode : internodes) {
+        const double distance = std::hypot(internode.tip.x, internode.tip.z);
+        CHECK(distance - internode.tip_radius > 0.25);
+        CHECK(distance < 0.25 + 0.15);
+        const double turn = onward(azimuth(internode.base), azimuth(internode.tip));
+        wound += turn < 180 ? turn : turn - 360;
+    }
+    CHECK(std::abs(wound) > 4 * 360);
+}
+
+TEST_CASE("The broadleaved tree: the higher, the more branches", "[pgraph]") {
+    std::size_t before = 0;
+    for (const char* height : {"1", "3", "6", "9"}) {
+        auto counts = grown_model("broadleaf", {{"HEIGHT", height}}).counts();
+        CHECK(counts["Branch"] > static_cast<int>(before));
+        before = static_cast<std::size_t>(counts["Branch"]);
+    }
 }

@@ -1,4 +1,5 @@
 // Graphs of component prototypes (p-graphs): plants from parts that multiply and repeat one another.
+#include "espalier/base/file.h"
 #include "espalier/language/notation.h"
 
 #include "language/pgraph/schema.h"
@@ -23,6 +24,7 @@ std::string help() {
       length 0.2 .. 0.3 noise 0.05
     camera -> stem -> head -> hair
 
+include "other.pgraph" stands for the lines of another file, which lies beside this one.
 Links: -> child, -B-> branch of a Tree, -L-> leaf: in place of links that lead back, once these have come to the limit
 `recursion` of where they lead.
 Values: a number; or a range a .. b, spread over the instances i = 0 .. n - 1 of the component, over the children of a
@@ -33,14 +35,20 @@ Source: Lintermann & Deussen 1997, Erzeugung komplexer botanischer Objekte in de
 )" + pgraph::describe_types();
 }
 
-/// The mistakes with the lines they speak of.
-std::vector<Diagnostic> with_lines(std::vector<Diagnostic> mistakes, const std::string& text) {
-    std::vector<std::string> lines;
+std::string line_of(const std::string& text, int number) {
     std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    std::string line;
+    for (int k = 0; k < number; ++k) {
+        if (!std::getline(in, line)) return "";
+    }
+    return line;
+}
+
+/// The mistakes with the lines they speak of: of this file, or of one that it includes.
+std::vector<Diagnostic> with_lines(std::vector<Diagnostic> mistakes, const std::string& text, const std::string& file) {
     for (Diagnostic& mistake : mistakes) {
-        const auto number = static_cast<std::size_t>(mistake.place.line);
-        if (number > 0 && number <= lines.size()) mistake.source = lines[number - 1];
+        const Place& place = mistake.place;
+        if (place.line > 0) mistake.source = line_of(place.file == file ? text : read_text(place.file), place.line);
     }
     return mistakes;
 }
@@ -49,7 +57,7 @@ std::string translated_graph(const std::string& text, const std::filesystem::pat
     try {
         return pgraph::translate(pgraph::parse(text, path.string()));
     } catch (const UserError& error) {
-        throw UserError(with_lines(error.diagnostics(), text));
+        throw UserError(with_lines(error.diagnostics(), text, path.string()));
     }
 }
 

@@ -1,7 +1,15 @@
 // Components with an axis: the horn, and the tree, whose axis is cut where branches stand.
+#include "base/text.h"
+#include "language/pgraph/curve.h"
 #include "language/pgraph/model_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <utility>
 
 namespace espalier::language::pgraph {
 namespace {
@@ -14,10 +22,6 @@ std::vector<std::string> axis_keys(const ComponentText& text) {
         if (text.values().is_set(key)) keys.emplace_back(key);
     }
     return keys;
-}
-
-int sides_of(const ComponentText& text) {
-    return std::stoi(value_of(text.component(), "sides").parts.front());
 }
 
 /// From one piece to the next; `part` is 0 at the base and 1 at the tip.
@@ -37,8 +41,23 @@ std::string width(const ComponentText& text, const std::string& part) {
 
 /// A closed surface begins with a control point.
 std::string surface(const ComponentText& text) {
-    const int sides = sides_of(text);
+    const int sides = sides_of(text.component());
     return sides ? fmt::format("@!({}) {} @Gs ", sides, width(text, "0")) : "";
+}
+
+/// Behind the axis, whose surface ends there or goes on along another one.
+std::string end_of_surface(const ComponentText& text) {
+    const bool goes_on = !text.continuation().empty();
+    return sides_of(text.component()) && !goes_on ? " @Ge(1)" : "";
+}
+
+/// What is drawn where an axis begins; nothing where it goes on along the surface of the one before.
+void write_beginning(ComponentText& text, const std::string& module, const std::string& rest) {
+    const bool may_go_on = text.structure().may_go_on(text.component().name);
+    if (may_go_on)
+        text.homomorphism.push_back(fmt::format("{} : joined > 0 --> {}", module, rest.empty() ? "*" : rest));
+    const std::string drawn = surface(text) + rest;
+    text.homomorphism.push_back(fmt::format("{} --> {}", module, drawn.empty() ? "*" : drawn));
 }
 
 std::string joined(const std::string& first, const std::string& rest) {
@@ -47,18 +66,59 @@ std::string joined(const std::string& first, const std::string& rest) {
 
 }  // namespace
 
+namespace {
+
+/// Arrays of the turns before each piece of a horn that follows a curve, and of the lengths of the pieces; the turns
+/// and the step as modules.
+std::string along_curve(ComponentText& text) {
+    const Component& component = text.component();
+    const std::vector<double> numbers = numbers_of(text.graph(), value_of(component, "curve"));
+    std::vector<glm::dvec3> points;
+    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+        points.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
+    }
+    const CurveThrough curve(points);
+    const int pieces = std::stoi(value_of(component, "pieces").parts.front());
+    glm::dvec3 heading(0, 1, 0), left(-1, 0, 0), up(0, 0, -1), before(0);
+    std::vector<std::string> turns, pitches, lengths;
+    for (int k = 1; k <= pieces; ++k) {
+        const glm::dvec3 point = curve.at(curve.length() * k / pieces), step = point - before;
+        const double turn = std::atan2(glm::dot(step, left), glm::dot(step, heading));
+        const glm::dvec3 ahead = heading * std::cos(turn) + left * std::sin(turn);
+        left = left * std::cos(turn) - heading * std::sin(turn);
+        const double pitch = std::atan2(glm::dot(step, up), glm::dot(step, ahead));
+        heading = ahead * std::cos(pitch) + up * std::sin(pitch);
+        up = up * std::cos(pitch) - ahead * std::sin(pitch);
+        turns.push_back(format_exact(glm::degrees(turn)));
+        pitches.push_back(format_exact(glm::degrees(pitch)));
+        lengths.push_back(format_exact(glm::length(step)));
+        before = point;
+    }
+    const std::string name = component.name;
+    for (const auto& [array, values] : {std::pair{"turn", &turns}, {"pitch", &pitches}, {"length", &lengths}}) {
+        text.arrays.push_back(fmt::format("array {}_{}[{}] = {{{}}};", array, name, pieces, fmt::join(*values, ", ")));
+    }
+    return fmt::format("+(turn_{0}[k]) &(pitch_{0}[k]) F(length_{0}[k])", name);
+}
+
+}  // namespace
+
 void write_horn(ComponentText& text) {
+    const bool is_curve = text.values().is_set("curve");
     std::vector<std::string> keys = axis_keys(text);
+    if (is_curve) std::erase(keys, "length");
     Parameters parameters = text.parameters(keys);
     parameters.emplace_back("pieces", text.values().whole("pieces"));
-    const std::string names = names_of(parameters);
-    const std::string horn = text.declared(text.kept(), names), piece = text.kept() + "Piece";
-    text.productions.push_back(fmt::format("{}({}) --> {}{}({}){}", text.bud(), text.place(), text.placing(),
-                                           text.kept(), values_of(parameters), text.followers(LinkKind::child)));
+    const std::string names = names_of(parameters), piece = text.kept() + "Piece";
+    if (text.structure().may_go_on(text.component().name)) parameters.emplace_back("joined", "joined");
+    const std::string horn = text.declared(text.kept(), names_of(parameters));
+    text.productions.push_back(fmt::format("{}({}) --> {}{}({}){}{}", text.bud(), text.place(), text.placing(),
+                                           text.kept(), values_of(parameters), text.followers(LinkKind::child),
+                                           text.continuation()));
     const std::string pieces = text.declared(piece, "k, " + names);
-    const char* end = sides_of(text) ? " @Ge(1)" : "";
-    text.homomorphism.push_back(fmt::format("{} --> {}{}(0, {}){}", horn, surface(text), piece, names, end));
-    const std::string drawn = fmt::format("{} F(length / pieces)", width(text, "(k + 1) / pieces"));
+    write_beginning(text, horn, fmt::format("{}(0, {}){}", piece, names, end_of_surface(text)));
+    const std::string drawn =
+        width(text, "(k + 1) / pieces") + " " + (is_curve ? along_curve(text) : "F(length / pieces)");
     text.homomorphism.push_back(fmt::format("{} : k < pieces - 1 --> {} {}{}(k + 1, {})", pieces, drawn,
                                             rotation(text, "k / max(pieces - 2, 1)"), piece, names));
     text.homomorphism.push_back(fmt::format("{} --> {}", pieces, drawn));
@@ -105,11 +165,12 @@ void write_tree(ComponentText& text) {
     const std::string start = has_branches ? fmt::format("branches > 0 ? {} : 0", highest) : "0";
     const std::string branches =
         has_branches ? fmt::format("{}(0, branches, branches{}, {}) ", each, text.depths(), names) : "";
-    const std::string kept = text.declared(text.kept(), names);
-    text.decomposition.push_back(fmt::format("{} --> {} {}{}({}, 1, {}){}{}", whole, kept, branches, axis, start,
-                                             axis_names, sides_of(text) ? " @Ge(1)" : "",
-                                             text.followers(LinkKind::child)));
-    text.homomorphism.push_back(fmt::format("{} --> {}", kept, sides_of(text) ? surface(text) : "*"));
+    const bool may_go_on = text.structure().may_go_on(text.component().name);
+    const std::string kept = text.declared(text.kept(), may_go_on ? joined(names, "joined") : names);
+    text.decomposition.push_back(fmt::format("{} --> {} {}{}({}, 1, {}){}{}{}", whole, kept, branches, axis, start,
+                                             axis_names, end_of_surface(text), text.followers(LinkKind::child),
+                                             text.continuation()));
+    write_beginning(text, kept, "");
     write_axis(text, axis_names);
     if (!has_branches) return;
 

@@ -1,4 +1,4 @@
-// Leaves: quadrilaterals on both sides of a midrib, and the smooth curve of their outline.
+// Leaves: nets of points along a midrib and both edges, and the smooth curve of their outline.
 #include "base/text.h"
 #include "language/pgraph/model_text.h"
 
@@ -52,19 +52,17 @@ void write_leaf(ComponentText& text) {
         onward += fmt::format("&({}) ", text.values().along("bend", fmt::format("k / {}", std::max(pieces - 1, 1))));
     }
     onward += text.pull("1");
-    const auto half = [&](const char* raised, const char* sideways) {
-        const auto edge = [&](const std::string& k) {
-            return fmt::format(
-                "[ {}(fold) {}(90) g(width / 2 * {}[{}]) &(90) g(wave_height * sin(360 * waves * ({}) / {})) . ]",
-                raised, sideways, outline, k, k, pieces);
-        };
-        return fmt::format("[ {{ . {} {}{} . }} ]", edge("k"), onward, edge("k + 1"));
+    const auto edge = [&](const char* raised, const char* sideways) {
+        return fmt::format(
+            "[ {}(fold) {}(90) g(width / 2 * {}[k]) &(90) g(wave_height * sin(360 * waves * k / {})) @Np ]", raised,
+            sideways, outline, pieces);
     };
-    text.homomorphism.push_back(fmt::format("{} --> {}(0, {})", leaf, piece, names));
+    const std::string row = fmt::format("{} @Np {}", edge("\\", "+"), edge("/", "-"));
+    text.homomorphism.push_back(fmt::format("{} --> @Nb(3) {}(0, {})", leaf, piece, names));
     const std::string one = text.declared(piece, "k, " + names);
-    text.homomorphism.push_back(fmt::format("{} : k < {} --> {} {} {}{}(k + 1, {})", one, pieces, half("\\", "+"),
-                                            half("/", "-"), onward, piece, names));
-    text.homomorphism.push_back(fmt::format("{} --> *", one));
+    text.homomorphism.push_back(
+        fmt::format("{} : k < {} --> {} {}{}(k + 1, {})", one, pieces, row, onward, piece, names));
+    text.homomorphism.push_back(fmt::format("{} --> {} @Ne", one, row));
 }
 
 }  // namespace espalier::language::pgraph

@@ -31,6 +31,11 @@ ComponentText::ComponentText(const Graph& graph, const Structure& structure, con
     add_end_of_recursion();
 }
 
+std::string ComponentText::continuation() const {
+    const Link* link = structure_.continuing_link(component_.name);
+    return link ? fmt::format(" {} @Ge(1)", bud_of(*link)) : "";
+}
+
 std::string ComponentText::kept() const {
     std::string name = component_.name;
     name.front() = static_cast<char>(name.front() - 'a' + 'A');
@@ -49,8 +54,13 @@ std::string ComponentText::declared(const std::string& module, const std::string
 
 std::string ComponentText::placing() const {
     std::string text;
-    for (const auto& [key, symbol] :
-         {std::pair{"roll", "/"}, {"pitch", "&"}, {"turn", "+"}, {"move", "f"}, {"scale", "@Di"}, {"colour", ";"}}) {
+    for (const auto& [key, symbol] : {std::pair{"roll", "/"},
+                                      {"pitch", "&"},
+                                      {"turn", "+"},
+                                      {"move", "f"},
+                                      {"scale", "@Di"},
+                                      {"colour", ";"},
+                                      {"texture", "@Tx"}}) {
         if (values_.is_set(key)) text += fmt::format("{}({}) ", symbol, values_.number(key));
     }
     return text;
@@ -85,8 +95,12 @@ std::string ComponentText::pull(const std::string& share) const {
     std::string turns;
     for (const std::string& tropism : tropisms()) {
         const std::string field = tropism == "gravitropism" ? "gravity" : "light";
-        const Value direction = world ? value_of(*world, field) : value_of({"World", ""}, field);
-        turns += fmt::format("@Th({}, {} * {}) ", fmt::join(direction.parts, ", "), tropism, share);
+        if (world && world->find(field)) {
+            turns += fmt::format("@Tv({}_{}, {} * {}) ", field, world->name, tropism, share);
+        } else {
+            const Value direction = value_of({"World", ""}, field);
+            turns += fmt::format("@Th({}, {} * {}) ", fmt::join(direction.parts, ", "), tropism, share);
+        }
     }
     return turns;
 }
@@ -98,6 +112,9 @@ std::string ComponentText::bud_of(const Link& link) const {
         const bool is_inside = std::find(here.begin(), here.end(), head) != here.end();
         const char* deeper = head == link.to ? " + 1" : "";
         arguments += is_inside ? fmt::format(", depth_{}{}", head, deeper) : ", 1";
+    }
+    if (structure_.may_go_on(link.to)) {
+        arguments += &link == structure_.continuing_link(link.from) ? ", 1" : ", 0";
     }
     return call(link.to, arguments);
 }
@@ -111,10 +128,11 @@ LinkKind ComponentText::kind_of_leaf_links() const {
 }
 
 std::string ComponentText::followers(LinkKind kind, const std::string& placed) const {
+    const Link* continuing = structure_.continuing_link(component_.name);
     std::string text;
     bool has_leaf_links = false;
     for (const Link* link : structure_.links_from(component_.name)) {
-        if (link->kind == kind) text += fmt::format(" [ {}{} ]", placed, bud_of(*link));
+        if (link->kind == kind && link != continuing) text += fmt::format(" [ {}{} ]", placed, bud_of(*link));
         has_leaf_links = has_leaf_links || link->kind == LinkKind::leaf;
     }
     if (has_leaf_links && kind == kind_of_leaf_links()) {

@@ -26,7 +26,7 @@ public:
     std::string bud() const { return component_.name; }
     std::string kept() const;
     /// Parameters that say where an instance stands: "i, n" and the depths of the recursions around.
-    std::string place() const { return "i, n" + depths_; }
+    std::string place() const { return "i, n" + depths_ + (structure_.may_go_on(component_.name) ? ", joined" : ""); }
     const std::string& depths() const { return depths_; }
 
     /// A module with parameters in parentheses, or without both; declares it on the left of an arrow.
@@ -40,6 +40,8 @@ public:
     /// The links of a kind and what stands in for them at the end of a recursion, each between brackets and behind the
     /// given modules.
     std::string followers(LinkKind kind, const std::string& placed = "") const;
+    /// The link whose axis goes on the surface of this one, with the end of both; "" if there is none.
+    std::string continuation() const;
     /// Turns towards gravity and light, by a share of the strength that the component's keys give.
     std::string pull(const std::string& share) const;
     std::vector<std::string> tropisms() const;
@@ -51,7 +53,7 @@ public:
     const Structure& structure() const { return structure_; }
     const Values& values() const { return values_; }
 
-    std::vector<std::string> modules, productions, decomposition, homomorphism, arrays;
+    std::vector<std::string> modules, fields, productions, decomposition, homomorphism, arrays;
 
 private:
     std::string bud_of(const Link& link) const;
@@ -75,5 +77,6 @@ void write_leaf(ComponentText& text);
 void write_simple(ComponentText& text);
 void write_multiplier(ComponentText& text);
 void write_world(ComponentText& text);
+void write_deformation(ComponentText& text);
 
 }  // namespace espalier::language::pgraph

@@ -1,7 +1,8 @@
-// Components that place what follows them: one simple body, the multipliers, and the world.
+// Components that place what follows them: one simple body, the multipliers, the world, and deformations.
 #include "language/pgraph/model_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace espalier::language::pgraph {
 namespace {
@@ -95,9 +96,26 @@ void write_multiplier(ComponentText& text) {
 }
 
 void write_world(ComponentText& text) {
+    for (const KeyValue& key : text.component().keys) {
+        text.fields.push_back(
+            fmt::format("field {}_{} = {};", key.key, text.component().name, fmt::join(key.value.parts, ", ")));
+    }
     text.productions.push_back(
         fmt::format("{}({}) --> {}{}", text.bud(), text.place(), text.kept(), text.followers(LinkKind::child)));
     text.homomorphism.push_back(fmt::format("{} --> *", text.declared(text.kept(), "")));
+}
+
+void write_deformation(ComponentText& text) {
+    const auto numbers = [&](const char* key) {
+        return fmt::format("{}", fmt::join(value_of(text.component(), key).parts, ", "));
+    };
+    const std::string leaves = value_of(text.component(), "leaves").parts.front();
+    const int code = leaves == "bent" ? 0 : leaves == "carried" ? 1 : 2;
+    const std::string kept = text.declared(text.kept(), "");
+    text.productions.push_back(fmt::format("{}({}) --> {}{}{} @De", text.bud(), text.place(), text.placing(), kept,
+                                           text.followers(LinkKind::child)));
+    text.homomorphism.push_back(fmt::format("{} --> @Db({}, {}, {}, {}, {})", kept, code, numbers("lattice"),
+                                            numbers("lower"), numbers("upper"), numbers("moves")));
 }
 
 }  // namespace espalier::language::pgraph

@@ -1,3 +1,4 @@
+#include "espalier/base/file.h"
 #include "espalier/language/model_settings.h"
 
 #include "base/characters.h"
@@ -9,8 +10,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace espalier::language::pgraph {
 namespace {
@@ -46,10 +49,25 @@ bool is_component_name(const std::string& name) {
 
 class Reader {
 public:
-    Reader(const std::string& text, const std::string& file) : file_(file), text_(without_comments(text)) {}
+    Graph read(const std::string& text, const std::string& file) {
+        read_file(text, file);
+        if (has_version_) check_links(file);
+        if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
+        return std::move(graph_);
+    }
 
-    Graph read() {
-        std::istringstream in(text_);
+private:
+    /// The lines of #define of a file, each at its own line.
+    struct Definitions {
+        std::string text;
+        int newlines = 0;
+    };
+
+    void read_file(const std::string& text, const std::string& file) {
+        files_.push_back(file);
+        number_ = 0;
+        has_version_ = false;
+        std::istringstream in(without_comments(text));
         for (std::string line; std::getline(in, line);) {
             ++number_;
             line_ = line;
@@ -66,14 +84,11 @@ public:
             number_ = std::max(number_, 1);
             mistake(0, fmt::format("a graph begins with the line 'pgraph {}'", newest_version));
         } else if (has_version_) {
-            check_links();
             check_settings();
         }
-        if (!mistakes_.empty()) throw UserError(std::move(mistakes_));
-        return std::move(graph_);
+        files_.pop_back();
     }
 
-private:
     void mistake(std::size_t column, const std::string& message) { report(place(column), message); }
 
     void report(const Place& place, const std::string& message) {
@@ -81,12 +96,17 @@ private:
         if (mistakes_.size() < most) mistakes_.push_back({Diagnostic::Severity::error, place, message});
     }
 
-    Place place(std::size_t column) const { return {file_, number_, static_cast<int>(column) + 1}; }
+    std::string line_of(const Place& first) const {
+        return fmt::format("{}line {}", first.file == files_.back() ? "" : first.file + ", ", first.line);
+    }
+
+    Place place(std::size_t column) const { return {files_.back(), number_, static_cast<int>(column) + 1}; }
 
     void read_line() {
         if (line_.starts_with("#define")) return read_define();
         const std::vector<std::string> words = words_of(line_, " \t");
         if (!is_blank(line_.front()) && words.front() == "pgraph") return read_version(words);
+        if (!is_blank(line_.front()) && words.front() == "include") return read_include();
         if (line_.find("->") != std::string::npos) return read_links();
         if (is_blank(line_.front())) return read_key();
         read_component(words);
@@ -105,15 +125,40 @@ private:
                 return mistake(comment, "a comment behind a #define ends on its line: '*/' is missing");
             }
         }
-        const auto [first, is_new] = define_lines_.emplace(name, number_);
+        const auto [first, is_new] = defined_.emplace(name, place(0));
         if (!is_new) {
             return mistake(line_.find(name, 7),
-                           fmt::format("'{}' is defined already, in line {}", name, first->second));
+                           fmt::format("'{}' is defined already, in {}", name, line_of(first->second)));
         }
         graph_.defines.push_back(line_);
-        definitions_.resize(definitions_.size() + std::size_t(number_ - 1 - newlines_in_definitions_), '\n');
-        definitions_ += line_ + "\n";
-        newlines_in_definitions_ = number_;
+        definitions_.text.resize(definitions_.text.size() + std::size_t(number_ - 1 - definitions_.newlines), '\n');
+        definitions_.text += line_ + "\n";
+        definitions_.newlines = number_;
+    }
+
+    // include "leaves.pgraph": its lines, as if they stood here.
+    void read_include() {
+        const std::size_t first = line_.find('"'), last = line_.rfind('"');
+        if (first == last) return mistake(0, "expected a file in quotes: include \"leaves.pgraph\"");
+        const std::string written = line_.substr(first + 1, last - first - 1);
+        const std::string file =
+            (std::filesystem::path(files_.back()).parent_path() / written).lexically_normal().string();
+        if (std::find(files_.begin(), files_.end(), file) != files_.end()) {
+            return mistake(first, fmt::format("'{}' includes itself", written));
+        }
+        std::string text;
+        try {
+            text = read_text(file);
+        } catch (const UserError& error) {
+            return mistake(first, error.what());
+        }
+        const int number = std::exchange(number_, 0);
+        const bool has_version = has_version_;
+        Definitions definitions = std::exchange(definitions_, {});
+        read_file(text, file);
+        number_ = number;
+        has_version_ = has_version;
+        definitions_ = std::move(definitions);
     }
 
     void read_version(const std::vector<std::string>& words) {
@@ -147,7 +192,7 @@ private:
                                                            words.size() > 2 ? line_.substr(column) : name, camera));
         } else if (graph_.find(name)) {
             mistake(column,
-                    fmt::format("there is a component '{}' already, in line {}", name, graph_.find(name)->place.line));
+                    fmt::format("there is a component '{}' already, in {}", name, line_of(graph_.find(name)->place)));
         }
         graph_.components.push_back({type->name, name, {}, place(column)});
     }
@@ -183,6 +228,8 @@ private:
             case KeyKind::literal:
                 return fmt::format("'{}' is a whole number", key.name);
             case KeyKind::list:
+            case KeyKind::vector:
+            case KeyKind::field:
                 return fmt::format("'{}' is a list such as {}", key.name, key.standard);
             default:
                 return fmt::format("'{}' is a number or a range 'a .. b', and then perhaps 'then f(x)' and 'noise a'",
@@ -225,15 +272,15 @@ private:
 
     void check_settings() {
         try {
-            ModelSettings::parse(definitions_, file_);
+            ModelSettings::parse(definitions_.text, files_.back());
         } catch (const UserError& error) {
             for (const Diagnostic& mistake : error.diagnostics()) report(mistake.place, mistake.message);
         }
     }
 
-    void check_links() {
+    void check_links(const std::string& file) {
         if (graph_.components.empty() && mistakes_.empty()) {
-            report({file_, 1, 1}, "a graph needs a component and a link from the camera to it: camera -> stem");
+            report({file, 1, 1}, "a graph needs a component and a link from the camera to it: camera -> stem");
         }
         std::vector<std::string> names{camera};
         for (const Component& component : graph_.components) names.push_back(component.name);
@@ -258,11 +305,11 @@ private:
         }
     }
 
-    std::string file_, text_, line_;
+    std::vector<std::string> files_;  // that at hand, behind those that include it
+    std::string line_;
     int number_ = 0;
-    std::map<std::string, int> define_lines_;
-    std::string definitions_;  // the lines of #define, each at its own line
-    int newlines_in_definitions_ = 0;
+    std::map<std::string, Place> defined_;
+    Definitions definitions_;  // of the file at hand
     bool has_version_ = false;
     bool skips_keys_ = false;  // those of a component that is not known
     Graph graph_;
@@ -286,7 +333,7 @@ const Component* Graph::find(const std::string& name) const {
 }
 
 Graph parse(const std::string& text, const std::string& name) {
-    return Reader(text, name).read();
+    return Reader().read(text, name);
 }
 
 }  // namespace espalier::language::pgraph

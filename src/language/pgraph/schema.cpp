@@ -87,9 +87,14 @@ std::vector<ComponentType> make_types() {
                              placing(),
                              recursion()})});
     types.push_back(
-        {"Horn", "a bent cone; what follows it stands on its tip", joined({horn(), placing(), recursion()})});
+        {"Horn", "a bent cone; what follows it stands on its tip",
+         joined({horn(),
+                 {{"curve", list, "m", -unbounded, unbounded, "0, 0, 0, 0, 1, 0",
+                   "x, y, z of points, the first 0, 0, 0: the axis is a smooth curve through them instead"}},
+                 placing(),
+                 recursion()})});
     types.push_back(
-        {"Tree", "a horn with tropisms() that carries branches",
+        {"Tree", "a horn with tropisms that carries branches",
          joined({horn(),
                  tropisms(),
                  {{"branches", instance, "", 0, 1e5, "0", "of every branch link, rounded"},
@@ -101,7 +106,7 @@ std::vector<ComponentType> make_types() {
                  recursion()}),
          false, true});
     types.push_back(
-        {"Leaf", "a blade of polygons on both sides of a midrib",
+        {"Leaf", "a blade on both sides of a midrib",
          joined({{{"length", instance, "m", 0, unbounded, "1", "of the midrib"},
                   {"width", instance, "m", 0, unbounded, "0.5", "of the blade where the outline is 1"},
                   {"outline", list, "", 0, unbounded, "0, 0.8, 1, 0.7, 0",
@@ -110,7 +115,8 @@ std::vector<ComponentType> make_types() {
                   {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
                   {"waves", instance, "", 0, 1000, "0", "of the edge"},
                   {"wave_height", instance, "m", 0, unbounded, "0", "of these waves"},
-                  {"pieces", literal, "", 1, 1000, "4", "of the blade"}},
+                  {"pieces", literal, "", 1, 1000, "4", "of the blade"},
+                  {"texture", instance, "", 0, 65535, "0", "number of a picture that fills the blade; 0: none"}},
                  tropisms(),
                  placing(),
                  recursion()})});
@@ -128,12 +134,22 @@ std::vector<ComponentType> make_types() {
                              recursion()}),
                      true});
     types.push_back({"World",
-                     "replaces the directions that tropisms() turn to, for what follows it",
-                     {{"gravity", list, "", -unbounded, unbounded, "0, -1, 0", "x, y, z"},
-                      {"light", list, "", -unbounded, unbounded, "0, 1, 0", "x, y, z"}},
+                     "replaces the directions that tropisms turn to, for what follows it",
+                     {{"gravity", field, "", -unbounded, unbounded, "0, -1, 0", "vector at the place x, y, z"},
+                      {"light", field, "", -unbounded, unbounded, "0, 1, 0", "vector at the place x, y, z"}},
                      false,
                      false,
                      false});
+    types.push_back({"FFD", "bends the space around what follows it by a lattice of points",
+                     joined({{{"lower", vector, "m", -unbounded, unbounded, "-1, 0, -1", "corner of the box"},
+                              {"upper", vector, "m", -unbounded, unbounded, "1, 2, 1", "the opposite corner"},
+                              {"lattice", vector, "", 2, 16, "2, 2, 2", "points along x, y, z"},
+                              {"moves", list, "m", -unbounded, unbounded, "0, 0, 0",
+                               "needed: x, y, z for each point of the lattice, along x first, then y, then z"},
+                              {"leaves", word, "bent|carried|left", 0, 0, "carried",
+                               "leaves bend, or keep their shape, or stay where they are"}},
+                             placing(),
+                             recursion()})});
     return types;
 }
 
@@ -183,11 +199,15 @@ const ComponentType* find_type(const std::string& name) {
     return nullptr;
 }
 
+bool is_listed(KeyKind kind) {
+    return kind == list || kind == vector || kind == field;
+}
+
 bool read_value(const std::string& written, KeyKind kind, Value& value) {
     const std::string text = trimmed(written);
-    if (kind == word || kind == literal || kind == list) {
+    if (kind == word || kind == literal || is_listed(kind)) {
         value.parts = split(text, ",");
-        return !has_empty(value.parts) && (kind == list || value.parts.size() == 1);
+        return !has_empty(value.parts) && (is_listed(kind) || value.parts.size() == 1);
     }
     const std::vector<std::string> noisy = split(text, " noise ");
     const std::vector<std::string> mapped = split(noisy.front(), " then ");
@@ -214,6 +234,8 @@ std::string describe_types() {
                : kind == children ? "over children"
                : kind == axis     ? "along the axis"
                : kind == list     ? "list"
+               : kind == vector   ? "vector"
+               : kind == field    ? "field"
                                   : "fixed";
     };
     std::string text;

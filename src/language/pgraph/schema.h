@@ -15,6 +15,8 @@ enum class KeyKind {
     axis,      ///< a range runs along the axis
     literal,   ///< a whole number that shapes the productions
     list,      ///< numbers between commas
+    vector,    ///< three of them
+    field,     ///< three functions of a place x, y, z
     word,      ///< one of a few
 };
 
@@ -47,6 +49,9 @@ Value value_of(const Component& component, const std::string& key);
 
 /// The types and keys as a person reads them.
 std::string describe_types();
+
+/// True for what is written with commas.
+bool is_listed(KeyKind kind);
 
 /// Splits the text of a value; false if it is none of this kind.
 bool read_value(const std::string& text, KeyKind kind, Value& value);

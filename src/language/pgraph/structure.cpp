@@ -198,6 +198,28 @@ const Component* Structure::world_of(const std::string& component) const {
     return *worlds_.at(component).begin();
 }
 
+int sides_of(const Component& component) {
+    const bool has_axis = find_type(component.type)->find("sides") != nullptr;
+    return has_axis ? std::stoi(value_of(component, "sides").parts.front()) : 0;
+}
+
+const Link* Structure::continuing_link(const std::string& from) const {
+    const Component* component = graph_.find(from);
+    const int sides = component ? sides_of(*component) : 0;
+    for (const Link* link : links_from(from)) {
+        const bool fits = link->kind == LinkKind::child && sides > 0;
+        if (fits && sides_of(*graph_.find(link->to)) == sides) return link;
+    }
+    return nullptr;
+}
+
+bool Structure::may_go_on(const std::string& component) const {
+    return std::any_of(graph_.components.begin(), graph_.components.end(), [&](const Component& each) {
+        const Link* link = continuing_link(each.name);
+        return link && link->to == component;
+    });
+}
+
 int Structure::generations() const {
     using Depths = std::map<std::string, int>;
     std::map<std::pair<std::string, Depths>, int> known;

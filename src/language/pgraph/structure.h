@@ -10,6 +10,9 @@
 
 namespace espalier::language::pgraph {
 
+/// Sides of the closed surface of a component's axis; 0: it has none.
+int sides_of(const Component& component);
+
 /// The recursion of every component that a link leads back to: its head. Recursions stand apart or inside one another.
 class Structure {
 public:
@@ -27,6 +30,10 @@ public:
     std::vector<const Link*> repeated_by(const std::string& component) const;
     /// The component World that governs a component; null for the usual directions.
     const Component* world_of(const std::string& component) const;
+    /// The first child link to an axis with as many sides: the surface goes on there. Null if there is none.
+    const Link* continuing_link(const std::string& from) const;
+    /// Such a link leads to it.
+    bool may_go_on(const std::string& component) const;
     /// Steps from the camera to the last instance of the longest path.
     int generations() const;
 

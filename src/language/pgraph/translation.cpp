@@ -16,8 +16,9 @@ using Writer = void (*)(ComponentText&);
 
 Writer writer_of(const std::string& type) {
     static const std::map<std::string, Writer> writers{
-        {"Simple", write_simple},    {"Horn", write_horn},       {"Tree", write_tree},          {"Leaf", write_leaf},
-        {"Hydra", write_multiplier}, {"Ring", write_multiplier}, {"Phiball", write_multiplier}, {"World", write_world},
+        {"Simple", write_simple},      {"Horn", write_horn},        {"Tree", write_tree},
+        {"Leaf", write_leaf},          {"Hydra", write_multiplier}, {"Ring", write_multiplier},
+        {"Phiball", write_multiplier}, {"World", write_world},      {"FFD", write_deformation},
     };
     return writers.at(type);
 }
@@ -55,6 +56,7 @@ std::string axiom(const Structure& structure) {
     for (const Link* link : structure.links_from(camera)) {
         text += fmt::format(" [ {}(0, 1", link->to);
         for (std::size_t k = 0; k < structure.heads_around(link->to).size(); ++k) text += ", 1";
+        if (structure.may_go_on(link->to)) text += ", 0";
         text += ") ]";
     }
     return text;
@@ -75,6 +77,9 @@ std::string translate(const Graph& graph) {
         "step;\n   the same name with a capital is the instance, with its values. */\n\n";
     for (const std::string& define : graph.defines) text += define + "\n";
     text += declarations(texts);
+    for (const ComponentText& each : texts) {
+        for (const std::string& field : each.fields) text += field + "\n";
+    }
     text += fmt::format("\nlsystem: 1\nderivation length: {}\n{}axiom:{}\n", structure.generations(), arrays(texts),
                         axiom(structure));
     text += section(texts, &ComponentText::productions);

@@ -35,6 +35,8 @@ public:
             for (const KeyValue& each : component.keys) {
                 check(*find_type(component.type)->find(each.key), each.value);
             }
+            if (component.type == "FFD") check_deformation(component);
+            if (const Value* curve = component.find("curve")) check_curve(component, *curve);
         }
         if (!mistakes_.empty()) throw UserError(mistakes_);
     }
@@ -57,6 +59,7 @@ private:
 
     void check(const Key& key, const Value& value) {
         if (key.kind == KeyKind::word) return check_word(key, value);
+        if (key.kind == KeyKind::field) return check_field(key, value);
         for (const std::string& part : value.parts) check_number(key, part, value.place);
         if (!value.function.empty()) value_of(value.function, value.place);
         if (!value.noise.empty()) value_of(value.noise, value.place);
@@ -70,10 +73,74 @@ private:
         if (key.kind == KeyKind::list && differs) {
             report(value.place, fmt::format("the numbers of '{}' are the same for all instances", key.name));
         }
-        const bool is_vector = key.kind == KeyKind::list && key.summary == "x, y, z";
-        if (is_vector && value.parts.size() != 3) report(value.place, fmt::format("'{}' is x, y, z", key.name));
+        if (key.kind == KeyKind::vector) check_count(key, value);
         if (key.kind == KeyKind::list && value.parts.size() < 2) {
             report(value.place, fmt::format("'{}' needs two numbers or more", key.name));
+        }
+    }
+
+    void check_count(const Key& key, const Value& value) {
+        if (value.parts.size() != 3) report(value.place, fmt::format("'{}' is x, y, z", key.name));
+    }
+
+    void check_field(const Key& key, const Value& value) {
+        check_count(key, value);
+        for (const std::string& part : value.parts) {
+            if (differs_by_instance(part)) {
+                report(value.place, fmt::format("'{}' is a function of the place x, y, z alone", key.name));
+            }
+            value_of(substituted(part, {{"x", "0.3"}, {"y", "0.5"}, {"z", "0.7"}}), value.place);
+        }
+    }
+
+    // What a curve decides, the other keys of an axis cannot.
+    void check_curve(const Component& component, const Value& curve) {
+        const std::vector<std::string>& parts = curve.parts;
+        const auto number = [&](std::size_t k) { return value_of(parts[k], curve.place).value_or(0); };
+        if (parts.size() < 6 || parts.size() % 3 != 0 || number(0) != 0 || number(1) != 0 || number(2) != 0) {
+            return report(curve.place, "'curve' is x, y, z of two points or more, the first of which is 0, 0, 0");
+        }
+        for (std::size_t k = 3; k < parts.size(); k += 3) {
+            if (number(k) != number(k - 3) || number(k + 1) != number(k - 2) || number(k + 2) != number(k - 1))
+                continue;
+            report(curve.place, "two successive points of 'curve' are the same");
+        }
+        for (const char* key : {"length", "bend", "sway"}) {
+            const Value* other = component.find(key);
+            if (other) report(other->place, fmt::format("'{}' follows from 'curve'; leave one of them out", key));
+        }
+        const Value pieces = pgraph::value_of(component, "pieces");
+        const std::string& count = pieces.parts.front();
+        if (pieces.is_range || !std::all_of(count.begin(), count.end(), is_digit)) {
+            report(pieces.place, "'pieces' of a horn with a 'curve' is a whole number in digits");
+        }
+    }
+
+    // The lattice says how many moves there are; all numbers are those of the component, not of an instance.
+    void check_deformation(const Component& component) {
+        const Value* moves = component.find("moves");
+        if (!moves) {
+            return report(component.place, "an FFD needs 'moves': x, y, z for each of the points of its lattice");
+        }
+        std::size_t points = 1;
+        const Value lattice = pgraph::value_of(component, "lattice");
+        for (const std::string& part : lattice.parts) {
+            const double count = value_of(part, lattice.place).value_or(0);
+            if (count != std::floor(count)) report(lattice.place, "'lattice' is three whole numbers");
+            points *= static_cast<std::size_t>(std::clamp(count, 0.0, 16.0));
+        }
+        if (moves->parts.size() != 3 * points) {
+            report(moves->place,
+                   fmt::format("'moves' needs x, y, z for each of the {} points of the lattice: {} numbers, "
+                               "not {}",
+                               points, 3 * points, moves->parts.size()));
+        }
+        for (const KeyValue& each : component.keys) {
+            if (!is_listed(find_type("FFD")->find(each.key)->kind)) continue;
+            for (const std::string& part : each.value.parts) {
+                if (!differs_by_instance(part)) continue;
+                report(each.value.place, fmt::format("'{}' is the same for all instances", each.key));
+            }
         }
     }
 
@@ -89,6 +156,10 @@ private:
         const std::optional<double> number = value_of(expression, place);
         const bool is_literal = key.kind == KeyKind::literal;
         const auto is_digits = [](const std::string& text) { return std::all_of(text.begin(), text.end(), is_digit); };
+        if (key.name == "sides" && (number == 1 || number == 2)) {
+            return report(place, fmt::format("'sides' is 0, or from 3 to {} around a closed surface, not {}",
+                                             format_general(key.highest), expression));
+        }
         if (is_literal && !is_digits(expression)) {
             return report(place, fmt::format("'{}' is a whole number in digits, not '{}'", key.name, expression));
         }

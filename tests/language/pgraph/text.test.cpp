@@ -3,6 +3,7 @@
 
 #include "catch.h"
 #include "language/pgraph/graphs.h"
+#include "temporary_folder.h"
 
 using namespace espalier;
 using namespace espalier::test;
@@ -30,8 +31,8 @@ stem -B-> blade
 
 TEST_CASE("Unknown components, keys, links and names are refused at their place, with the nearest", "[pgraph]") {
     CHECK(graph_mistakes("Hron stem\n  length 3\ncamera -> stem\n") ==
-          "2:1: 'Hron' is no component; the components are Simple, Horn, Tree, Leaf, Hydra, Ring, Phiball, World (did "
-          "you mean 'Horn'?)\n4:1: there is no component 'stem' to link");
+          "2:1: 'Hron' is no component; the components are Simple, Horn, Tree, Leaf, Hydra, Ring, Phiball, World, FFD "
+          "(did you mean 'Horn'?)\n4:1: there is no component 'stem' to link");
     CHECK_THAT(graph_mistakes("Horn stem\n  lenght 3\ncamera -> stem\n"),
                Catch::StartsWith("3:3: Horn has no key 'lenght'; its keys are length, ") &&
                    Catch::EndsWith("(did you mean 'length'?)"));
@@ -54,6 +55,7 @@ TEST_CASE("Values are refused that are none or out of range", "[pgraph]") {
     CHECK_THAT(horn("length 3 +"), Catch::StartsWith("3:10: '3 +' is no expression: "));
     CHECK_THAT(horn("length WIDTH"), Catch::StartsWith("3:10: 'WIDTH' is no expression: "));
     CHECK_THAT(horn("length 1 .. 2 .. 3"), Catch::StartsWith("3:10: 'length' is a number or a range 'a .. b'"));
+    CHECK(horn("sides 2") == "3:9: 'sides' is 0, or from 3 to 256 around a closed surface, not 2");
     CHECK(horn("sides 2.5") == "3:9: 'sides' is a whole number in digits, not '2.5'");
     CHECK(horn("bend 1 noise 2") == "3:8: 'bend' takes no noise; write ran() into its ends instead");
     CHECK(horn("bend 1 then x * u") == "3:8: the function of 'bend' is one of x alone");
@@ -102,7 +104,7 @@ TEST_CASE("A list of numbers is the same for all instances", "[pgraph]") {
     CHECK(graph_mistakes("Leaf blade\n  outline i, n\ncamera -> blade\n") ==
           "3:11: the numbers of 'outline' are the same for all instances");
     CHECK(graph_mistakes("World wind\n  gravity ran(1), 0, 0\nHorn stem\ncamera -> wind -> stem\n") ==
-          "3:11: the numbers of 'gravity' are the same for all instances");
+          "3:11: 'gravity' is a function of the place x, y, z alone");
 }
 
 TEST_CASE("What is no graph at all is told by its first line alone", "[pgraph]") {
@@ -117,6 +119,52 @@ TEST_CASE("What is no graph at all is told by its first line alone", "[pgraph]")
     CHECK(said("") == "x.pgraph:1:1: a graph begins with the line 'pgraph 1'");
     CHECK(said("// a comment\ndefine{ a[0,1,0,0]; }\nrules{ }\n") ==
           "x.pgraph:2:1: a graph begins with the line 'pgraph 1'");
+}
+
+TEST_CASE("A World is refused that is no function of the place, an FFD whose moves do not fit its lattice",
+          "[pgraph]") {
+    const auto component = [](const std::string& lines) { return graph_mistakes(lines + "\ncamera -> thing\n"); };
+    CHECK(component("World thing\n  gravity 0, -1") == "3:11: 'gravity' is x, y, z");
+    CHECK(component("World thing\n  gravity 0, i, 0") == "3:11: 'gravity' is a function of the place x, y, z alone");
+    CHECK_THAT(component("World thing\n  light 0, y +, 0"), Catch::Contains("3:9: 'y +' is no expression"));
+    CHECK(component("FFD thing") == "2:5: an FFD needs 'moves': x, y, z for each of the points of its lattice");
+    CHECK(component("FFD thing\n  moves 1, 2, 3") ==
+          "3:9: 'moves' needs x, y, z for each of the 8 points of the lattice: 24 numbers, not 3");
+    CHECK_THAT(component("FFD thing\n  lattice 1, 2, 2\n  moves 0, 0"),
+               Catch::Contains("3:11: 'lattice' must be from 2 to 16, not 1"));
+}
+
+TEST_CASE("A curve is refused that does not begin at the origin, or beside a length", "[pgraph]") {
+    const auto horn = [](const std::string& keys) { return graph_mistakes("Horn stem\n" + keys + "camera -> stem\n"); };
+    CHECK(horn("  curve 0, 0, 0, 1, 2\n") ==
+          "3:9: 'curve' is x, y, z of two points or more, the first of which is 0, 0, 0");
+    CHECK(horn("  curve 0, 0, 0, 0, 1, 0\n  length 2\n") ==
+          "4:10: 'length' follows from 'curve'; leave one of them out");
+    CHECK(horn("  curve 0, 0, 0, 0, 0, 0\n") == "3:9: two successive points of 'curve' are the same");
+}
+
+TEST_CASE("Graphs include others, whose mistakes are told with their own files and lines", "[pgraph]") {
+    const TemporaryFolder folder;
+    folder.write("leaves.pgraph", "pgraph 1\nLeaf oak\n  length 0.3\n");
+    folder.write("wrong.pgraph", "pgraph 1\nLeaf oak\n  lenght 0.3\n");
+    const auto path = (folder.path() / "plant.pgraph").string();
+    const auto translated = [&](const std::string& lines) {
+        return registered<NotationType>().at("pgraph")->translate("pgraph 1\n" + lines, path);
+    };
+    const std::string stem = "Tree stem\ncamera -> stem -B-> oak\n";
+    CHECK_THAT(translated("include \"leaves.pgraph\"\n" + stem), Catch::Contains("Oak"));
+    try {
+        translated("include \"wrong.pgraph\"\n" + stem);
+        FAIL("a wrong file was included");
+    } catch (const UserError& error) {
+        CHECK(error.diagnostics().at(0).place.file == (folder.path() / "wrong.pgraph").string());
+        CHECK(error.diagnostics().at(0).place.line == 3);
+        CHECK(error.diagnostics().at(0).source == "  lenght 0.3");
+    }
+    CHECK_THROWS_WITH(translated("Horn top\ninclude \"plant.pgraph\"\n"),
+                      Catch::Contains("3:9: 'plant.pgraph' includes itself"));
+    CHECK_THROWS_WITH(translated("include leaves\n"), Catch::Contains("expected a file in quotes"));
+    CHECK_THROWS_WITH(translated("include \"none.pgraph\"\n"), Catch::Contains("none.pgraph"));
 }
 
 TEST_CASE("A graph without its version, or of another, is refused", "[pgraph]") {
