@@ -28,6 +28,15 @@ Expression read_expression(const MappedText& text, const Preprocessed& source) {
     return expression;
 }
 
+/// True for what keyframes of a scene put there: its values are checked where they are read.
+bool reads_step(std::string_view text) {
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
+        end = end_of_token(text, begin);
+        if (text.substr(begin, end - begin) == "Q") return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 double value_of(std::string_view expression, const Preprocessed& source) {
@@ -63,10 +72,10 @@ std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources&
         const auto& [summary, lowest, highest, whole, unit] = documented.comment;
         ModelSetting setting{documented.name, macro->body, 0,    summary,          lowest,
                              highest,         whole,       unit, documented.group, sources.place(documented.at)};
-        bool allowed = false;
+        bool allowed = reads_step(setting.text);
         try {
-            setting.value = value_of(setting.text, source);
-            allowed = setting.allows(setting.value);
+            if (!allowed) setting.value = value_of(setting.text, source);
+            allowed = allowed || setting.allows(setting.value);
         } catch (const SyntaxError&) {
             // Not a number, whatever else it is.
         }

@@ -1,6 +1,7 @@
 #include "growing_plant.h"
 
 #include "base/prefetch.h"
+#include "keyframes.h"
 
 #include <algorithm>
 #include <utility>
@@ -22,6 +23,7 @@ GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_p
     : number(plant),
       description(&from),
       derivation(from.model, settings),
+      settings_(settings),
       model_(&source_of(*from.model)),
       insertions_(from),
       symbols_(std::move(symbols)),
@@ -42,11 +44,37 @@ void GrowingPlant::set_length(int steps) {
 }
 
 void GrowingPlant::write_axiom(ModuleString* spare) {
-    rewrite([&](const ModuleString&, ModuleString& to) { derivation.start(to); }, spare);
+    rewrite(
+        [&](const ModuleString&, ModuleString& to) {
+            derivation.start(to);
+            if (description->in_time) regrow(to);
+        },
+        spare);
 }
 
 void GrowingPlant::derive(ModuleString* spare) {
-    rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
+    if (!description->in_time) {
+        return rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
+    }
+    rewrite(
+        [&](const ModuleString&, ModuleString& to) {
+            const ModuleString nothing;
+            derivation.step(nothing, to);  // counts the step
+            regrow(to);
+        },
+        spare);
+}
+
+// The seed and the steps are those of every other time, so that an organ keeps its identity and its random numbers.
+void GrowingPlant::regrow(ModuleString& to) {
+    regrown_.emplace(description->in_time->at_step(derivation.steps_done()), settings_);
+    regrown_->set_lineage(true);
+    ModuleString from;
+    regrown_->start(to);
+    while (regrown_->steps_done() < regrown_->length() && !regrown_->stopped()) {
+        std::swap(from, to);
+        regrown_->step(from, to);
+    }
 }
 
 template <class Rewrite>
@@ -69,7 +97,7 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
 
 void GrowingPlant::interpret() {
     Interpretation& result = interpretation.for_writing();
-    const Derivation* pictures = has_pictures_ ? &derivation : nullptr;
+    const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
     espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number}, result);
     asks_ = result.asks();
     if (description->stages.empty()) return;

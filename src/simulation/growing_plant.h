@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace espalier::simulation {
@@ -58,10 +59,14 @@ public:
     PlantMemory memory;
 
 private:
+    void regrow(ModuleString& to);
+    const Derivation& drawing() const { return regrown_ ? *regrown_ : derivation; }
     template <class Rewrite>
     void rewrite(const Rewrite& rewrite, ModuleString* spare);
 
+    DerivationSettings settings_;
     const Model* model_;
+    std::optional<Derivation> regrown_;  ///< of a plant that grows anew in every step
     Insertions insertions_;
     std::shared_ptr<const SymbolTable> symbols_;
     Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory

@@ -3,6 +3,7 @@
 #include "espalier/base/random.h"
 
 #include "insertion.h"
+#include "keyframes.h"
 #include "side_files.h"
 
 #include <fmt/format.h>
@@ -127,8 +128,8 @@ Pose read_pose(const Settings& table) {
 
 class PlantReader {
 public:
-    PlantReader(std::uint64_t seed, std::vector<Plant>& plants, SceneNotes& notes)
-        : seed_(seed), plants_(plants), notes_(notes), side_files_(notes) {}
+    PlantReader(std::uint64_t seed, double dt, std::vector<Plant>& plants, SceneNotes& notes)
+        : seed_(seed), dt_(dt), plants_(plants), notes_(notes), side_files_(notes) {}
 
     void read(const Settings& table) {
         Plant plant;
@@ -140,7 +141,7 @@ public:
             plant.view = side_files_.view(*view, defines, folder);
         }
         plant.palette = side_files_.palette(table);
-        plant.model = compiled_model(table, defines, plant.view.get());
+        read_model_of(table, defines, plant);
         for (const std::string& text : table.texts_or("insert", {})) {
             plant.insertions.push_back(read_insertion(text, table.place("insert")));
         }
@@ -167,20 +168,57 @@ private:
         throw UserError(table.place(key), fmt::format("there is no {} {}", key, table.path(key).string()));
     }
 
-    std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, const Defines& defines,
-                                                        const View* view) {
+    // Keyframes give the model's settings the values of one age, or of each step, which sees them as the plant grows,
+    // or from which the plant grows anew.
+    void read_model_of(const Settings& table, const Defines& given, Plant& plant) {
         require_file(table, "model");
-        const ModelKey key{table.path("model"), defines, read_arithmetic(table), view};
-        std::shared_ptr<const CompiledModel>& model = models_[key];
-        if (model) return model;
+        const std::vector<Keyframes> keyframes = read_keyframes(table, table.path("model"));
+        const bool has_age = table.has("age"), regrows = table.flag_or("regrow", false);
+        const double age = has_age ? table.number("age", Range::not_negative()) : 0;
+        if ((has_age || regrows) && keyframes.empty()) {
+            throw UserError(table.place(has_age ? "age" : "regrow"),
+                            "this plant has no [[plant.keyframes]] to look at");
+        }
+        if (has_age && regrows) throw UserError(table.place("age"), "a plant has either an 'age' or 'regrow'");
+        for (const Keyframes& each : keyframes) {
+            if (!given.contains(each.name)) continue;
+            throw UserError(each.place, fmt::format("'{}' has a value in 'define' already", each.name));
+        }
+        Defines defines = at_time(given, keyframes, age);
+        if (!has_age && !regrows) {
+            for (const Keyframes& each : keyframes) defines[each.name] = each.expression(fmt::format("(Q * {})", dt_));
+        }
+        plant.model = compiled_model(table, defines, plant.view.get());
+        if (!regrows) return;
+        const std::filesystem::path path = table.path("model");
+        const ReadOptions options = read_options(defines, read_arithmetic(table), plant.view.get());
+        plant.in_time = std::make_shared<const ModelInTime>(
+            [=, view = plant.view](double time) {
+                ReadOptions at_that_time = options;
+                at_that_time.defines = at_time(given, keyframes, time);
+                return compile(read_model(path, at_that_time));
+            },
+            dt_);
+    }
+
+    static ReadOptions read_options(const Defines& defines, Arithmetic arithmetic, const View* view) {
         ReadOptions options;
         options.defines = defines;
-        options.arithmetic = key.arithmetic;
-        options.warnings = &notes_.diagnostics;
+        options.arithmetic = arithmetic;
         if (view) {
             options.predefined = view->function_names;
             options.resources = view->resources;
         }
+        return options;
+    }
+
+    std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, const Defines& defines,
+                                                        const View* view) {
+        const ModelKey key{table.path("model"), defines, read_arithmetic(table), view};
+        std::shared_ptr<const CompiledModel>& model = models_[key];
+        if (model) return model;
+        ReadOptions options = read_options(defines, key.arithmetic, view);
+        options.warnings = &notes_.diagnostics;
         model = compile(read_model(key.path, options));
         return model;
     }
@@ -199,6 +237,7 @@ private:
     }
 
     std::uint64_t seed_;
+    double dt_;
     std::vector<Plant>& plants_;
     SceneNotes& notes_;
     SideFiles side_files_;
@@ -214,12 +253,13 @@ Defines read_defines(const Settings& table) {
     return defines;
 }
 
-std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes) {
+std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, double dt, Mistakes& mistakes,
+                               SceneNotes& notes) {
     std::vector<Plant> plants;
     mistakes.attempt([&] {
         const std::vector<Settings> tables = root.tables("plant");
         if (tables.empty()) throw UserError(root.place(), "no [[plant]] in this scene: at least one is needed");
-        PlantReader reader(seed, plants, notes);
+        PlantReader reader(seed, dt, plants, notes);
         for (const Settings& table : tables) {
             mistakes.attempt([&] { reader.read(table); });
         }

@@ -32,6 +32,8 @@ private:
 Defines read_defines(const Settings& table);
 
 /// Reads every plant of the scene, in order. Plants with the same model, defines and view share one CompiledModel.
-std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, Mistakes& mistakes, SceneNotes& notes);
+/// `dt`: from one step to the next, for keyframes.
+std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, double dt, Mistakes& mistakes,
+                               SceneNotes& notes);
 
 }  // namespace espalier::simulation

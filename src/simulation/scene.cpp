@@ -170,7 +170,7 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
-    scene.plants = read_plants(root, scene.seed, mistakes, scene.notes);
+    scene.plants = read_plants(root, scene.seed, scene.dt, mistakes, scene.notes);
     try {
         mistakes.throw_if_any();
     } catch (const UserError& error) {
@@ -238,6 +238,10 @@ const char* scene_help() {
   heading      [0, 1, 0]; heading of the turtle
   roll         0 degrees about the heading
   define       { NAME = value }: replaces #define NAME of the model
+  keyframes    [[plant.keyframes]]: { name = "HEIGHT", times = [0, 20], values = [1, 8], spline = false }: a #define of
+               the model has these values at these times
+  age          the time at which the keyframes are read; default: that of each step
+  regrow       false; true: every step grows the plant anew, with the values of that time
   arithmetic   "double", or "cpfg": computes as cpfg does, with 32-bit parameters
   view         view file (.v): settings of the turtle, surfaces, contours, functions, curves
   colour_map   a file (.map) for set 1, or { 1 = file, 2 = file }

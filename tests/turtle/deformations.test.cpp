@@ -14,7 +14,7 @@ std::string lattice(int leaves, const std::function<glm::dvec3(const glm::dvec3&
         for (const double y : {-3.0, 0.0, 3.0}) {
             for (const double x : {-3.0, 3.0}) {
                 const glm::dvec3 by = move({x, y, z});
-                for (int axis = 0; axis < 3; ++axis) text += "," + std::to_string(by[axis]);
+                for (int axis = 0; axis < 3; ++axis) text.append(",").append(std::to_string(by[axis]));
             }
         }
     }

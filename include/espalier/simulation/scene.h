@@ -28,6 +28,8 @@ struct Insertion {
     Place place = {};         ///< where somebody says so
 };
 
+class ModelInTime;
+
 /// One plant of a scene: a model growing at a place with a seed. The world makes a GrowingPlant of it.
 struct Plant {
     std::string name = {};                            ///< default: the model's
@@ -38,6 +40,8 @@ struct Plant {
     std::shared_ptr<const View> view = {};        ///< its view file; null if it has none
     std::vector<Insertion> insertions = {};       ///< in the order in which those of one step are made
     GeometryStages stages = {};                   ///< what is drawn goes through them before it is recorded
+    /// The plant grows anew in every step, from the model of that time; null: it grows from step to step.
+    std::shared_ptr<const ModelInTime> in_time = {};
 };
 
 /// The model of a file, or of a text in the same language, ready to grow. Throws UserError with every mistake found.

@@ -1,0 +1,50 @@
+// Keyframes: values of a model's settings at given times, with a line or a smooth curve between them.
+#pragma once
+
+#include "espalier/base/settings.h"
+#include "espalier/language/reader.h"
+#include "espalier/lsystem/derivation.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace espalier::simulation {
+
+/// One [[plant.keyframes]] table. Before the first time and after the last the value stays.
+struct Keyframes {
+    std::string name;           ///< of a #define
+    std::vector<double> times;  ///< rising
+    std::vector<double> values;
+    bool spline = false;  ///< a smooth curve, which stays between its values (Steffen 1990)
+    Place place = {};
+
+    double at(double time) const;
+    /// The same as an expression of the language of models.
+    std::string expression(const std::string& time) const;
+
+private:
+    double slope(std::size_t k) const;
+};
+
+/// All of a plant; throws UserError for times that do not rise, and for values that a setting of the model refuses.
+std::vector<Keyframes> read_keyframes(const Settings& plant, const std::filesystem::path& model);
+
+/// The definitions with the values that keyframes have at a time.
+Defines at_time(Defines defines, const std::vector<Keyframes>& keyframes, double time);
+
+/// A model whose settings change, for plants that grow anew in every step. Thread safe.
+class ModelInTime {
+public:
+    using Make = std::function<std::shared_ptr<const CompiledModel>(double time)>;
+
+    ModelInTime(Make make, double dt) : make_(std::move(make)), dt_(dt) {}
+    std::shared_ptr<const CompiledModel> at_step(int step) const { return make_(step * dt_); }
+
+private:
+    Make make_;
+    double dt_;
+};
+
+}  // namespace espalier::simulation
