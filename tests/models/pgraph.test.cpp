@@ -1,6 +1,7 @@
 // Plants from components: where components place what follows them, what they draw, and the library's p-graphs.
 #include "espalier/base/file.h"
 #include "espalier/language/notation.h"
+#include "espalier/simulation/world.h"
 
 #include "catch.h"
 #include "experiments/growth.h"
@@ -519,5 +520,40 @@ TEST_CASE("The broadleaved tree: the higher, the more branches", "[pgraph]") {
         auto counts = grown_model("broadleaf", {{"HEIGHT", height}}).counts();
         CHECK(counts["Branch"] > static_cast<int>(before));
         before = static_cast<std::size_t>(counts["Branch"]);
+    }
+}
+
+TEST_CASE("A tree that grows and dies has more and more segments, and then fewer and fewer", "[pgraph]") {
+    World world(read_scene(source_path("environments/life-of-a-tree.toml")));
+    std::vector<std::size_t> segments;
+    for (int year = 0; year <= 100; ++year) {
+        if (year > 0) world.step();
+        if (year % 10 == 0) segments.push_back(world.interpretation(0).geometry.internodes.size());
+    }
+    const auto most = std::max_element(segments.begin(), segments.end());
+    CHECK(std::is_sorted(segments.begin(), most + 1));
+    CHECK(std::is_sorted(std::make_reverse_iterator(segments.end()), std::make_reverse_iterator(most)));
+    CHECK(*most > 10 * segments.front());
+    CHECK(*most > 10 * segments.back());
+}
+
+TEST_CASE("Species by age: the older, the higher, and the same tree again for the same age", "[pgraph]") {
+    const auto grown = [](const std::string& species, int age) {
+        World world(read_scene(source_path("environments/species/" + species + ".toml"),
+                               {.overrides = {{"plant.0.age", std::to_string(age)}}}));
+        for (int step = 0; step < 4; ++step) world.step();
+        return to_text(world.string(0), world.model(0).alphabet) +
+               fmt::format("\n{}", world.interpretation(0).geometry.bounds.upper.y);
+    };
+    const auto height = [](const std::string& plant) { return std::stod(plant.substr(plant.rfind('\n') + 1)); };
+    for (const char* species : {"broadleaf", "willow", "palm"}) {
+        INFO(species);
+        double before = 0;
+        for (const int age : {1, 3, 8, 15, 30, 50}) {
+            const std::string plant = grown(species, age);
+            CHECK(height(plant) >= before);
+            before = height(plant);
+        }
+        CHECK(grown(species, 15) == grown(species, 15));
     }
 }

@@ -45,6 +45,11 @@ std::string surface(const ComponentText& text) {
     return sides ? fmt::format("@!({}) {} @Gs ", sides, width(text, "0")) : "";
 }
 
+/// Ahead by a piece of the axis: of a surface, which takes the place of internodes, or an internode.
+std::string piece_ahead(const ComponentText& text, const std::string& length) {
+    return sides_of(text.component()) ? "f(" + length + ") @Gc(1)" : "F(" + length + ")";
+}
+
 /// Behind the axis, whose surface ends there or goes on along another one.
 std::string end_of_surface(const ComponentText& text) {
     const bool goes_on = !text.continuation().empty();
@@ -63,10 +68,6 @@ void write_beginning(ComponentText& text, const std::string& module, const std::
 std::string joined(const std::string& first, const std::string& rest) {
     return rest.empty() ? first : first + ", " + rest;
 }
-
-}  // namespace
-
-namespace {
 
 /// Arrays of the turns before each piece of a horn that follows a curve, and of the lengths of the pieces; the turns
 /// and the step as modules.
@@ -98,7 +99,7 @@ std::string along_curve(ComponentText& text) {
     for (const auto& [array, values] : {std::pair{"turn", &turns}, {"pitch", &pitches}, {"length", &lengths}}) {
         text.arrays.push_back(fmt::format("array {}_{}[{}] = {{{}}};", array, name, pieces, fmt::join(*values, ", ")));
     }
-    return fmt::format("+(turn_{0}[k]) &(pitch_{0}[k]) F(length_{0}[k])", name);
+    return fmt::format("+(turn_{0}[k]) &(pitch_{0}[k]) {1}", name, piece_ahead(text, "length_" + name + "[k]"));
 }
 
 }  // namespace
@@ -118,7 +119,7 @@ void write_horn(ComponentText& text) {
     const std::string pieces = text.declared(piece, "k, " + names);
     write_beginning(text, horn, fmt::format("{}(0, {}){}", piece, names, end_of_surface(text)));
     const std::string drawn =
-        width(text, "(k + 1) / pieces") + " " + (is_curve ? along_curve(text) : "F(length / pieces)");
+        width(text, "(k + 1) / pieces") + " " + (is_curve ? along_curve(text) : piece_ahead(text, "length / pieces"));
     text.homomorphism.push_back(fmt::format("{} : k < pieces - 1 --> {} {}{}(k + 1, {})", pieces, drawn,
                                             rotation(text, "k / max(pieces - 2, 1)"), piece, names));
     text.homomorphism.push_back(fmt::format("{} --> {}", pieces, drawn));
@@ -136,9 +137,9 @@ void write_axis(ComponentText& text, const std::string& names) {
     const std::string pieces = text.declared(piece, joined("k, m, from, to", names));
     const std::string share = "((to - from) * pieces / max(m, 1))";
     const std::string middle = "lerp(from, to, (k + 0.5) / max(m, 1))", end = "lerp(from, to, (k + 1) / max(m, 1))";
-    text.homomorphism.push_back(
-        fmt::format("{} : k < max(m, 1) --> {}{}{} F(length * (to - from) / max(m, 1)) {}(k + 1, m, from, to, {})",
-                    pieces, rotation(text, middle, share), text.pull(share), width(text, end), piece, names));
+    text.homomorphism.push_back(fmt::format("{} : k < max(m, 1) --> {}{}{} {} {}(k + 1, m, from, to, {})", pieces,
+                                            rotation(text, middle, share), text.pull(share), width(text, end),
+                                            piece_ahead(text, "length * (to - from) / max(m, 1)"), piece, names));
     text.homomorphism.push_back(fmt::format("{} --> *", pieces));
 }
 
