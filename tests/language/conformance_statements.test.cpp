@@ -157,7 +157,9 @@ TEST_CASE("13 declared modules, processes, constants, symbols", "[conformance]")
           "Internode(1)[+(137.514)]?light(1)?E(3)A(4)");
     CHECK(mistake(declared + lsystem_of("", "Apex(1)", "A(x) --> B\n")).find("declared with 2 parameters") !=
           std::string::npos);
-    quote("`environment ...;`, `module ...;` and `const ...;` are written before `lsystem:` or in its header.");
+    quote(
+        "`environment ...;`, `module ...;`, `const ...;` and `field ...;` are written before `lsystem:` or in its "
+        "header.");
     CHECK(derived("lsystem: 1\nconst n = 2;\nmodule Bud;\nderivation length: n\naxiom: Bud\nBud --> BudB\n"
                   "endlsystem\n") == "BudBB");
     quote("A symbol may be any Unicode character.");

@@ -42,8 +42,14 @@ public:
     }
 
     std::optional<double> value_of(const std::string& expression, const Place& place) {
+        return value_of(expression, place, {});
+    }
+
+    /// The value with names replaced by numbers.
+    std::optional<double> value_of(const std::string& expression, const Place& place,
+                                   const std::map<std::string, std::string>& names) {
         try {
-            return trial_.value(expression);
+            return trial_.value(substituted(expression, names));
         } catch (const UserError& error) {
             report(place, fmt::format("'{}' is no expression: {}", expression, error.what()));
             return std::nullopt;
@@ -89,7 +95,7 @@ private:
             if (differs_by_instance(part)) {
                 report(value.place, fmt::format("'{}' is a function of the place x, y, z alone", key.name));
             }
-            value_of(substituted(part, {{"x", "0.3"}, {"y", "0.5"}, {"z", "0.7"}}), value.place);
+            value_of(part, value.place, {{"x", "0.3"}, {"y", "0.5"}, {"z", "0.7"}});
         }
     }
 
