@@ -367,13 +367,14 @@ TEST_CASE("Horns that follow one another are one closed surface, without an edge
     CHECK(EdgeCount(again.mesh).closed);
     CHECK(euler_characteristic(again.mesh) == 2);
     // One that also stands alone begins a surface of its own there.
-    const PlantGeometry two = drawn(horns + "camera -> lower -> upper\ncamera -> upper\n");
+    const PlantGeometry two =
+        drawn(horns + "Simple aside\n  move 5\ncamera -> lower -> upper\ncamera -> aside -> upper\n");
     CHECK(euler_characteristic(two.mesh) == 4);
 }
 
 TEST_CASE("A branch with a closed surface begins within that of its tree", "[pgraph]") {
     const PlantGeometry tree = drawn(
-        "Tree stem\n  sides 8\n  branches 3\n  length 3\nHorn twig\n  sides 6\n  radius 0.02 .. 0.01\n"
+        "Tree stem\n  sides 8\n  branches 3\n  at 0.2 .. 0.8\n  length 3\nHorn twig\n  sides 6\n  radius 0.02 .. 0.01\n"
         "camera -> stem -B-> twig\n");
     CHECK(EdgeCount(tree.mesh).closed);
     CHECK(euler_characteristic(tree.mesh) == 8);  // four closed surfaces
@@ -525,6 +526,7 @@ TEST_CASE("The broadleaved tree: the higher, the more branches", "[pgraph]") {
 
 TEST_CASE("A tree that grows and dies has more and more segments, and then fewer and fewer", "[pgraph]") {
     World world(read_scene(source_path("environments/life-of-a-tree.toml")));
+    world.start();
     std::vector<std::size_t> segments;
     for (int year = 0; year <= 100; ++year) {
         if (year > 0) world.step();
@@ -541,6 +543,7 @@ TEST_CASE("Species by age: the older, the higher, and the same tree again for th
     const auto grown = [](const std::string& species, int age) {
         World world(read_scene(source_path("environments/species/" + species + ".toml"),
                                {.overrides = {{"plant.0.age", std::to_string(age)}}}));
+        world.start();
         for (int step = 0; step < 4; ++step) world.step();
         return to_text(world.string(0), world.model(0).alphabet) +
                fmt::format("\n{}", world.interpretation(0).geometry.bounds.upper.y);

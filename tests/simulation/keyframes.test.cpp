@@ -38,6 +38,7 @@ public:
     /// The string of the plant after each step.
     std::vector<std::string> strings(const std::string& plant, int steps) const {
         World world(scene(plant));
+        world.start();
         std::vector<std::string> strings;
         for (int k = 0; k <= steps; ++k) {
             if (k > 0) world.step();
