@@ -542,7 +542,7 @@ TEST_CASE("A tree that grows and dies has more and more segments, and then fewer
 TEST_CASE("Species by age: the older, the higher, and the same tree again for the same age", "[pgraph]") {
     const auto grown = [](const std::string& species, int age) {
         World world(read_scene(source_path("environments/species/" + species + ".toml"),
-                               {.overrides = {{"plant.0.age", std::to_string(age)}}}));
+                               {{{"plant.0.age", std::to_string(age)}}, {}, {}}));
         world.start();
         for (int step = 0; step < 4; ++step) world.step();
         return to_text(world.string(0), world.model(0).alphabet) +
