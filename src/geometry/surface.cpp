@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace espalier::geometry {
 namespace {
@@ -150,10 +151,14 @@ SurfaceVertex evaluate(const BicubicPatch& patch, double s, double t) {
 
 SurfaceMesh mesh_of(const Surface& surface) {
     SurfaceMesh mesh;
+    std::map<std::array<double, 8>, std::uint32_t> known;
     for (const auto& triangle : surface.triangles) {
         for (const SurfaceVertex& vertex : triangle) {
-            mesh.indices.push_back(std::uint32_t(mesh.vertices.size()));
-            mesh.vertices.push_back(vertex);
+            const auto& [p, n, uv] = vertex;
+            const auto number = static_cast<std::uint32_t>(mesh.vertices.size());
+            const auto [at, is_new] = known.try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y}, number);
+            if (is_new) mesh.vertices.push_back(vertex);
+            mesh.indices.push_back(at->second);
         }
         mesh.faces.push_back(3);
     }

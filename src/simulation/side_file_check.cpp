@@ -79,7 +79,7 @@ void check_colours(const fs::path& path, Findings& findings) {
 std::string view_line(const fs::path& path) {
     const std::string extension = path.extension().string(), name = path.filename().string();
     if (extension == ".s") return fmt::format("surface: a {} 1\n", name);
-    if (extension == ".ray") return fmt::format("tsurface: a {} 1\n", name);
+    if (extension == ".ray" || extension == ".obj") return fmt::format("tsurface: a {} 1\n", name);
     if (extension == ".func") return fmt::format("function: {}\n", name);
     if (extension == ".fset") return fmt::format("function set: {}\n", name);
     if (extension != ".con") return "";
@@ -108,6 +108,7 @@ const std::map<std::string, Check>& checks() {
                                                   {".mat", check_colours},
                                                   {".s", check_named_by_view},
                                                   {".ray", check_named_by_view},
+                                                  {".obj", check_named_by_view},
                                                   {".func", check_named_by_view},
                                                   {".fset", check_named_by_view},
                                                   {".con", check_named_by_view}};

@@ -50,6 +50,10 @@ void read_triangles(std::string_view text) {
     use(read_triangles_text(text, "leaf.ray", 2, diagnostics));
 }
 
+void read_object_file(std::string_view text) {
+    mesh_of(read_object_text(text, "fuzz.obj", 1));
+}
+
 void read_contour(std::string_view text) {
     std::vector<Diagnostic> diagnostics;
     read_contour_text(text, "stem.con", diagnostics);
@@ -117,9 +121,9 @@ void read_menu(std::string_view text) {
     read_specifications(written(text));
 }
 
-constexpr std::array readers{read_view,     read_surface,       read_triangles, read_contour,
-                             read_function, read_functions,     read_curve,     read_scene,
-                             read_map,      read_material_file, read_animation, read_menu};
+constexpr std::array readers{read_view,      read_surface, read_triangles,  read_contour, read_function,
+                             read_functions, read_curve,   read_scene,      read_map,     read_material_file,
+                             read_animation, read_menu,    read_object_file};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include "catch.h"
 #include "temporary_folder.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -96,6 +97,46 @@ double volume_of(const Background& background) {
 }
 
 }  // namespace
+
+TEST_CASE("an organ of a Wavefront file keeps its vertices, its scale and its frame", "[side-files]") {
+    const std::string cube =
+        "# a house without a roof\nmtllib none.mtl\no house\nv 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 "
+        "2 3\n"
+        "v 0 2 3\nvn 0 0 -1\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl wall\n"
+        "f 4/4/1 3/3/1 2/2/1 1/1/1\nf -4//2 -3//2 -2//2 -1//2\n";
+    const Surface surface = read_object_text(cube, "house.obj", 0.5);
+    CHECK(surface.triangles.size() == 4);
+    const SurfaceMesh mesh = mesh_of(surface);
+    CHECK(mesh.vertices.size() == 8);
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const SurfaceVertex& vertex : mesh.vertices) {
+        low = glm::min(low, vertex.position);
+        high = glm::max(high, vertex.position);
+    }
+    CHECK(near(low, {-0.5, 0, -1.5}));  // left is -x, up is -z of an upright turtle
+    CHECK(near(high, {0, 1, 0}));
+    CHECK(near(surface.triangles[0][0].normal, {0, 0, 1}));
+    CHECK(surface.end == glm::dvec3(0));
+}
+
+TEST_CASE("a Wavefront file that is none is refused with its line", "[side-files]") {
+    const auto mistake = [](const std::string& text) {
+        try {
+            read_object_text(text, "a.obj", 1);
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    CHECK(mistake(square).find("there is no face in this file") != std::string::npos);
+    CHECK(mistake(square + "f 1 2 4\n").find("a.obj:4:7: there are 3 vertices above this face, not 4") == 0);
+    CHECK(mistake(square + "f 1 2 -4\n").find("there are 3 vertices above this face, not -4") != std::string::npos);
+    CHECK(mistake(square + "f 1/1 2/1 3/1\n").find("there are 0 texture coordinates") != std::string::npos);
+    CHECK(mistake(square + "f 1 2\n").find("three corners or more") != std::string::npos);
+    CHECK(mistake("v 0 zero 0\n").find("a.obj:1:5: expected 3 numbers") == 0);
+    CHECK(mistake(square + "f a b c\n").find("expected a number, as in f 1/1/1") != std::string::npos);
+}
 
 TEST_CASE("a surface is placed by its contact point, heading, up and size", "[geometry]") {
     // Worked out by hand for contact (1, 2, 3), end (2, 5, 7) and half the file's size: q = (0.5, 1.5, 2). In the

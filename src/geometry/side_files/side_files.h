@@ -34,12 +34,19 @@ std::optional<Surface> read_triangles_text(std::string_view text, const std::str
 std::optional<Surface> read_triangles(const std::filesystem::path& path, double size,
                                       std::vector<Diagnostic>& diagnostics);
 
+/// A surface of triangles from Wavefront OBJ, `size` times as large: its y is along heading, its x to the right and its
+/// z towards the viewer of a turtle that stands upright. Polygons are cut into triangles.
+Surface read_object_text(std::string_view text, const std::string& name, double size);
+Surface read_object(const std::filesystem::path& path, double size);
+
 }  // namespace espalier::geometry
 
 namespace espalier {
 
 using geometry::read_contour;
 using geometry::read_contour_text;
+using geometry::read_object;
+using geometry::read_object_text;
 using geometry::read_surface;
 using geometry::read_surface_text;
 using geometry::read_triangles;

@@ -89,7 +89,9 @@ void triangle_surface(ViewReader& reader) {
     const auto line = read_surface_line(reader);
     if (!line) return;
     const fs::path file = reader.require_file(line->file);
-    std::optional<Surface> surface = read_triangles(file, line->size, reader.view.diagnostics);
+    std::optional<Surface> surface = file.extension() == ".obj"
+                                         ? read_object(file, line->size)
+                                         : read_triangles(file, line->size, reader.view.diagnostics);
     reader.view.files.push_back(file);
     if (surface) reader.shapes.surfaces.emplace(surface_id(line->id), std::move(*surface));
 }
