@@ -31,10 +31,7 @@ private:
         if (!closed_ && last > 1 && k == 0) return end_slope(rise(0), rise(1));
         if (!closed_ && last > 1 && k == last) return end_slope(rise(last - 1), rise(last - 2));
         if (!closed_ && last == 1) return rise(0);
-        const double before = rise(k - 1), after = rise(k);
-        if (before * after <= 0) return 0;
-        const double least = std::min({std::abs(before), std::abs(after), std::abs(before + after) / 4});
-        return 2 * std::copysign(least, after);
+        return monotone_slope(rise(k - 1), rise(k));
     }
 
     /// Of the parabola through three values, kept from overshooting.
@@ -49,6 +46,12 @@ private:
 };
 
 }  // namespace
+
+double monotone_slope(double before, double after, double span_before, double span_after) {
+    if (before * after <= 0) return 0;
+    const double parabola = (before * span_after + after * span_before) / (span_before + span_after);
+    return 2 * std::copysign(std::min({std::abs(before), std::abs(after), std::abs(parabola) / 2}), after);
+}
 
 double monotone_curve(std::span<const double> values, double x, bool closed) {
     if (values.empty()) return 0;

@@ -2,6 +2,8 @@
 
 #include "espalier/language/model_settings.h"
 
+#include "base/monotone_curve.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,16 +43,11 @@ void check_values(const Keyframes& keyframes, const ModelSettings& settings) {
 
 }  // namespace
 
-// M. Steffen 1990: A simple method for monotonic interpolation in one dimension. Astron. Astrophys. 239, 443-450.
 double Keyframes::slope(std::size_t k) const {
     const auto rise = [&](std::size_t i) { return (values[i + 1] - values[i]) / (times[i + 1] - times[i]); };
     const std::size_t last = times.size() - 1;
     if (k == 0 || k == last) return rise(k == 0 ? 0 : last - 1);
-    const double before = rise(k - 1), after = rise(k);
-    if (before * after <= 0) return 0;
-    const double span_before = times[k] - times[k - 1], span_after = times[k + 1] - times[k];
-    const double parabola = (before * span_after + after * span_before) / (span_before + span_after);
-    return 2 * std::copysign(std::min({std::abs(before), std::abs(after), std::abs(parabola) / 2}), after);
+    return monotone_slope(rise(k - 1), rise(k), times[k] - times[k - 1], times[k + 1] - times[k]);
 }
 
 double Keyframes::at(double time) const {
