@@ -41,6 +41,7 @@ TEST_CASE_METHOD(Workplace, "a run is repeated from its run.json alone, byte for
     CHECK(again.err == "");
     CHECK(again.code == 0);
     CHECK(fs::exists(path() / "second" / "plants.pvd"));
+    CHECK(run("rerun first --threads 16 --quiet").code == 0);
     CHECK_THAT(run("rerun first").out, Contains("all files have the same bytes"));
 }
 
