@@ -59,7 +59,8 @@ TEST_CASE("polylines, lines and straight paths are axes, upside down and moved b
 
 TEST_CASE("branches that begin at one node are siblings, however roughly they are marked", "[marks]") {
     const MarkedPlant plant = marked(
-        "<polyline points=\"0,0 0,-40 0,-60\"/><polyline points=\"3,-41 30,-70\"/><polyline points=\"3,-42 -30,-70\"/>");
+        "<polyline points=\"0,0 0,-40 0,-60\"/><polyline points=\"3,-41 30,-70\"/><polyline points=\"3,-42 "
+        "-30,-70\"/>");
     CHECK(plant.axes[1].parent == 0U);
     CHECK(plant.axes[2].parent == 0U);
     CHECK(plant.axes[2].order == 1);
