@@ -69,6 +69,18 @@ for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir 
 done
 species black-oak --define ScaleV=3
 species weeping-willow --define Branches_3=60 --define QUALITY=0.5
+for shape in 1 2 3; do
+    grow "collision-$shape" models/phyllotaxis/collision.l --define SHAPE=$shape --every 900
+    render "collision-$shape.png" "collision-$shape" --size 260x300 --elevation 25
+done
+grow contact-pressure models/phyllotaxis/contact-pressure.l --every 180
+render contact-pressure.png contact-pressure --size 200x300 --elevation 25
+for sides in 3 6 12; do
+    grow "cells-$sides" environments/cells.toml --set plant.0.define.SIDES=$sides
+    render "cells-$sides.png" "cells-$sides" --size 260x260 --azimuth 0 --step 14 --elevation $((sides == 12 ? 20 : 90)) --no-ground
+done
+grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --set 'environment.cells.rule="wishes"' --steps 27
+render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground
 self_organizing() { # PICTURE [OPTIONS]
     grow "$1" environments/self-organizing.toml --set plant.0.define.YEARS=20 "${@:2}"
     render "$1.png" "$1" --size 320x360 --azimuth 20

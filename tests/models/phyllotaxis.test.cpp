@@ -216,3 +216,89 @@ TEST_CASE("rose: one petal a step, the older the more open and the larger", "[ph
     rose.grow(60);
     for (double age : values_of(rose.string, rose.model->alphabet, "P")) CHECK(age == 26);
 }
+
+namespace {
+
+// Organs of collision.l, which is grown until its receptacle is full.
+struct Receptacle {
+    std::vector<glm::dvec3> places;
+    std::vector<double> radii, azimuths, parts;
+
+    explicit Receptacle(const std::string& shape)
+        : plant_("models/phyllotaxis/collision.l", {{"SHAPE", shape}, {"MOST", "300"}}) {
+        plant_.grow(300);
+        for (const Organ& organ : plant_.interpretation.geometry.organs) {
+            if (organ.shape != Organ::Shape::sphere) continue;
+            places.push_back(organ.pose.position);
+            radii.push_back(organ.size.x / 2);
+        }
+        azimuths = values_of(plant_.string, plant_.model->alphabet, "O", 0);
+        parts = values_of(plant_.string, plant_.model->alphabet, "O", 1);
+    }
+
+    // Distance of two surfaces, in radii of the organ i.
+    double gap(std::size_t i, std::size_t j) const {
+        return (glm::distance(places[i], places[j]) - radii[i] - radii[j]) / radii[i];
+    }
+
+private:
+    LonePlant plant_;
+};
+
+}  // namespace
+
+TEST_CASE("collision: no organs overlap, and each above the base touches an earlier one a Fibonacci number before",
+          "[phyllotaxis]") {
+    for (const char* shape : {"1", "2", "3"}) {
+        const Receptacle receptacle(shape);
+        const std::size_t count = receptacle.places.size();
+        REQUIRE(count > 80);
+        REQUIRE(receptacle.azimuths.size() == count);
+        std::size_t contacts = 0, fibonacci_contacts = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (i > 0) CHECK(receptacle.azimuths[i] - receptacle.azimuths[i - 1] == Approx(golden_angle));
+            bool touches = receptacle.parts[i] == 0;
+            for (std::size_t j = 0; j < i; ++j) {
+                CHECK(receptacle.gap(i, j) > -1e-6);
+                if (receptacle.gap(i, j) > 1e-6) continue;
+                touches = true;
+                ++contacts;
+                fibonacci_contacts += fibonacci.count(static_cast<int>(i - j));
+            }
+            CHECK(touches);
+        }
+        INFO("shape " << shape << ": " << fibonacci_contacts << " of " << contacts);
+        CHECK(static_cast<double>(fibonacci_contacts) > 0.9 * static_cast<double>(contacts));
+    }
+}
+
+TEST_CASE("collision: the organs cover the receptacle up to its tip", "[phyllotaxis]") {
+    const Receptacle cactus("1");
+    CHECK(cactus.parts.back() > 0.9);
+    double worst = 0;  // from a place on the cactus to the nearest surface of an organ, in its radii
+    for (double part = 0.05; part <= 1; part += 0.05) {
+        const double turn = part * std::numbers::pi / 2;
+        for (int angle = 0; angle < 360; angle += 5) {
+            const double azimuth = angle * std::numbers::pi / 180, radius = 3 * std::cos(turn);
+            const glm::dvec3 place(radius * std::cos(azimuth), 5 * std::sin(turn), radius * std::sin(azimuth));
+            double nearest = INFINITY;
+            for (std::size_t i = 0; i < cactus.places.size(); ++i) {
+                nearest = std::min(nearest, glm::distance(place, cactus.places[i]) / cactus.radii[i]);
+            }
+            worst = std::max(worst, nearest);
+        }
+    }
+    CHECK(worst < 3);  // nowhere is there room for one more organ beside a gap
+}
+
+TEST_CASE("contact-pressure: from two rows the divergence comes to 137.5 +- 1 degrees as the rise falls",
+          "[phyllotaxis]") {
+    for (const char* last : {"0.04", "0.08", "0.15"}) {
+        LonePlant stem("models/phyllotaxis/contact-pressure.l", {{"LAST", last}});
+        stem.grow(180);
+        const std::vector<double> divergences = values_of(stem.string, stem.model->alphabet, "L");
+        REQUIRE(divergences.size() == 180);
+        for (std::size_t i = 1; i < 6; ++i) CHECK(divergences[i] == Approx(180).margin(0.01));
+        for (std::size_t i = 130; i < 180; ++i) CHECK(divergences[i] == Approx(137.5).margin(1));
+    }
+}
