@@ -5,7 +5,9 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <array>
 #include <bit>
+#include <map>
 #include <set>
 
 using namespace espalier;
@@ -82,6 +84,70 @@ TEST_CASE("cells: the published counts of every rule, on squares and on hexagons
     CHECK(cells_of("environments/cells.toml", 16,
                    overriding({{"environment.cells.rule", "\"wishes\""}, {"plant.0.define.PERSISTENT", "1"}})) ==
           std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 185});
+}
+
+TEST_CASE("cells: triangles, cubes and the bonds of a diamond fill as a separate program finds", "[environment]") {
+    // A neighbour is `steps[k]` away from an even cell, and minus that from an odd one.
+    using Site = std::array<int, 3>;
+    const auto separate = [](const std::vector<Site>& steps, int count, auto is_odd) {
+        std::set<Site> living{{0, 0, 0}};
+        std::vector<int> cells{1};
+        for (int step = 0; step < count; ++step) {
+            std::map<Site, int> touched;
+            for (const Site& cell : living) {
+                const int sign = is_odd(cell) ? -1 : 1;
+                for (const Site& by : steps) {
+                    ++touched[{cell[0] + sign * by[0], cell[1] + sign * by[1], cell[2] + sign * by[2]}];
+                }
+            }
+            for (const auto& [place, neighbours] : touched) {
+                if (neighbours == 1) living.insert(place);
+            }
+            cells.push_back(static_cast<int>(living.size()));
+        }
+        return cells;
+    };
+    const auto sides = [](const char* number, int steps) {
+        return cells_of("environments/cells.toml", steps, overriding({{"plant.0.define.SIDES", number}}));
+    };
+    CHECK(sides("3", 15) == std::vector<int>{1, 4, 10, 16, 22, 34, 52, 64, 70, 82, 106, 136, 160, 190, 232, 256});
+    CHECK(sides("3", 15) == separate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 15,
+                                     [](const Site& cell) { return cell[0] + cell[1] + cell[2] == 1; }));
+    CHECK(sides("8", 8) == separate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, 8,
+                                    [](const Site&) { return false; }));
+    CHECK(sides("12", 8) == separate({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, 8,
+                                     [](const Site& cell) { return cell[0] % 2 != 0; }));
+}
+
+TEST_CASE("cells: a cube of Ulam's cells has all 48 symmetries of the cube", "[environment]") {
+    SceneOptions options = overriding({{"plant.0.define.SIDES", "8"}});
+    options.steps = 6;
+    const auto world = grown("environments/cells.toml", options);
+    std::set<std::array<long, 3>> cells;
+    for (const Organ& organ : world->interpretation(0).geometry.organs) {
+        const glm::dvec3& place = organ.pose.position;
+        cells.insert({std::lround(place.x), std::lround(place.y), std::lround(place.z)});
+    }
+    REQUIRE(cells.size() == 109);
+    for (const std::array<long, 3>& cell : cells) {
+        std::array<long, 3> axes = {0, 1, 2};
+        do {
+            for (int signs = 0; signs < 8; ++signs) {
+                std::array<long, 3> image{};
+                for (std::size_t i = 0; i < 3; ++i) {
+                    image[i] = cell[static_cast<std::size_t>(axes[i])] * ((signs >> i) % 2 ? -1 : 1);
+                }
+                CHECK(cells.count(image) == 1);
+            }
+        } while (std::next_permutation(axes.begin(), axes.end()));
+    }
+}
+
+TEST_CASE("cells: with wishes to the side in every third step only, the births are Holladay's", "[environment]") {
+    const std::vector<int> cells =
+        cells_of("environments/cells.toml", 10,
+                 overriding({{"environment.cells.rule", "\"wishes\""}, {"plant.0.define.STRAIGHT", "1"}}));
+    CHECK(cells == std::vector<int>{1, 5, 9, 13, 25, 29, 33, 45, 57, 69, 105});
 }
 
 TEST_CASE("terminalia: 635, 230 and 107 forks after seven steps for the radii 0, 0.3 and 0.5", "[environment]") {
