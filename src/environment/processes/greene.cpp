@@ -1,0 +1,297 @@
+// greene: vines that seek their way in the voxels near the surfaces of a solid, towards sun and sky.
+// Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space: segments are tried at
+// random in allowed voxels, collisions rejected and the best trial taken; the light of a voxel is the share of the
+// sun's path and of the sky that is seen from it.
+#include "espalier/environment/environment_process.h"
+#include "espalier/environment/shape.h"
+#include "espalier/geometry/openvdb_grid.h"
+
+#include "environment/shade/exposure.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace espalier::environment {
+namespace {
+
+/// Where vines may grow.
+struct VineRoom {
+    std::shared_ptr<const Shape> solid;
+    double voxel, reach, clearance, ground;
+
+    explicit VineRoom(const Settings& settings) {
+        Settings table = settings.table("solid");
+        solid = read_shape(table);
+        voxel = settings.number_or("voxel", 0.1, Range::positive());
+        reach = settings.number_or("reach", 0.2, Range::positive());
+        clearance = settings.number_or("clearance", 0.01, Range::not_negative());
+        ground = settings.number_or("ground", 0);
+    }
+
+    openvdb::Coord voxel_of(const glm::dvec3& place) const {
+        const glm::dvec3 at = glm::floor(place / voxel);
+        return {static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z)};
+    }
+    glm::dvec3 centre_of(const openvdb::Coord& at) const { return voxel * (glm::dvec3(at.x(), at.y(), at.z()) + 0.5); }
+    /// Near the surface, above the ground, and in a voxel that is not solid.
+    bool allows(const glm::dvec3& place) const {
+        const double distance = solid->distance(place);
+        return distance >= clearance && distance <= reach && place.y >= ground &&
+               !solid->inside(centre_of(voxel_of(place)));
+    }
+    bool is_clear(const glm::dvec3& from, const glm::dvec3& direction, double length) const {
+        for (double along = 0; along < length;) {
+            const double distance = solid->distance(from + along * direction);
+            if (distance <= 0) return false;
+            along += std::max(distance, voxel / 16);
+        }
+        return true;
+    }
+};
+
+/// What a trial is worth.
+struct VineWeights {
+    double light, near, straight, up, crowd;
+
+    explicit VineWeights(const Settings& settings)
+        : light(settings.number_or("light", 1)),
+          near(settings.number_or("near", 0.5)),
+          straight(settings.number_or("straight", 0.3)),
+          up(settings.number_or("up", 0.3)),
+          crowd(settings.number_or("crowd", 0.3)) {}
+};
+
+struct VoxelLight {
+    double sun = 0, sky = 0;
+};
+
+struct VineTrial {
+    glm::dvec3 direction, place;
+    openvdb::Coord voxel;
+};
+
+/// Uniform in the cap of half-angle `spread` about the heading.
+glm::dvec3 direction_about(const Pose& pose, double least_cosine, RandomSamples& samples) {
+    const double cosine = 1 - samples.uniform() * (1 - least_cosine);
+    const double turn = 2 * glm::pi<double>() * samples.uniform(), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    return glm::normalize(cosine * pose.heading + sine * (std::cos(turn) * pose.left + std::sin(turn) * pose.up));
+}
+
+class Greene final : public EnvironmentProcess {
+public:
+    Greene(Settings& settings, const EnvironmentContext& context, Fields& fields)
+        : room_(settings),
+          weights_(settings.table("weights")),
+          key_(context.seed, 0, Stream::process, 0x677265656e65),
+          trials_(settings.integer_or("trials", 12, Range::between(1, 10000))),
+          least_cosine_(std::cos(glm::radians(settings.number_or("spread", 60, Range::between(0, 180))))),
+          most_nodes_(settings.number_or("most_nodes", 3, Range::positive())),
+          sun_share_(settings.number_or("sun_share", 0.5, Range::between(0, 1))),
+          sky_(sky_hemisphere(settings.integer_or("sky_samples", 128, Range::between(1, 1e6)))),
+          totals_(context.plants) {
+        const double latitude = settings.number_or("latitude", 50, Range::between(-90, 90));
+        const glm::dvec3 north = settings.vector_or("north", {0, 0, -1});
+        if (north.y != 0 || !(glm::length(north) > 0)) {
+            throw UserError(settings.place("north"), "'north' must be horizontal and not zero: [x, 0, z]");
+        }
+        sun_ = sun_path(latitude, settings.numbers_or("days", {80, 172, 264}),
+                        settings.integer_or("sun_samples", 32, Range::between(1, 1e6)), glm::normalize(north));
+        fields.provide({context.name, "1", "exposure to sun and sky of the voxels that vines have looked at", nullptr,
+                        true, [this] { return grid(); }});
+    }
+
+    void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+        nodes_.clear();
+        for (const Query& query : queries) ++nodes_[room_.voxel_of(query.pose.position)];
+        tried_.assign(queries.size(), {});
+        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+            if (seeks(queries[i])) tried_[i] = allowed_trials(queries[i], world.step);
+        });
+        look_at_voxels(queries);
+    }
+
+    void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        std::fill(totals_.begin(), totals_.end(), Totals());
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (seeks(queries[i])) answer_seeker(queries[i], tried_[i], answers[i]);
+            if (answers[i].size() >= 5) answer_place(queries[i].pose.position, answers[i]);
+        }
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        const Totals totals = plant < totals_.size() ? totals_[plant] : Totals();
+        return {{"grown", totals.grown},
+                {"stuck", totals.stuck},
+                {"chosen", totals.grown > 0 ? totals.chosen / totals.grown : 0},
+                {"rejected", totals.others > 0 ? totals.rejected / totals.others : 0}};
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+private:
+    /// Exposures of the trials of one step.
+    struct Totals {
+        double grown = 0, stuck = 0, chosen = 0, others = 0, rejected = 0;
+    };
+
+    static bool seeks(const Query& query) { return query.parameters.size() >= 4 && query.parameters[0] > 0; }
+
+    std::vector<VineTrial> allowed_trials(const Query& query, int step) const {
+        RandomSamples samples(key_, mix(query.identity, query.plant), static_cast<std::uint32_t>(step));
+        const double length = query.parameters[0];
+        std::vector<VineTrial> allowed;
+        for (std::int64_t i = 0; i < trials_; ++i) {
+            const glm::dvec3 direction = direction_about(query.pose, least_cosine_, samples);
+            const glm::dvec3 place = query.pose.position + length * direction;
+            const openvdb::Coord voxel = room_.voxel_of(place);
+            if (nodes_in(voxel) >= most_nodes_ || !room_.allows(place)) continue;
+            if (room_.is_clear(query.pose.position, direction, length)) allowed.push_back({direction, place, voxel});
+        }
+        return allowed;
+    }
+
+    double nodes_in(const openvdb::Coord& voxel) const {
+        const auto found = nodes_.find(voxel);
+        return found == nodes_.end() ? 0 : found->second;
+    }
+
+    /// Looks once at the light of every voxel that this step is the first to ask for.
+    void look_at_voxels(std::span<const Query> queries) {
+        std::vector<openvdb::Coord> asked;
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            if (queries[i].parameters.size() >= 5) asked.push_back(room_.voxel_of(queries[i].pose.position));
+            for (const VineTrial& trial : tried_[i]) asked.push_back(trial.voxel);
+        }
+        std::erase_if(asked, [&](const openvdb::Coord& voxel) { return light_.count(voxel) > 0; });
+        std::sort(asked.begin(), asked.end());
+        asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+        std::vector<VoxelLight> seen(asked.size());
+        tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
+            const glm::dvec3 centre = room_.centre_of(asked[i]);
+            seen[i] = {unobstructed(*room_.solid, centre, sun_, room_.voxel / 16),
+                       unobstructed(*room_.solid, centre, sky_, room_.voxel / 16)};
+        });
+        for (std::size_t i = 0; i < asked.size(); ++i) light_.emplace(asked[i], seen[i]);
+    }
+
+    double exposure(const VoxelLight& light) const { return sun_share_ * light.sun + (1 - sun_share_) * light.sky; }
+    double exposure(const openvdb::Coord& voxel) const { return exposure(light_.at(voxel)); }
+
+    double score(const VineTrial& trial, const glm::dvec3& heading) const {
+        const double near = 1 - room_.solid->distance(trial.place) / room_.reach;
+        return weights_.light * exposure(trial.voxel) + weights_.near * near +
+               weights_.straight * glm::dot(heading, trial.direction) + weights_.up * trial.direction.y -
+               weights_.crowd * nodes_in(trial.voxel);
+    }
+
+    void answer_seeker(const Query& query, std::span<const VineTrial> trials, Answer answer) {
+        Totals& totals = totals_.at(query.plant);
+        const VineTrial* best = nullptr;
+        double highest = -std::numeric_limits<double>::infinity();
+        for (const VineTrial& trial : trials) {
+            const double scored = score(trial, query.pose.heading);
+            if (scored > highest) best = &trial;
+            highest = std::max(highest, scored);
+        }
+        if (!best) {
+            answer[0] = 0;
+            ++totals.stuck;
+            return;
+        }
+        for (int k = 0; k < 3; ++k) answer[1 + k] = best->direction[k];
+        ++totals.grown;
+        totals.chosen += exposure(best->voxel);
+        for (const VineTrial& trial : trials) {
+            if (&trial == best) continue;
+            ++totals.others;
+            totals.rejected += exposure(trial.voxel);
+        }
+    }
+
+    void answer_place(const glm::dvec3& place, Answer answer) const {
+        const VoxelLight& light = light_.at(room_.voxel_of(place));
+        answer[4] = exposure(light);
+        if (answer.size() < 7) return;
+        answer[5] = light.sun;
+        answer[6] = light.sky;
+        if (answer.size() < 10) return;
+        const glm::dvec3 normal = room_.solid->sample(place).normal;
+        for (int k = 0; k < 3; ++k) answer[7 + k] = normal[k];
+    }
+
+    std::shared_ptr<const FieldGrid> grid() const {
+        initialize_openvdb();
+        auto field = std::make_shared<FieldGrid>();
+        field->grid = openvdb::FloatGrid::create(0);
+        field->grid->setTransform(cell_centred_transform(room_.voxel, {0, 0, 0}));
+        auto accessor = field->grid->getAccessor();
+        for (const auto& [voxel, light] : light_) {
+            field->box.expand(voxel);
+            accessor.setValue(voxel, static_cast<float>(exposure(light)));
+        }
+        return field;
+    }
+
+    VineRoom room_;
+    VineWeights weights_;
+    RandomKey key_;
+    std::int64_t trials_;
+    double least_cosine_, most_nodes_, sun_share_;
+    std::vector<glm::dvec3> sky_, sun_;
+    std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< of the voxels looked at so far; the solid does not move
+    std::unordered_map<openvdb::Coord, double> nodes_;      ///< of this step
+    std::vector<std::vector<VineTrial>> tried_;             ///< of this step, for each query
+    std::vector<Totals> totals_;
+};
+
+const std::string& greene_help() {
+    static const std::string text =
+        std::string(
+            R"(Vines grow in the voxels near a solid. A tip tries segments at random within the angle `spread` about its heading. A trial
+is allowed if it ends at most `reach` from the surface, at least `clearance` outside it, above the ground, in a voxel
+whose centre is not solid and which holds less than `most_nodes` queries, and if it does not pass through the solid.
+The trial with the highest score is chosen: light * exposure + near * (1 - distance / reach) + straight * cosine of its
+turn + up * its upward part - crowd * nodes in its voxel.
+
+?name(l, x, y, z)       -> a tip that wants a segment of l metres; l: 0 if no trial was allowed, else as it was;
+                           x, y, z: its direction, a unit vector
+?name(l, x, y, z, e)    -> and the exposure e of the voxel of the query, from 0 to 1, as all values of light;
+                           with l = 0 the query asks for this only
+?name(..., sun, sky)    -> with 7 parameters also the share of the time from sunrise to sunset in which the sun is
+                           seen from the centre of that voxel, and the share of the sky's solid angle that is seen
+?name(..., nx, ny, nz)  -> with 10 parameters also the unit normal of the nearest surface
+?name(p)                   is a node in its voxel, and keeps its value
+
+solid         required, the table of a shape: solid = { shape = "mesh", file = "house.obj" }
+voxel         0.1 m
+reach         0.2 m
+clearance     0.01 m
+ground        0 m: height below which nothing grows
+trials        12
+spread        60 degrees
+most_nodes    3
+weights       { light = 1, near = 0.5, straight = 0.3, up = 0.3, crowd = 0.3 }
+sun_share     0.5: exposure = sun_share * sun + (1 - sun_share) * sky
+latitude      50 degrees;  north  [0, 0, -1]
+days          [80, 172, 264]: days of the year; sun_samples  32 times a day, from sunrise to sunset
+sky_samples   128 directions
+
+Field: name, the exposure of the voxels that have been looked at. Only the solid casts shadow, not the vines.
+Statistics of a plant: grown and stuck, numbers of tips; chosen and rejected, mean exposures of the trials.
+
+)") + shape_help();
+    return text;
+}
+
+const Registered<ProcessType> entry{
+    {"greene", "vines that seek light along the surfaces of a solid (Greene 1989)", greene_help(), construct<Greene>}};
+
+}  // namespace
+}  // namespace espalier::environment

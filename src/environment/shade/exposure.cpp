@@ -1,0 +1,74 @@
+#include "environment/shade/exposure.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace espalier::environment {
+namespace {
+
+/// How far from `from` a ray can still meet the solid; of one without bounds, farther than anybody builds.
+double range_of(const Shape& solid, const glm::dvec3& from) {
+    const std::optional<Box> bounds = solid.bounds();
+    if (!bounds) return 1e5;
+    const glm::dvec3 farthest = glm::max(glm::abs(bounds->lower - from), glm::abs(bounds->upper - from));
+    return glm::length(farthest);
+}
+
+bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& direction, double range, double least_step) {
+    for (double along = 0; along <= range;) {
+        const double distance = solid.distance(from + along * direction);
+        if (distance <= 0) return true;
+        along += std::max(distance, least_step);
+    }
+    return false;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples) {
+    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+    std::vector<glm::dvec3> directions;
+    for (std::int64_t i = 0; i < samples; ++i) {
+        const double y = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
+        const double across = std::sqrt(1 - y * y), turn = golden_angle * static_cast<double>(i);
+        directions.emplace_back(across * std::cos(turn), y, across * std::sin(turn));
+    }
+    return directions;
+}
+
+std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
+                                 const glm::dvec3& north) {
+    const double phi = glm::radians(latitude);
+    const glm::dvec3 up(0, 1, 0), east = glm::cross(north, up);
+    std::vector<glm::dvec3> directions;
+    for (const double day : days) {
+        const double declination = glm::radians(23.45 * std::sin(2 * std::numbers::pi * (284 + day) / 365));
+        const double sunset = std::acos(std::clamp(-std::tan(phi) * std::tan(declination), -1.0, 1.0));
+        if (!(sunset > 0)) continue;
+        for (std::int64_t i = 0; i < samples; ++i) {
+            const double hour = sunset * ((2 * static_cast<double>(i) + 1) / static_cast<double>(samples) - 1);
+            const double height =
+                std::sin(phi) * std::sin(declination) + std::cos(phi) * std::cos(declination) * std::cos(hour);
+            const double northward =
+                std::cos(phi) * std::sin(declination) - std::sin(phi) * std::cos(declination) * std::cos(hour);
+            directions.push_back(height * up + northward * north - std::cos(declination) * std::sin(hour) * east);
+        }
+    }
+    return directions;
+}
+
+double unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
+                    double least_step) {
+    if (directions.empty()) return 0;
+    const double range = range_of(solid, from);
+    const auto free = std::count_if(directions.begin(), directions.end(), [&](const glm::dvec3& direction) {
+        return !meets(solid, from, direction, range, least_step);
+    });
+    return static_cast<double>(free) / static_cast<double>(directions.size());
+}
+
+}  // namespace espalier::environment

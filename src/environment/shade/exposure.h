@@ -1,0 +1,25 @@
+// How much of the sky and of the sun's path is seen past a solid.
+#pragma once
+
+#include "espalier/environment/shape.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace espalier::environment {
+
+/// Directions of equal solid angle over the upper half of the sphere (a Fibonacci lattice).
+std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples);
+
+/// Where the sun stands at `samples` times, evenly from sunrise to sunset of each day of the year; nothing for days
+/// without a sunrise. `north` is horizontal, latitude in degrees. Declination after Cooper 1969.
+std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
+                                 const glm::dvec3& north);
+
+/// The share of `directions` in which a ray from `from` meets nothing of `solid`; 0 inside it. The ray steps from
+/// distance to distance, at least by `least_step`. Without directions it is 0.
+double unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
+                    double least_step);
+
+}  // namespace espalier::environment
