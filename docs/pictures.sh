@@ -50,6 +50,14 @@ for scene in hedge ivy root-flare; do
     grow "$scene" "environments/$scene.toml"
     render "$scene.png" "$scene" --size 320x300 --azimuth 15
 done
+for scene in cohen cohen-vertical cohen-sources aono-kunii-field; do
+    grow "$scene" "environments/$scene.toml"
+    render "$scene.png" "$scene" --size 320x300
+done
+grow vines environments/vines.toml
+render vines.png vines --field house.distance:iso=0 --no-legend --size 640x480 --azimuth 25 --zoom 1.2
+grow climber environments/climber.toml
+render climber.png climber --field column.distance:iso=0 --no-legend --size 320x480 --azimuth 25
 plant_of_notation() { # NAME FILE
     grow "$1" "$2"
     render "$1.png" "$1" --size 300x300
