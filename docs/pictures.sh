@@ -91,8 +91,9 @@ grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --se
 render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground
 grow reaction-diffusion environments/reaction-diffusion.toml
 render reaction-diffusion.png reaction-diffusion --size 220x320 --elevation 20
+grow vein-net-tree environments/vein-net.toml --set environment.veins.uptake=0.1
+render vein-net-tree.png vein-net-tree --size 260x200
 grow vein-net environments/vein-net.toml
-render vein-net-30.png vein-net --size 260x200 --step 30
 render vein-net.png vein-net --size 260x200
 self_organizing() { # PICTURE [OPTIONS]
     grow "$1" environments/self-organizing.toml --set plant.0.define.YEARS=20 "${@:2}"

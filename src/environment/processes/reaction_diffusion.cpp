@@ -229,7 +229,7 @@ public:
                    static_cast<int>(settings.integer_or("rows", 40, Range::between(8, 1000)))}),
           cell_(cell),
           rounds_(settings.integer_or("rounds", 100, Range::between(1, 100'000))),
-          uptake_(settings.number_or("uptake", 0.1, Range::between(0, 1))),
+          uptake_(settings.number_or("uptake", 0.2, Range::between(0, 1))),
           activator_(sheet_.cells(), 0.001),
           inhibitor_(sheet_.cells(), 0.01),
           substrate_(sheet_.cells(), 1),
@@ -367,7 +367,7 @@ memory            0.003: how fast it follows the activator, part of the differen
 
 "net"
 ?name(v)          v -> how much of a vein this place is: 0, or about 0.9; the sheet begins at the origin of x and y
-uptake            0.1: how fast veins take up the substance
+uptake            0.2: how fast veins take up the substance; with 0.1 they branch but close no meshes
 
 Field: the activator around the unrolled stem, or the veins. Statistics: count, of organs or of cells of veins.
 Further parameters of a query keep their values.
