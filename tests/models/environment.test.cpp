@@ -150,6 +150,22 @@ TEST_CASE("cells: with wishes to the side in every third step only, the births a
     CHECK(cells == std::vector<int>{1, 5, 9, 13, 25, 29, 33, 45, 57, 69, 105});
 }
 
+TEST_CASE("reaction-diffusion: the stem bears every leaf that arose, and vein-net draws every cell of the net",
+          "[environment]") {
+    const auto stem = grown("environments/reaction-diffusion.toml");
+    const auto heights = values_of(stem->string(0), stem->model(0).alphabet, "L", 1);
+    CHECK(heights.size() > 30);
+    CHECK(*std::max_element(heights.begin(), heights.end()) > 1.5);
+    CHECK(*std::max_element(heights.begin(), heights.end()) < 0.01 * (20 + 160));
+
+    const auto net = grown("environments/vein-net.toml");
+    const auto cells = values_of(net->string(0), net->model(0).alphabet, "K");
+    CHECK(cells.size() == 56 * 40);
+    const auto veins = std::count_if(cells.begin(), cells.end(), [](double v) { return v > 0.5; });
+    CHECK(veins > 500);
+    CHECK(net->interpretation(0).geometry.organs.size() == static_cast<std::size_t>(veins));
+}
+
 TEST_CASE("terminalia: 635, 230 and 107 forks after seven steps for the radii 0, 0.3 and 0.5", "[environment]") {
     CHECK(forks_of("environments/terminalia.toml", 7, "0") == 635);
     CHECK(forks_of("environments/terminalia.toml", 7, "0.3") == 230);
