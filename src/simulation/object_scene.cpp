@@ -49,8 +49,9 @@ std::string scene_text(const ObjectFiles& object) {
     return text;
 }
 
+// By their index: the next colour, ; alone, is that of any map.
 bool chooses_colours(const Model& model) {
-    return model.alphabet.find_symbol(";") || model.alphabet.find_symbol(",");
+    return model.alphabet.find(";", 1) || model.alphabet.find(",", 1);
 }
 
 }  // namespace

@@ -392,7 +392,7 @@ TEST_CASE_METHOD(Objects, "models that choose colours take the colour map of the
         std::filesystem::create_directories(path() / folder);
     write("library/plants.map", std::string(3 * 256, '\x40'));
     write("library/herbs/red.l", lines);
-    write("library/herbs/plain.l", "lsystem: 1\nderivation length: 0\naxiom: F(1)\nendlsystem\n");
+    write("library/herbs/plain.l", "lsystem: 1\nderivation length: 0\naxiom: ;F(1)\nendlsystem\n");
     const auto has_colours = [&](const std::string& options) {
         const Outcome outcome = run("run " + options + " --quiet --overwrite --output out");
         INFO(outcome.err);

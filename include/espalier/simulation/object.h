@@ -15,7 +15,7 @@ struct ObjectFiles {
     std::string name;  ///< of the scene it makes; default: the model's
     std::filesystem::path model, view, animation, environment;
     std::map<int, std::filesystem::path> colour_maps, materials;  ///< by set; 1 is the turtle's
-    /// The colour map of a model that chooses colours with ; and , where neither map nor materials are given.
+    /// The colour map of a model that chooses colours by index, ;(3), where neither map nor materials are given.
     std::filesystem::path colours_of_library;
     std::filesystem::path folder;  ///< where files are looked for that are not beside the one that names them
     Defines defines;
