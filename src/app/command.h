@@ -13,6 +13,9 @@ namespace exit_code {
 inline constexpr int done = 0, user_error = 1, run_failed = 2, interrupted = 130;
 }
 
+/// Says why the program fails, with --json as an object too. Returns the code.
+int fail(const std::string& message, int code, bool json);
+
 /// A derived class adds its options to app() in its constructor; they are filled in when run() is called.
 class Command {
 public:

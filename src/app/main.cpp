@@ -101,16 +101,6 @@ void occupy_standard_streams() {
     if (descriptor >= 0) close(descriptor);
 }
 
-int fail(const std::string& message, int code, bool json) {
-    // Nobody is left to be told of an output that cannot be written; the exit code still says it.
-    std::fputs((message + "\n").c_str(), stderr);
-    if (json) {
-        const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", code}, {"message", message}};
-        std::fputs((result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n").c_str(), stdout);
-    }
-    return code;
-}
-
 /// The program's options and the commands that have registered themselves by now.
 struct CommandLine {
     CLI::App program{"Espalier grows plants from L-systems in a simulated environment, and records their growth.",
@@ -178,6 +168,16 @@ int parse_and_run(int argc, char** argv) {
 }
 
 }  // namespace
+
+int fail(const std::string& message, int code, bool json) {
+    // Nobody is left to be told of an output that cannot be written; the exit code still says it.
+    std::fputs((message + "\n").c_str(), stderr);
+    if (json) {
+        const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", code}, {"message", message}};
+        std::fputs((result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n").c_str(), stdout);
+    }
+    return code;
+}
 
 CommandMakers& command_makers() {
     static CommandMakers makers;

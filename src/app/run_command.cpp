@@ -47,13 +47,9 @@ void give_back_what_is_large() {
 
 // The process that does not answer cannot be left: the program ends where it is.
 [[noreturn]] void end_without_answer(const std::string& why, bool json) {
-    std::fputs((why + "\n").c_str(), stderr);
-    if (json) {
-        const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", exit_code::run_failed}, {"message", why}};
-        std::fputs((result.dump(2) + "\n").c_str(), stdout);
-        std::fflush(stdout);
-    }
-    std::_Exit(exit_code::run_failed);
+    const int code = fail(why, exit_code::run_failed, json);
+    std::fflush(stdout);
+    std::_Exit(code);
 }
 
 void print_result(const RunArguments& arguments, const Scene& scene, const fs::path& output, const RunResult& result) {

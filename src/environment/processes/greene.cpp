@@ -47,12 +47,7 @@ struct VineRoom {
                !solid->inside(centre_of(voxel_of(place)));
     }
     bool is_clear(const glm::dvec3& from, const glm::dvec3& direction, double length) const {
-        for (double along = 0; along < length;) {
-            const double distance = solid->distance(from + along * direction);
-            if (distance <= 0) return false;
-            along += std::max(distance, voxel / 16);
-        }
-        return true;
+        return !meets(*solid, from, direction, length, voxel / 16);
     }
 };
 

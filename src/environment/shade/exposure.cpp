@@ -18,16 +18,16 @@ double range_of(const Shape& solid, const glm::dvec3& from) {
     return glm::length(farthest);
 }
 
-bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& direction, double range, double least_step) {
-    for (double along = 0; along <= range;) {
+}  // namespace
+
+bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& direction, double length, double least_step) {
+    for (double along = 0; along < length;) {
         const double distance = solid.distance(from + along * direction);
         if (distance <= 0) return true;
         along += std::max(distance, least_step);
     }
     return false;
 }
-
-}  // namespace
 
 std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples) {
     const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));

@@ -17,8 +17,11 @@ std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples);
 std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
                                  const glm::dvec3& north);
 
-/// The share of `directions` in which a ray from `from` meets nothing of `solid`; 0 inside it. The ray steps from
-/// distance to distance, at least by `least_step`. Without directions it is 0.
+/// Whether a ray of that length meets the solid. It steps from distance to distance, at least by `least_step`.
+bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& direction, double length, double least_step);
+
+/// The share of `directions` in which a ray from `from` meets nothing of `solid`, as `meets` finds; 0 inside it.
+/// Without directions it is 0.
 double unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
                     double least_step);
 
