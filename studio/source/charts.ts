@@ -1,0 +1,122 @@
+/** Charts of the statistics over steps, beside those of a growth that was pinned before. */
+import type uPlot from "uplot";
+import { h, icon, remember, remembered } from "./elements.js";
+import { plotOverSteps, type Curve } from "./plot.js";
+import type { Statistics } from "./protocol.js";
+import type { Studio } from "./state.js";
+import type { Timeline } from "./timeline.js";
+
+const mostCharts = 6;
+
+export class ChartsPanel {
+  readonly element = h("div", "charts");
+  private readonly choice = h("div", "chips", { role: "group", "aria-label": "Columns" });
+  private readonly place = h("div", "chart-list");
+  private readonly pinButton: HTMLButtonElement;
+  private pinned: Statistics | null = null;
+  private plots: uPlot[] = [];
+  private chosen = remembered<string[]>("charts", []);
+  private offered = "";
+  private stale = false;
+
+  constructor(private readonly studio: Studio, private readonly timeline: Timeline) {
+    this.pinButton = h("button", "button small", { type: "button", "aria-pressed": "false", onclick: () => this.pin() }, icon("pin"), "Pin this growth");
+    this.element.append(h("div", "chart-bar", {}, this.pinButton,
+      h("button", "button small", { type: "button", onclick: () => this.save() }, "Copy as CSV")), this.choice, this.place);
+    studio.on("statistics", () => this.later());
+    studio.on("theme", () => this.later());
+    studio.on("shown", () => this.plots.forEach((plot) => plot.redraw(false)));
+    new ResizeObserver(() => this.later()).observe(this.element);
+  }
+
+  /** Draws once for many rows that come together. */
+  private later(): void {
+    if (this.stale) return;
+    this.stale = true;
+    setTimeout(() => {
+      this.stale = false;
+      this.offer();
+      this.draw();
+    }, 120);
+  }
+
+  private offer(): void {
+    const columns = this.studio.statistics.columns.slice(1).filter((name) => name !== "plant");
+    if (columns.join() === this.offered) return;
+    this.offered = columns.join();
+    const usual = columns.filter((name) => /^(modules|internodes|height|length|leaves)/.test(name)).slice(0, 3);
+    const known = this.chosen.filter((name) => columns.includes(name));
+    this.chosen = known.length > 0 ? known : usual.length > 0 ? usual : columns.slice(0, 2);
+    this.choice.replaceChildren(...columns.map((name) => {
+      const chip = h("button", "chip", { type: "button", "aria-pressed": String(this.chosen.includes(name)) }, name.replaceAll("_", " "));
+      chip.addEventListener("click", () => {
+        this.chosen = this.chosen.includes(name) ? this.chosen.filter((other) => other !== name) : [...this.chosen, name].slice(-mostCharts);
+        remember("charts", this.chosen);
+        for (const other of this.choice.querySelectorAll("button"))
+          other.setAttribute("aria-pressed", String(this.chosen.includes((other.textContent ?? "").replaceAll(" ", "_")) || this.chosen.includes(other.textContent ?? "")));
+        this.draw();
+      });
+      return chip;
+    }));
+  }
+
+  private pin(): void {
+    this.pinned = this.pinned ? null : structuredClone(this.studio.statistics);
+    this.pinButton.setAttribute("aria-pressed", String(this.pinned !== null));
+    this.pinButton.lastChild!.textContent = this.pinned ? "Remove the pin" : "Pin this growth";
+    this.draw();
+  }
+
+  private draw(): void {
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
+    const width = this.element.clientWidth - 8;
+    if (width < 60) return;
+    const { statistics } = this.studio;
+    if (statistics.rows.length === 0) {
+      this.place.replaceChildren(h("p", "hint", {}, "Charts appear when the plant has grown a step."));
+      return;
+    }
+    this.place.replaceChildren();
+    for (const name of this.chosen) this.chart(name, width);
+  }
+
+  private chart(name: string, width: number): void {
+    const steps = [...new Set([...stepsOf(this.studio.statistics), ...(this.pinned ? stepsOf(this.pinned) : [])])].sort((a, b) => a - b);
+    const curves = [...curvesOf(this.studio.statistics, name, steps, false),
+      ...(this.pinned ? curvesOf(this.pinned, name, steps, true) : [])];
+    const place = h("figure", "chart", {}, h("figcaption", "", {}, name.replaceAll("_", " ")));
+    this.place.append(place);
+    this.plots.push(plotOverSteps(place, steps, curves, {
+      width, height: 150, step: () => this.timeline.step, clicked: (step) => this.timeline.goTo(step),
+    }));
+  }
+
+  private save(): void {
+    const { columns, rows } = this.studio.statistics;
+    const text = [columns, ...rows].map((row) => row.join(",")).join("\n");
+    navigator.clipboard.writeText(`${text}\n`).then(
+      () => this.studio.tell("note", "The statistics of all steps are in the clipboard."),
+      () => this.studio.tell("error", "The browser refused the clipboard. Export the run to get statistics.csv."));
+  }
+}
+
+function stepsOf({ rows }: Statistics): number[] {
+  return rows.map((row) => row[0]);
+}
+
+/** One curve, or one for each plant if the statistics tell plants apart. */
+function curvesOf(statistics: Statistics, name: string, steps: number[], pinned: boolean): Curve[] {
+  const at = statistics.columns.indexOf(name);
+  if (at < 0) return [];
+  const plant = statistics.columns.indexOf("plant");
+  const plants = plant < 0 ? [-1] : [...new Set(statistics.rows.map((row) => row[plant]))].slice(0, 6);
+  return plants.map((which, index) => {
+    const values = new Map(statistics.rows.filter((row) => which < 0 || row[plant] === which).map((row) => [row[0], row[at]]));
+    const label = which < 0 ? name.replaceAll("_", " ") : (statistics.plants?.[which] ?? `plant ${which}`);
+    return {
+      name: pinned ? `${label}, pinned` : label, dashed: pinned, colour: pinned && plants.length === 1 ? 1 : index,
+      values: steps.map((step) => values.get(step) ?? null),
+    };
+  });
+}

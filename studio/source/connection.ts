@@ -1,0 +1,104 @@
+/** The WebSocket to the server: requests with replies, and a new try after a loss. */
+import { readMessage, type BinaryMessage } from "./view/index.js";
+import type { Requests, Said } from "./protocol.js";
+
+export type ConnectionState = "connecting" | "open" | "lost" | "refused";
+
+export class RequestError extends Error {}
+
+interface Waiting {
+  resolve: (reply: never) => void;
+  reject: (reason: Error) => void;
+}
+
+export interface ConnectionEvents {
+  state: (state: ConnectionState, tryAgainIn: number) => void;
+  said: (message: Said) => void;
+  binary: (message: BinaryMessage) => void;
+}
+
+const longestPause = 8; // seconds between two tries
+
+export class Connection {
+  state: ConnectionState = "connecting";
+  private socket: WebSocket | null = null;
+  private next = 1;
+  private pause = 0.5;
+  private timer = 0;
+  private readonly waiting = new Map<number, Waiting>();
+
+  constructor(private readonly token: string, private readonly events: ConnectionEvents) {}
+
+  connect(): void {
+    clearTimeout(this.timer);
+    const socket = new WebSocket(`ws://${location.host}/socket`);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    socket.addEventListener("open", () => void this.greet());
+    socket.addEventListener("message", (event: MessageEvent<string | ArrayBuffer>) => this.receive(event.data));
+    socket.addEventListener("close", () => {
+      if (this.socket === socket) this.lose();
+    });
+  }
+
+  request<Name extends keyof Requests>(name: Name, fields: Requests[Name]["send"]): Promise<Requests[Name]["get"]> {
+    const socket = this.socket;
+    if (!socket || socket.readyState !== WebSocket.OPEN)
+      return Promise.reject(new RequestError("There is no connection to the studio's program."));
+    const id = this.next++;
+    socket.send(JSON.stringify({ ...fields, do: name, id }));
+    return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }));
+  }
+
+  /** A file that a reply named. */
+  async file(number: number): Promise<Blob> {
+    const response = await fetch(`/file/${number}`, { headers: { Authorization: `Bearer ${this.token}` } });
+    if (!response.ok) throw new RequestError(`The file could not be read (${response.status}).`);
+    return response.blob();
+  }
+
+  private async greet(): Promise<void> {
+    try {
+      await this.request("hello", { token: this.token });
+      this.pause = 0.5;
+      this.become("open");
+    } catch (error) {
+      if (error instanceof RequestError && this.socket?.readyState === WebSocket.OPEN) {
+        this.become("refused");
+        this.socket.close();
+      }
+    }
+  }
+
+  private lose(): void {
+    this.socket = null;
+    for (const { reject } of this.waiting.values()) reject(new RequestError("The connection to the studio's program was lost."));
+    this.waiting.clear();
+    if (this.state === "refused") return;
+    this.become("lost");
+    this.timer = window.setTimeout(() => this.connect(), this.pause * 1000);
+    this.pause = Math.min(longestPause, this.pause * 1.6);
+  }
+
+  private become(state: ConnectionState): void {
+    this.state = state;
+    this.events.state(state, this.pause);
+  }
+
+  private receive(data: string | ArrayBuffer): void {
+    if (typeof data !== "string") {
+      this.events.binary(readMessage(data));
+      return;
+    }
+    const message = JSON.parse(data) as Said | ({ reply: number; error?: string });
+    if ("say" in message) this.events.said(message);
+    else this.answer(message);
+  }
+
+  private answer(message: { reply: number; error?: string }): void {
+    const waiting = this.waiting.get(message.reply);
+    this.waiting.delete(message.reply);
+    if (message.error !== undefined) waiting?.reject(new RequestError(message.error));
+    else waiting?.resolve(message as never);
+  }
+}

@@ -1,0 +1,312 @@
+/** The texts of the document: a tab and an editor for each. */
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
+import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { bracketMatching, indentUnit, syntaxHighlighting } from "@codemirror/language";
+import { lintGutter, setDiagnostics, type Diagnostic } from "@codemirror/lint";
+import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
+import { Annotation, EditorState, StateEffect, StateField, Transaction, type Extension, type TransactionSpec } from "@codemirror/state";
+import {
+  Decoration, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap,
+  lineNumbers, type DecorationSet,
+} from "@codemirror/view";
+import { classHighlighter } from "@lezer/highlight";
+import type { Changes } from "../changes.js";
+import { h, remember, remembered } from "../elements.js";
+import type { Problem, StudioDocument, TextFile } from "../protocol.js";
+import { sideEditor } from "../side/side.js";
+import type { Studio } from "../state.js";
+import { cpfg } from "./cpfg.js";
+import { completion, hoverHelp } from "./help.js";
+import { Agreement } from "./texts.js";
+import { toml } from "./toml.js";
+
+const transientAfter = 150; // milliseconds without typing
+const lastingAfter = 1500;
+
+const fromServer = Annotation.define<boolean>();
+const markLines = StateEffect.define<number[]>();
+
+const markedLines = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(marks, transaction) {
+    marks = marks.map(transaction.changes);
+    for (const effect of transaction.effects) {
+      if (!effect.is(markLines)) continue;
+      const { doc } = transaction.state;
+      const lines = [...new Set(effect.value)].filter((line) => line >= 1 && line <= doc.lines).sort((a, b) => a - b);
+      marks = Decoration.set(lines.map((line) => Decoration.line({ class: "marked-line" }).range(doc.line(line).from)));
+    }
+    return marks;
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+interface OpenText {
+  file: TextFile;
+  state: EditorState;
+  agreement: Agreement;
+}
+
+const draftKey = "drafts";
+
+export class Editor {
+  readonly element: HTMLElement;
+  private readonly tabs = h("div", "tabs", { role: "tablist", "aria-label": "Texts of the document" });
+  private readonly view: EditorView;
+  private readonly sideTools = h("div", "side-tools");
+  private readonly texts = new Map<string, OpenText>();
+  private shown: string | null = null;
+  private documentPath = "";
+  private soon = 0;
+  private later = 0;
+
+  constructor(private readonly studio: Studio, private readonly changes: Changes) {
+    const place = h("div", "editor-text");
+    this.view = new EditorView({ parent: place, state: EditorState.create({}) });
+    this.element = h("div", "editor", {}, this.tabs, this.sideTools, place);
+    this.view.contentDOM.addEventListener("blur", () => this.sendLasting());
+    studio.on("document", (document) => this.hear(document));
+    studio.on("problems", (problems) => this.underline(problems));
+    studio.on("connection", (state) => {
+      if (state === "open") this.resend();
+      if (state === "lost") this.keepDrafts();
+    });
+  }
+
+  /** Shows a text and a line of it. */
+  goTo(path: string, line: number, column: number): void {
+    const key = this.keyOf(path);
+    if (key === null) return;
+    this.showText(key);
+    const { doc } = this.view.state;
+    const target = doc.line(Math.min(Math.max(1, line), doc.lines));
+    const anchor = Math.min(target.to, target.from + Math.max(0, column - 1));
+    this.view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: "center" }) });
+    this.view.focus();
+  }
+
+  /** Marks lines of the texts, such as the production that made an organ. */
+  mark(places: { file: string; line: number }[]): void {
+    for (const key of this.texts.keys()) {
+      const lines = places.filter(({ file }) => this.keyOf(file) === key).map(({ line }) => line);
+      this.dispatchTo(key, { effects: markLines.of(lines) });
+    }
+    const first = places[0];
+    const key = first ? this.keyOf(first.file) : null;
+    if (key === null || key !== this.shown) return;
+    const { doc } = this.view.state;
+    if (first.line <= doc.lines)
+      this.view.dispatch({ effects: EditorView.scrollIntoView(doc.line(first.line).from, { y: "center" }) });
+  }
+
+  contentOf(path: string): string {
+    return this.stateOf(path)?.doc.toString() ?? "";
+  }
+
+  /** Replaces a text from outside of the editor, as an editor of curves does. */
+  replace(path: string, content: string, lasting: boolean): void {
+    this.setContent(path, content);
+    const label = `Edit ${shortName(path)}`;
+    this.texts.get(path)?.agreement.send(content);
+    const change = { texts: { [path]: content } };
+    if (lasting) this.changes.lasting(`text ${path}`, change, label);
+    else this.changes.transient(`text ${path}`, change, label);
+  }
+
+  /** Sends what is typed; done before the document is saved or an undo is asked for. */
+  sendLasting(): void {
+    clearTimeout(this.soon);
+    clearTimeout(this.later);
+    for (const [path, text] of this.texts) {
+      const content = this.stateOf(path)?.doc.toString() ?? "";
+      if (!this.pending.has(path) && !text.agreement.ahead(content)) continue;
+      this.pending.delete(path);
+      text.agreement.send(content);
+      this.changes.lasting(`text ${path}`, { texts: { [path]: content } }, `Edit ${shortName(path)}`);
+    }
+  }
+
+  private readonly pending = new Set<string>();
+
+  private typed(): void {
+    const path = this.shown;
+    if (path === null) return;
+    this.pending.add(path);
+    clearTimeout(this.soon);
+    clearTimeout(this.later);
+    this.soon = window.setTimeout(() => this.sendTransient(path), transientAfter);
+    this.later = window.setTimeout(() => this.sendLasting(), lastingAfter);
+    if (this.studio.connection.state !== "open") this.keepDrafts();
+  }
+
+  private sendTransient(path: string): void {
+    const content = this.contentOf(path);
+    this.texts.get(path)?.agreement.send(content);
+    this.changes.transient(`text ${path}`, { texts: { [path]: content } }, `Edit ${shortName(path)}`);
+  }
+
+  private resend(): void {
+    const drafts = remembered<Record<string, string>>(draftKey, {});
+    remember(draftKey, {});
+    // The document arrives with the connection; what was typed meanwhile is sent after it.
+    setTimeout(() => {
+      for (const [path, content] of Object.entries(drafts)) this.restore(path, content);
+      this.sendLasting();
+    }, 300);
+  }
+
+  private restore(path: string, content: string): void {
+    const key = path.startsWith(`${this.documentPath}\n`) ? path.slice(this.documentPath.length + 1) : null;
+    if (key === null || !this.texts.has(key) || this.contentOf(key) === content) return;
+    this.setContent(key, content);
+    this.pending.add(key);
+    this.studio.tell("note", `Text of ${shortName(key)} that was typed while there was no connection is back.`);
+  }
+
+  private keepDrafts(): void {
+    const drafts: Record<string, string> = {};
+    for (const [path, text] of this.texts)
+      if (text.agreement.ahead(this.contentOf(path))) drafts[`${this.documentPath}\n${path}`] = this.contentOf(path);
+    if (Object.keys(drafts).length > 0) remember(draftKey, drafts);
+  }
+
+  private hear(document: StudioDocument): void {
+    if (document.path !== this.documentPath) {
+      this.documentPath = document.path;
+      this.texts.clear();
+      this.pending.clear();
+      this.shown = null;
+    }
+    for (const path of this.texts.keys())
+      if (!document.texts.some((file) => file.path === path)) this.texts.delete(path);
+    for (const file of document.texts) this.hearText(file);
+    if (this.shown === null || !this.texts.has(this.shown)) this.showFirst(document);
+    this.drawTabs();
+  }
+
+  private hearText(file: TextFile): void {
+    const text = this.texts.get(file.path);
+    if (!text) {
+      this.texts.set(file.path, { file, state: this.newState(file), agreement: new Agreement(file.content) });
+      return;
+    }
+    text.file = file;
+    const content = text.agreement.hear(file.content, this.contentOf(file.path));
+    if (content !== null) this.setContent(file.path, content);
+  }
+
+  private showFirst(document: StudioDocument): void {
+    const first = document.texts.find(({ role }) => role === "main") ?? document.texts[0];
+    const model = document.kind === "object" ? document.texts.find(({ role }) => role === "model") : undefined;
+    const file = model ?? first;
+    if (file) this.showText(file.path);
+  }
+
+  private showText(path: string): void {
+    const text = this.texts.get(path);
+    if (!text || path === this.shown) return;
+    if (this.shown !== null) {
+      const before = this.texts.get(this.shown);
+      if (before) before.state = this.view.state;
+    }
+    this.shown = path;
+    this.view.setState(text.state);
+    this.drawTabs();
+    this.sideTools.replaceChildren(...sideEditor(text.file, {
+      content: () => this.contentOf(path),
+      change: (content, lasting) => this.replace(path, content, lasting),
+    }));
+    this.underline(this.studio.problems);
+  }
+
+  private drawTabs(): void {
+    const wrong = new Set(this.studio.problems.filter(({ severity }) => severity === "error").map(({ file }) => this.keyOf(file)));
+    this.tabs.replaceChildren(...[...this.texts.values()].map(({ file }) =>
+      h("button", `tab${wrong.has(file.path) ? " wrong" : ""}`, {
+        role: "tab", type: "button", "aria-selected": String(file.path === this.shown), title: file.path,
+        onclick: () => this.showText(file.path),
+      }, shortName(file.path), file.changed ? h("span", "dot", { title: "Not saved" }, "●") : null)));
+  }
+
+  private stateOf(path: string): EditorState | undefined {
+    return path === this.shown ? this.view.state : this.texts.get(path)?.state;
+  }
+
+  private dispatchTo(path: string, specification: TransactionSpec): void {
+    if (path === this.shown) {
+      this.view.dispatch(specification);
+      return;
+    }
+    const text = this.texts.get(path);
+    if (text) text.state = text.state.update(specification).state;
+  }
+
+  /** Replaces what differs, so that cursor and marks stay where they are. */
+  private setContent(path: string, content: string): void {
+    const before = this.contentOf(path);
+    let from = 0;
+    const shorter = Math.min(before.length, content.length);
+    while (from < shorter && before[from] === content[from]) from++;
+    let end = 0;
+    while (end < shorter - from && before[before.length - 1 - end] === content[content.length - 1 - end]) end++;
+    this.dispatchTo(path, {
+      changes: { from, to: before.length - end, insert: content.slice(from, content.length - end) },
+      annotations: [fromServer.of(true), Transaction.addToHistory.of(false)],
+    });
+  }
+
+  private keyOf(file: string): string | null {
+    if (this.texts.has(file)) return file;
+    for (const path of this.texts.keys()) if (path.endsWith(`/${file}`) || file.endsWith(`/${path}`)) return path;
+    return null;
+  }
+
+  private underline(problems: Problem[]): void {
+    this.drawTabs();
+    if (this.shown === null) return;
+    const { doc } = this.view.state;
+    const diagnostics: Diagnostic[] = problems
+      .filter(({ file }) => this.keyOf(file) === this.shown)
+      .map((problem) => {
+        const line = doc.line(Math.min(Math.max(1, problem.line), doc.lines));
+        const from = Math.min(line.to, line.from + Math.max(0, problem.column - 1));
+        const word = /^\s*[\w@.]+|^\s*\S/.exec(doc.sliceString(from, line.to));
+        const severity = problem.severity === "note" ? "info" : problem.severity;
+        return { from, to: Math.min(line.to, from + Math.max(1, word?.[0].length ?? 1)), severity, message: problem.message };
+      });
+    this.view.dispatch(setDiagnostics(this.view.state, diagnostics));
+  }
+
+  private newState(file: TextFile): EditorState {
+    return EditorState.create({ doc: file.content, extensions: [this.extensions(), this.languageOf(file)] });
+  }
+
+  private languageOf(file: TextFile): Extension {
+    const help = () => this.studio.help;
+    if (file.language === "cpfg")
+      return [cpfg(), autocompletion({ override: [completion("cpfg", help)] }), hoverHelp("cpfg", help)];
+    if (file.language === "toml" || file.language === "species")
+      return [toml(), autocompletion({ override: [completion("toml", help)] }), hoverHelp("toml", help)];
+    return [];
+  }
+
+  private extensions(): Extension {
+    return [
+      lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), bracketMatching(),
+      closeBrackets(), highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(), markedLines,
+      indentUnit.of("\t"), EditorState.tabSize.of(4), syntaxHighlighting(classHighlighter),
+      keymap.of([
+        ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, indentWithTab,
+      ]),
+      EditorView.contentAttributes.of({ "aria-label": "Text of the model" }),
+      EditorView.updateListener.of((update) => {
+        const own = update.transactions.some((one) => one.docChanged && !one.annotation(fromServer));
+        if (update.docChanged && own) this.typed();
+      }),
+    ];
+  }
+}
+
+export function shortName(path: string): string {
+  return path.slice(path.lastIndexOf("/") + 1);
+}

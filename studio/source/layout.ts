@@ -1,0 +1,118 @@
+/** The arrangement of the page: panels beside the picture, whose sizes are remembered. */
+import { h, remember, remembered } from "./elements.js";
+
+interface Sizes {
+  left: number;
+  right: number;
+  leftOpen: boolean;
+  rightOpen: boolean;
+}
+
+const usual: Sizes = { left: 400, right: 330, leftOpen: true, rightOpen: true };
+
+export class Layout {
+  readonly element: HTMLElement;
+  readonly left = h("aside", "panel left", { "aria-label": "Texts" });
+  readonly right = h("aside", "panel right", { "aria-label": "Settings and measurements" });
+  readonly centre = h("main", "centre");
+  private sizes: Sizes = { ...usual, ...remembered<Partial<Sizes>>("sizes", {}) };
+  /** Called when the picture may have another size. */
+  changed: () => void = () => undefined;
+
+  constructor() {
+    this.element = h("div", "columns", {}, this.left, this.handle("left"), this.centre, this.handle("right"), this.right);
+    this.apply();
+  }
+
+  toggle(side: "left" | "right"): void {
+    this.setOpen(side, !this.isOpen(side));
+  }
+
+  isOpen(side: "left" | "right"): boolean {
+    return side === "left" ? this.sizes.leftOpen : this.sizes.rightOpen;
+  }
+
+  setOpen(side: "left" | "right", open: boolean): void {
+    if (side === "left") this.sizes.leftOpen = open;
+    else this.sizes.rightOpen = open;
+    this.apply();
+  }
+
+  private apply(): void {
+    const { left, right, leftOpen, rightOpen } = this.sizes;
+    this.element.style.setProperty("--left", leftOpen ? `${left}px` : "0px");
+    this.element.style.setProperty("--right", rightOpen ? `${right}px` : "0px");
+    this.left.hidden = !leftOpen;
+    this.right.hidden = !rightOpen;
+    remember("sizes", this.sizes);
+    this.changed();
+  }
+
+  private resize(side: "left" | "right", width: number): void {
+    const most = Math.max(240, window.innerWidth - (side === "left" ? this.sizes.right : this.sizes.left) - 320);
+    this.sizes[side] = Math.round(Math.min(most, Math.max(220, width)));
+    this.apply();
+  }
+
+  private handle(side: "left" | "right"): HTMLElement {
+    const label = side === "left" ? "Width of the texts" : "Width of the settings";
+    const handle = h("div", "handle", { role: "separator", tabindex: 0, "aria-orientation": "vertical", "aria-label": label });
+    handle.addEventListener("pointerdown", (event) => handle.setPointerCapture(event.pointerId));
+    handle.addEventListener("pointermove", (event) => {
+      if (!handle.hasPointerCapture(event.pointerId)) return;
+      const box = this.element.getBoundingClientRect();
+      this.resize(side, side === "left" ? event.clientX - box.left : box.right - event.clientX);
+    });
+    handle.addEventListener("keydown", (event) => {
+      const step = event.key === "ArrowLeft" ? -24 : event.key === "ArrowRight" ? 24 : 0;
+      if (step === 0) return;
+      event.preventDefault();
+      this.resize(side, this.sizes[side] + (side === "left" ? step : -step));
+    });
+    handle.addEventListener("dblclick", () => this.resize(side, usual[side]));
+    return handle;
+  }
+}
+
+export interface Tab {
+  name: string;
+  content: HTMLElement;
+}
+
+/** Panels of which one shows, chosen by tabs. */
+export class Tabs {
+  readonly element: HTMLElement;
+  private readonly buttons: HTMLButtonElement[];
+
+  constructor(label: string, private readonly tabs: Tab[], private readonly key: string) {
+    this.buttons = tabs.map(({ name }) =>
+      h("button", "tab", { type: "button", role: "tab", onclick: () => this.show(name) }, name));
+    const bar = h("div", "tabs", { role: "tablist", "aria-label": label }, ...this.buttons);
+    bar.addEventListener("keydown", (event) => this.step(event));
+    for (const { name, content } of tabs) {
+      content.setAttribute("role", "tabpanel");
+      content.setAttribute("aria-label", name);
+    }
+    this.element = h("div", "tabbed", {}, bar, ...tabs.map(({ content }) => content));
+    this.show(remembered(key, tabs[0].name));
+  }
+
+  show(name: string): void {
+    const chosen = this.tabs.some((tab) => tab.name === name) ? name : this.tabs[0].name;
+    this.tabs.forEach((tab, index) => {
+      tab.content.hidden = tab.name !== chosen;
+      this.buttons[index].setAttribute("aria-selected", String(tab.name === chosen));
+      this.buttons[index].tabIndex = tab.name === chosen ? 0 : -1;
+    });
+    remember(this.key, chosen);
+  }
+
+  private step(event: KeyboardEvent): void {
+    const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    if (by === 0) return;
+    const at = this.buttons.findIndex((button) => button === document.activeElement);
+    const next = this.buttons[(at + by + this.buttons.length) % this.buttons.length];
+    next.focus();
+    next.click();
+  }
+}

@@ -1,0 +1,101 @@
+/** The studio: puts the page together. */
+import { Changes } from "./changes.js";
+import { ChartsPanel } from "./charts.js";
+import { Editor } from "./editor/editor.js";
+import { Gallery } from "./gallery.js";
+import { Header } from "./header.js";
+import { Layout, Tabs } from "./layout.js";
+import { Messages } from "./messages.js";
+import { PickPanel } from "./pick.js";
+import { SettingsPanel } from "./settings.js";
+import { modelOfLink } from "./share.js";
+import { errorText, Studio } from "./state.js";
+import { StatusLine } from "./status.js";
+import { Timeline } from "./timeline.js";
+import { Viewport } from "./viewport.js";
+
+/** The token stands in the address, and stays for a reload after the fragment has been used. */
+function takeToken(): string {
+  const token = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (token) sessionStorage.setItem("espalier.token", token);
+  return token ?? sessionStorage.getItem("espalier.token") ?? "";
+}
+
+function useTheme(studio: Studio): void {
+  const apply = () => (document.documentElement.dataset.theme = studio.theme);
+  apply();
+  studio.on("theme", apply);
+}
+
+function keysOfThePage(header: Header, timeline: Timeline): void {
+  document.addEventListener("keydown", (event) => {
+    const target = event.target as HTMLElement;
+    const command = event.ctrlKey || event.metaKey;
+    const key = event.key.toLowerCase();
+    if (command && key === "s") {
+      event.preventDefault();
+      void header.save();
+      return;
+    }
+    if (target.closest(".cm-editor, textarea, input[type=text], input[type=number], input[type=search], select, dialog")) return;
+    const actions: Record<string, () => void> = command
+      ? { z: () => void header.step(event.shiftKey ? "redo" : "undo"), y: () => void header.step("redo") }
+      : { p: () => timeline.toggle(), ",": () => timeline.goTo(timeline.step - 1), ".": () => timeline.goTo(timeline.step + 1) };
+    const action = actions[key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+async function openLink(studio: Studio): Promise<boolean> {
+  try {
+    const model = await modelOfLink(location.hash);
+    if (!model) return false;
+    history.replaceState(null, "", location.pathname);
+    return (await studio.ask("open-text", model)) !== undefined;
+  } catch (error) {
+    studio.tell("error", `The link could not be read: ${errorText(error)}`);
+    return false;
+  }
+}
+
+function start(): void {
+  const studio = new Studio(takeToken());
+  useTheme(studio);
+  const changes = new Changes(studio);
+  const layout = new Layout();
+  const timeline = new Timeline(studio);
+  const editor = new Editor(studio, changes);
+  const messages = new Messages(studio);
+  const viewport = new Viewport(studio, timeline, (module) => void picked.pick(module));
+  const picked: PickPanel = new PickPanel(studio, () => viewport.scene, editor, timeline, () => tabs.show("Organ"));
+  const charts = new ChartsPanel(studio, timeline);
+  const settings = new SettingsPanel(studio, changes);
+  const gallery = new Gallery(studio, () => studio.frames.look("last"));
+  const tabs = new Tabs("Measures", [
+    { name: "Settings", content: settings.element },
+    { name: "Organ", content: picked.element },
+    { name: "Charts", content: charts.element },
+  ], "right-tab");
+  const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show() });
+  layout.left.append(editor.element);
+  layout.right.append(tabs.element);
+  layout.centre.append(viewport.element, timeline.element);
+  document.body.append(header.element, messages.banner, layout.element, new StatusLine(studio).element, messages.element, gallery.element);
+  keysOfThePage(header, timeline);
+  let first = true;
+  studio.on("connection", (state) => {
+    if (state !== "open" || !first) return;
+    first = false;
+    void openLink(studio).then((opened) => {
+      // The document of the server follows its greeting.
+      setTimeout(() => {
+        if (!opened && !studio.document?.path) void gallery.show();
+      }, 250);
+    });
+  });
+  studio.connection.connect();
+}
+
+start();

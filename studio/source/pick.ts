@@ -1,0 +1,123 @@
+/** What is known of a picked organ. */
+import type { Editor } from "./editor/editor.js";
+import { shortName } from "./editor/editor.js";
+import { h, iconButton, short, whole } from "./elements.js";
+import { plotOverSteps } from "./plot.js";
+import type { Parent, Picked, Place } from "./protocol.js";
+import type { Studio } from "./state.js";
+import type { Timeline } from "./timeline.js";
+import type { PlantScene } from "./view/index.js";
+
+export class PickPanel {
+  readonly element = h("div", "pick");
+  private module: number | null = null;
+  private growth = -1;
+  private step = -1;
+
+  constructor(
+    private readonly studio: Studio, private readonly scene: () => PlantScene, private readonly editor: Editor,
+    private readonly timeline: Timeline, private readonly opened: () => void,
+  ) {
+    this.empty();
+    studio.on("shown", ({ growth, step }) => {
+      // Numbers of modules belong to one step.
+      if (this.module !== null && (growth !== this.growth || step !== this.step)) this.scene().mark(null);
+    });
+  }
+
+  /** Asks about a module and shows the answer; null forgets it. */
+  async pick(module: number | null): Promise<void> {
+    const { shown } = this.studio.frames;
+    if (module === null || !shown) {
+      this.forget();
+      return;
+    }
+    const { growth, step } = shown;
+    const picked = await this.studio.ask("pick", { growth, step, module });
+    if (!picked || this.studio.frames.shown !== shown) return;
+    Object.assign(this, { module, growth, step });
+    this.scene().mark(module, picked.siblings);
+    this.editor.mark(picked.places);
+    this.opened();
+    this.draw(picked);
+  }
+
+  private forget(): void {
+    this.module = null;
+    this.scene().mark(null);
+    this.editor.mark([]);
+    this.empty();
+  }
+
+  private empty(): void {
+    this.element.replaceChildren(h("p", "hint", {}, "Click an organ of the plant to see what it is, where it comes from and how it has changed."));
+  }
+
+  private draw(picked: Picked): void {
+    const parts: (HTMLElement | null)[] = [
+      h("div", "pick-head", {}, h("code", "", {}, picked.text), iconButton("close", "Forget this organ", () => this.forget())),
+      this.facts(picked),
+      this.parameters(picked),
+      this.history(picked),
+      this.places(picked.places),
+      this.kin(picked),
+    ];
+    this.element.replaceChildren(...parts.filter((part) => part !== null));
+  }
+
+  private facts(picked: Picked): HTMLElement {
+    const rows: [string, Node | string][] = [
+      ["Symbol", picked.symbol], ["Plant", picked.plant], ["Identity", String(picked.identity)], ["Born in step", String(picked.born)],
+    ];
+    if (picked.order !== null && picked.order !== undefined) rows.push(["Order", String(picked.order)]);
+    if (picked.parent) rows.push(["Parent", this.relative(picked.parent)]);
+    const { children } = picked;
+    if (typeof children === "number") rows.push(["Children", String(children)]);
+    else if (children && children.length > 0) rows.push(["Children", h("span", "", {}, ...children.slice(0, 12).map((child) => this.relative(child)))]);
+    return h("dl", "facts", {}, ...rows.flatMap(([name, value]) => [h("dt", "", {}, name), h("dd", "", {}, value)]));
+  }
+
+  private relative(parent: Parent): HTMLElement {
+    const text = `${parent.symbol} (${parent.identity}, step ${parent.born})`;
+    const { module } = parent;
+    if (module === null || module === undefined) return h("span", "", {}, text);
+    return h("button", "link", { type: "button", onclick: () => void this.pick(module) }, text);
+  }
+
+  private parameters(picked: Picked): HTMLElement | null {
+    if (picked.parameters.length === 0) return null;
+    return h("section", "", {}, h("h3", "", {}, "Parameters"), h("dl", "facts", {},
+      ...picked.parameters.flatMap((value, index) => [h("dt", "", {}, picked.names[index] || `${index + 1}`), h("dd", "", {}, short(value))])));
+  }
+
+  private history(picked: Picked): HTMLElement | null {
+    const { history } = picked;
+    if (!history || history.steps.length < 2) return null;
+    const section = h("section", "history", {}, h("h3", "", {}, "History"));
+    const count = Math.max(...history.parameters.map((row) => row.length), 0);
+    for (let index = 0; index < Math.min(count, 8); index++) {
+      const values = history.parameters.map((row) => row[index] ?? null);
+      const name = picked.names[index] || `parameter ${index + 1}`;
+      const place = h("div", "small-chart", { role: "img", "aria-label": `${name} over steps` }, h("span", "", {}, name));
+      plotOverSteps(place, history.steps, [{ name, values, colour: index }], {
+        width: Math.max(180, this.element.clientWidth - 24), height: 84, small: true,
+        step: () => this.step, clicked: (step) => this.timeline.goTo(step),
+      });
+      section.append(place);
+    }
+    return section;
+  }
+
+  private places(places: Place[]): HTMLElement | null {
+    if (places.length === 0) return null;
+    return h("section", "", {}, h("h3", "", {}, places.length === 1 ? "Made by the production" : "Made by one of the productions"),
+      ...places.map((place) => h("button", "place", {
+        type: "button", onclick: () => this.editor.goTo(place.file, place.line, place.column),
+      }, h("small", "", {}, `${shortName(place.file)}, line ${place.line}`), h("code", "", {}, place.text))));
+  }
+
+  private kin(picked: Picked): HTMLElement | null {
+    if (picked.siblings.length === 0) return null;
+    return h("p", "hint", {}, `${whole(picked.siblings.length)} ${picked.siblings.length === 1 ? "sibling is" : "siblings are"} marked in the picture.`);
+  }
+}

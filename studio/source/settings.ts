@@ -1,0 +1,173 @@
+/** The settings of the document: sliders, switches, choices and numbers, in groups. */
+import type { Changes } from "./changes.js";
+import { h, icon, iconButton, short } from "./elements.js";
+import type { Setting, StudioDocument } from "./protocol.js";
+import type { Studio } from "./state.js";
+
+/** A row of the panel that can be brought up to date without losing the pointer that drags it. */
+interface Row {
+  element: HTMLElement;
+  update: (setting: Setting) => void;
+}
+
+type Send = (text: string | null, lasting: boolean) => void;
+
+function isSwitch(setting: Setting): boolean {
+  return setting.whole && setting.lowest === 0 && setting.highest === 1 && (setting.value === 0 || setting.value === 1);
+}
+
+/** The ends of a slider: those of the setting, or a span around its default. */
+function span(setting: Setting): { lowest: number; highest: number; step: number } {
+  const usual = Number(setting.default);
+  const base = Number.isFinite(usual) && usual !== 0 ? usual : setting.value || 1;
+  const lowest = setting.lowest ?? Math.min(0, 2 * base);
+  const highest = setting.highest ?? Math.max(lowest + 1e-9, 2 * base, 0);
+  const step = setting.whole ? 1 : 10 ** Math.floor(Math.log10((highest - lowest) / 150));
+  return { lowest, highest, step };
+}
+
+function sliderRow(setting: Setting, send: Send): Row {
+  const { lowest, highest, step } = span(setting);
+  const id = `setting-${setting.name}`;
+  const slider = h("input", "", { type: "range", min: lowest, max: highest, step, id });
+  const number = h("input", "number", { type: "text", inputmode: "decimal", "aria-label": `${setting.label}, as a number` });
+  const show = (now: Setting) => {
+    if (document.activeElement !== number) number.value = now.text;
+    if (!slider.matches(":active")) slider.value = String(now.value ?? 0);
+    slider.style.setProperty("--part", String((Number(slider.value) - lowest) / (highest - lowest)));
+  };
+  slider.addEventListener("input", () => {
+    number.value = String(Number(Number(slider.value).toPrecision(8)));
+    slider.style.setProperty("--part", String((Number(slider.value) - lowest) / (highest - lowest)));
+    send(number.value, false);
+  });
+  slider.addEventListener("change", () => send(String(Number(Number(slider.value).toPrecision(8))), true));
+  number.addEventListener("change", () => send(number.value.trim() || null, true));
+  show(setting);
+  return { element: h("div", "control slider", {}, slider, number, unitOf(setting)), update: show };
+}
+
+function switchRow(setting: Setting, send: Send): Row {
+  const box = h("input", "switch", { type: "checkbox", role: "switch", id: `setting-${setting.name}` });
+  box.addEventListener("change", () => send(box.checked ? "1" : "0", true));
+  const show = (now: Setting) => (box.checked = now.value === 1);
+  show(setting);
+  return { element: h("div", "control", {}, box), update: show };
+}
+
+function choiceRow(setting: Setting, send: Send): Row {
+  const select = h("select", "", { id: `setting-${setting.name}` });
+  const show = (now: Setting) => {
+    const choices = now.choices ?? [];
+    const all = choices.includes(now.text) ? choices : [now.text, ...choices];
+    select.replaceChildren(...all.map((choice) => h("option", "", { value: choice, selected: choice === now.text }, choice)));
+    select.value = now.text;
+  };
+  select.addEventListener("change", () => send(select.value, true));
+  show(setting);
+  return { element: h("div", "control", {}, select), update: show };
+}
+
+function textRow(setting: Setting, send: Send): Row {
+  const field = h("input", "wide", { type: "text", id: `setting-${setting.name}` });
+  field.addEventListener("change", () => send(field.value.trim() || null, true));
+  const show = (now: Setting) => {
+    if (document.activeElement !== field) field.value = now.text;
+  };
+  show(setting);
+  return { element: h("div", "control", {}, field, unitOf(setting)), update: show };
+}
+
+function unitOf(setting: Setting): HTMLElement {
+  return h("span", "unit", {}, setting.unit);
+}
+
+function controlOf(setting: Setting, send: Send): Row {
+  if (setting.choices && setting.choices.length > 0) return choiceRow(setting, send);
+  if (isSwitch(setting)) return switchRow(setting, send);
+  if (setting.value !== null) return sliderRow(setting, send);
+  return textRow(setting, send);
+}
+
+export class SettingsPanel {
+  readonly element = h("div", "settings");
+  private rows = new Map<string, Row>();
+  private layout = "";
+  private updateSimulation: () => void = () => undefined;
+
+  constructor(private readonly studio: Studio, private readonly changes: Changes) {
+    studio.on("document", (document) => this.show(document));
+  }
+
+  private show(document: StudioDocument): void {
+    const layout = JSON.stringify([document.path, document.settings.map(({ name, label, lowest, highest, whole, unit, group, choices, value }) =>
+      [name, label, lowest, highest, whole, unit, group, choices, value === null])]);
+    if (layout !== this.layout) this.build(document);
+    this.layout = layout;
+    this.updateSimulation();
+    for (const setting of document.settings) this.rows.get(setting.name)?.update(setting);
+  }
+
+  private build(document: StudioDocument): void {
+    this.rows = new Map();
+    const groups = new Map<string, Setting[]>();
+    for (const setting of document.settings) groups.set(setting.group, [...(groups.get(setting.group) ?? []), setting]);
+    const parts = [...groups].map(([name, settings]) => this.group(name, settings, groups.size));
+    if (parts.length === 0)
+      parts.push(h("p", "hint", {}, "This document has no settings. A line such as #define ANGLE 25 in the model becomes a slider here."));
+    this.element.replaceChildren(this.simulation(document), ...parts);
+  }
+
+  private group(name: string, settings: Setting[], count: number): HTMLElement {
+    const rows = settings.map((setting) => this.row(setting));
+    if (count === 1 && !name) return h("section", "group", {}, ...rows);
+    return h("details", "group", { open: true }, h("summary", "", {}, name || "Settings"), ...rows);
+  }
+
+  private row(setting: Setting): HTMLElement {
+    const send: Send = (text, lasting) => {
+      const change = { settings: { [setting.name]: text } };
+      const label = text === null ? `Reset ${setting.label}` : `${setting.label} = ${text}`;
+      if (lasting) this.changes.lasting(`setting ${setting.name}`, change, label);
+      else this.changes.transient(`setting ${setting.name}`, change, label);
+    };
+    const control = controlOf(setting, send);
+    const reset = iconButton("reset", `Back to ${setting.default}`, () => send(null, true));
+    const name = h("label", "", { for: `setting-${setting.name}`, title: setting.name }, setting.label || setting.name);
+    const row = h("div", "setting", {}, h("div", "setting-head", {}, name, reset), control.element);
+    this.rows.set(setting.name, {
+      element: row,
+      update: (now) => {
+        row.classList.toggle("changed", now.changed);
+        reset.hidden = !now.changed;
+        control.update(now);
+      },
+    });
+    return row;
+  }
+
+  /** Seed and steps, which every document has. */
+  private simulation(document: StudioDocument): HTMLElement {
+    const seed = h("input", "number", { type: "number", min: 0, step: 1, id: "setting-seed" });
+    const steps = h("input", "number", { type: "number", min: 0, step: 1, id: "setting-steps" });
+    seed.addEventListener("change", () => this.setSeed(Number(seed.value)));
+    steps.addEventListener("change", () => this.changes.lasting("steps", { steps: Number(steps.value) }, `Steps = ${steps.value}`));
+    const dice = h("button", "button small", {
+      type: "button", title: "Another seed: another plant of the same kind",
+      onclick: () => this.setSeed(Math.floor(Math.random() * 10_000)),
+    }, icon("dice"), "Dice");
+    const show = () => {
+      const now = this.studio.document ?? document;
+      if (window.document.activeElement !== seed) seed.value = String(now.seed);
+      if (window.document.activeElement !== steps) steps.value = String(now.steps);
+    };
+    this.updateSimulation = show;
+    show();
+    return h("div", "simulation", {},
+      h("label", "", { for: "setting-seed" }, "Seed"), seed, dice, h("label", "", { for: "setting-steps" }, "Steps"), steps);
+  }
+
+  private setSeed(seed: number): void {
+    this.changes.lasting("seed", { seed }, `Seed = ${short(seed)}`);
+  }
+}

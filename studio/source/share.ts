@@ -1,0 +1,142 @@
+/** Shares a growth as one HTML file that needs no server, and a model as a link. */
+import { openDialog } from "./dialog.js";
+import { download, h, whole } from "./elements.js";
+import { compress, decompress, fromBase64, toBase64, urlSafe } from "./view/index.js";
+import type { SharedModel } from "./protocol.js";
+import { errorText, type Studio } from "./state.js";
+import type { PlantScene, Recording } from "./view/index.js";
+
+const marker = "/*--- studio ---*/";
+const longestLink = 8000;
+
+async function textOf(address: string): Promise<string> {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${address} could not be read.`);
+  return response.text();
+}
+
+/** Text that may stand inside a script element. */
+function inScript(text: string): string {
+  return text.replaceAll("</", "<\\/").replaceAll("<!--", "<\\!--");
+}
+
+function escaped(text: string): string {
+  return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+}
+
+async function recordingOf(studio: Studio, scene: PlantScene, steps: number[], progress: (part: number) => void): Promise<Recording> {
+  const packets: string[] = [];
+  for (const [index, step] of steps.entries()) {
+    const packet = await studio.frames.fetch(step);
+    packets.push(toBase64(await compress(packet.message)));
+    progress((index + 1) / steps.length);
+  }
+  const shapes = await Promise.all(studio.shapeMessages.map(async (message) => toBase64(await compress(message))));
+  const { document } = studio;
+  return { title: document?.name ?? "Plant", theme: studio.theme, steps, packets, shapes, camera: scene.orbit.state };
+}
+
+async function htmlOf(recording: Recording): Promise<string> {
+  const [script, style] = await Promise.all([textOf("studio.js"), textOf("studio.css")]);
+  const viewer = script.slice(0, script.indexOf(marker));
+  const policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+  return `<!doctype html>
+<html lang="en" data-theme="${recording.theme}">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="${policy}">
+<title>${escaped(recording.title)}</title>
+<style>${style}</style>
+</head>
+<body class="recording">
+<script type="application/json" id="recording">${inScript(JSON.stringify(recording)).replaceAll("<\\!--", "\\u003c!--").replaceAll("<\\/", "\\u003c/")}</script>
+<script>${inScript(viewer)}
+EspalierView.playRecording();</script>
+</body>
+</html>
+`;
+}
+
+/** At most `count` steps, evenly spaced, the last among them. */
+function chosenSteps(last: number, count: number): number[] {
+  const steps = new Set<number>();
+  for (let i = 0; i < count; i++) steps.add(Math.round((last * (i + 1)) / count));
+  if (count > last) steps.add(0);
+  return [...steps].sort((a, b) => a - b);
+}
+
+export function shareHtmlDialog(studio: Studio, scene: PlantScene): void {
+  const last = studio.frames.lastStep;
+  const count = h("input", "number", { type: "number", min: 1, max: last + 1, value: Math.min(last + 1, 120), id: "share-count" });
+  const state = h("p", "hint", { role: "status" });
+  const start = h("button", "button primary", { type: "submit" }, "Write the file");
+  const form = h("form", "form", {
+    onsubmit: (event) => {
+      event.preventDefault();
+      void run();
+    },
+  }, h("p", "", {}, "One HTML file that shows the growth in every browser, without Espalier: it can be turned and played."),
+    h("label", "", { for: "share-count" }, `Steps to take, of ${last + 1}`), count, h("div", "form-end", {}, state, start));
+  const dialog = openDialog("Share as HTML", form);
+
+  async function run(): Promise<void> {
+    start.disabled = true;
+    try {
+      const steps = chosenSteps(last, Math.max(1, Number(count.value)));
+      const recording = await recordingOf(studio, scene, steps, (part) => (state.textContent = `${Math.round(part * 100)} % of the steps`));
+      const blob = new Blob([await htmlOf(recording)], { type: "text/html" });
+      download(blob, `${recording.title}.html`);
+      dialog.close();
+      studio.tell("note", `${recording.title}.html holds ${whole(steps.length)} steps in ${(blob.size / 1e6).toFixed(1)} MB.`);
+    } catch (error) {
+      state.textContent = errorText(error);
+    }
+    start.disabled = false;
+  }
+}
+
+/** The present model with its settings, as a fragment of an address. */
+async function linkOf(studio: Studio): Promise<string> {
+  const { document } = studio;
+  const main = document?.texts.find(({ role }) => role === "main") ?? document?.texts[0];
+  if (!document || !main) throw new Error("There is nothing to share yet.");
+  const changed = document.settings.filter((setting) => setting.changed);
+  const model: SharedModel = {
+    name: document.name, content: main.content, seed: document.seed, steps: document.steps,
+    settings: Object.fromEntries(changed.map(({ name, text }) => [name, text])),
+  };
+  const packed = urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))));
+  return `model=${packed}`;
+}
+
+export async function modelOfLink(fragment: string): Promise<SharedModel | null> {
+  const packed = new URLSearchParams(fragment.replace(/^#/, "")).get("model");
+  if (!packed) return null;
+  const text = new TextDecoder().decode(await decompress(fromBase64(packed)));
+  return JSON.parse(text) as SharedModel;
+}
+
+export async function shareLinkDialog(studio: Studio): Promise<void> {
+  try {
+    const fragment = await linkOf(studio);
+    const address = `${location.origin}/#${fragment}`;
+    if (address.length > longestLink)
+      throw new Error(`The model is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the file and send it instead.`);
+    const field = h("textarea", "wide", { readonly: true, rows: 6, "aria-label": "Link" });
+    field.value = address;
+    const copy = h("button", "button primary", {
+      type: "button",
+      onclick: () => {
+        field.select();
+        void navigator.clipboard.writeText(address).then(() => (copy.textContent = "Copied"));
+      },
+    }, "Copy");
+    const files = (studio.document?.texts.length ?? 1) - 1;
+    openDialog("Share as a link",
+      h("p", "", {}, "The link holds the text of the model, its settings, the seed and the steps. Whoever runs a studio can open it: the gallery has a field for links."),
+      files > 0 ? h("p", "hint", {}, "Only the main text is in the link, not its side files.") : h("span", ""), field, h("div", "form-end", {}, copy));
+  } catch (error) {
+    studio.tell("error", errorText(error));
+  }
+}

@@ -1,0 +1,176 @@
+/** What the page knows: the server's words, kept together, with a notice to whoever shows them. */
+import { Connection, RequestError, type ConnectionState } from "./connection.js";
+import { remember, remembered } from "./elements.js";
+import { Frames } from "./frames.js";
+import type {
+  FieldName, Growth, Help, Problem, Requests, Said, Statistics, StudioDocument,
+} from "./protocol.js";
+import type { BinaryMessage, Column, Field, Packet, Shapes } from "./view/index.js";
+
+export interface Message {
+  /** Negative for messages of the page itself. */
+  number: number;
+  severity: Problem["severity"];
+  text: string;
+}
+
+interface Events {
+  connection: ConnectionState;
+  document: StudioDocument;
+  problems: Problem[];
+  growth: Growth;
+  statistics: Statistics;
+  columns: string[];
+  fields: FieldName[];
+  messages: Message[];
+  progress: { what: string; done: number };
+  packet: Packet;
+  shapes: Shapes;
+  column: Column;
+  field: Field;
+  shown: Packet;
+  theme: "light" | "dark";
+}
+
+type Listener<Name extends keyof Events> = (event: Events[Name]) => void;
+
+export class Studio {
+  readonly connection: Connection;
+  readonly frames: Frames;
+  document: StudioDocument | null = null;
+  problems: Problem[] = [];
+  growth: Growth | null = null;
+  statistics: Statistics = { growth: 0, columns: [], rows: [] };
+  columns: string[] = [];
+  fields: FieldName[] = [];
+  help: Help | null = null;
+  /** The shapes of the present growth, as they came. */
+  shapeMessages: ArrayBuffer[] = [];
+  messages: Message[] = [];
+  theme: "light" | "dark";
+  private ownMessages = 0;
+  private readonly listeners: { [Name in keyof Events]?: Listener<Name>[] } = {};
+
+  constructor(readonly token: string) {
+    this.theme = remembered("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+    this.connection = new Connection(token, {
+      state: (state) => this.connected(state),
+      said: (message) => this.hear(message),
+      binary: (message) => this.take(message),
+    });
+    this.frames = new Frames(this);
+  }
+
+  on<Name extends keyof Events>(name: Name, listener: Listener<Name>): void {
+    const list = (this.listeners[name] ?? []) as Listener<Name>[];
+    list.push(listener);
+    (this.listeners as Record<Name, Listener<Name>[]>)[name] = list;
+  }
+
+  emit<Name extends keyof Events>(name: Name, event: Events[Name]): void {
+    for (const listener of (this.listeners[name] ?? []) as Listener<Name>[]) listener(event);
+  }
+
+  /** Sends a request; an error becomes a message, and the result undefined. */
+  async ask<Name extends keyof Requests>(name: Name, fields: Requests[Name]["send"]): Promise<Requests[Name]["get"] | undefined> {
+    try {
+      return await this.connection.request(name, fields);
+    } catch (error) {
+      // A lost connection has its own banner.
+      if (this.connection.state === "open") this.tell("error", errorText(error));
+      return undefined;
+    }
+  }
+
+  tell(severity: Problem["severity"], text: string): void {
+    if (this.messages.some((message) => message.text === text)) return;
+    this.messages = [...this.messages, { number: --this.ownMessages, severity, text }];
+    this.emit("messages", this.messages);
+  }
+
+  dismiss(number: number): void {
+    this.messages = this.messages.filter((message) => message.number !== number);
+    this.emit("messages", this.messages);
+    if (number > 0) void this.ask("dismiss", { message: number });
+  }
+
+  setTheme(theme: "light" | "dark"): void {
+    this.theme = theme;
+    remember("theme", theme);
+    this.emit("theme", theme);
+  }
+
+  private connected(state: ConnectionState): void {
+    if (state === "open") {
+      this.frames.connected();
+      void this.connection.request("help", {}).then((help) => (this.help = help)).catch(() => undefined);
+    }
+    this.emit("connection", state);
+  }
+
+  private hear(message: Said): void {
+    switch (message.say) {
+      case "document":
+        this.document = message;
+        return this.emit("document", message);
+      case "problems":
+        this.problems = message.problems;
+        return this.emit("problems", message.problems);
+      case "growth":
+        return this.hearGrowth(message);
+      case "statistics":
+        return this.hearStatistics(message);
+      case "columns":
+        this.columns = message.columns;
+        return this.emit("columns", message.columns);
+      case "fields":
+        this.fields = message.fields;
+        return this.emit("fields", message.fields);
+      case "message":
+        this.messages = [...this.messages.filter(({ number }) => number !== message.number), message];
+        return this.emit("messages", this.messages);
+      case "progress":
+        return this.emit("progress", message);
+    }
+  }
+
+  private hearGrowth(growth: Growth): void {
+    if (growth.growth !== this.growth?.growth) this.shapeMessages = [];
+    this.growth = growth;
+    this.frames.grown(growth);
+    this.emit("growth", growth);
+  }
+
+  private hearStatistics(more: Statistics): void {
+    const same = more.growth === this.statistics.growth && more.columns.join() === this.statistics.columns.join();
+    const rows = same ? withRows(this.statistics.rows, more.rows) : more.rows;
+    this.statistics = { ...this.statistics, ...more, rows };
+    this.emit("statistics", this.statistics);
+  }
+
+  private take(message: BinaryMessage): void {
+    if (message.kind === "packet") {
+      this.frames.arrived(message);
+      this.emit("packet", message);
+    } else if (message.kind === "shapes") this.learn(message);
+    else if (message.kind === "column") this.emit("column", message);
+    else this.emit("field", message);
+  }
+
+  private learn(shapes: Shapes): void {
+    this.shapeMessages = [...this.shapeMessages.slice(-20), shapes.message];
+    this.emit("shapes", shapes);
+  }
+}
+
+/** Rows of the same step replace earlier ones: a page that connects again hears all of them again. */
+function withRows(rows: number[][], more: number[][]): number[][] {
+  if (more.length === 0) return rows;
+  const first = more[0][0];
+  return [...rows.filter((row) => row[0] < first), ...more];
+}
+
+export function errorText(error: unknown): string {
+  if (error instanceof RequestError || error instanceof Error) return error.message;
+  return String(error);
+}

@@ -1,0 +1,72 @@
+/** The line of counts, progress and time left. */
+import { h, whole } from "./elements.js";
+import type { Growth } from "./protocol.js";
+import type { Studio } from "./state.js";
+import { triangleCount } from "./view/index.js";
+
+const names: Record<Growth["state"], string> = {
+  reading: "reading", growing: "growing", done: "grown", stopped: "stopped", failed: "failed",
+};
+
+function duration(seconds: number): string {
+  if (seconds < 1) return `${Math.round(seconds * 1000)} ms`;
+  if (seconds < 90) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
+  return `${Math.round(seconds / 60)} min`;
+}
+
+export class StatusLine {
+  readonly element = h("footer", "status");
+  private readonly state = h("span", "state");
+  private readonly progress = h("progress", "", { max: 1, value: 0, hidden: true, "aria-label": "Progress" });
+  private readonly counts = h("span", "counts");
+  private readonly what = h("span", "what");
+  private began = { growth: -1, step: 0, at: 0 };
+
+  constructor(private readonly studio: Studio) {
+    this.element.append(this.state, this.progress, this.what, this.counts);
+    studio.on("growth", (growth) => this.showGrowth(growth));
+    studio.on("problems", () => this.showGrowth(studio.growth));
+    studio.on("shown", () => this.showCounts());
+    studio.on("progress", ({ what, done }) => {
+      this.progress.hidden = done >= 1;
+      this.progress.value = done;
+      this.what.textContent = done >= 1 ? "" : what;
+    });
+  }
+
+  private showGrowth(growth: Growth | null): void {
+    if (!growth) return;
+    const wrong = this.studio.problems.filter(({ severity }) => severity === "error").length;
+    const busy = growth.state === "growing" || growth.state === "reading";
+    if (growth.growth !== this.began.growth) this.began = { growth: growth.growth, step: growth.step, at: performance.now() };
+    this.state.textContent = wrong > 0 ? `${wrong} ${wrong === 1 ? "error" : "errors"} in the text: the plant before it stays`
+      : `${names[growth.state]}${growth.reason ? `: ${growth.reason}` : ""}`;
+    this.element.dataset.state = wrong > 0 ? "failed" : growth.state;
+    this.progress.hidden = !busy;
+    this.progress.value = growth.last > 0 ? Math.max(0, growth.step) / growth.last : 0;
+    this.what.textContent = busy ? this.timeLeft(growth) : `in ${duration(growth.seconds)}`;
+    this.showCounts();
+  }
+
+  private timeLeft(growth: Growth): string {
+    const grown = growth.step - this.began.step;
+    const text = `step ${Math.max(0, growth.step)} of ${growth.last}`;
+    const spent = (performance.now() - this.began.at) / 1000;
+    if (grown < 1 || spent < 1) return text;
+    // Plants grow: each further step takes at least as long as the mean of those before.
+    return `${text}, about ${duration((spent / grown) * (growth.last - growth.step))} left`;
+  }
+
+  private showCounts(): void {
+    const packet = this.studio.frames.shown;
+    const growth = this.studio.growth;
+    if (!packet) return;
+    const triangles = triangleCount(packet);
+    let organs = 0;
+    for (const { count } of packet.groups) organs += count;
+    const parts = [`${whole(growth?.modules ?? 0)} modules`, `${whole(packet.internodeCount)} internodes`];
+    if (organs > 0) parts.push(`${whole(organs)} organs`);
+    parts.push(`${whole(packet.positions.length / 3)} vertices`, `${whole(triangles)} triangles`);
+    this.counts.textContent = parts.join("  ·  ");
+  }
+}

@@ -1,0 +1,97 @@
+/** The ground: a plane that fades into the background, with the shadow of the plant and a grid that tells its scale. */
+import { Color, DoubleSide, GLSL3, Mesh, NormalBlending, PlaneGeometry, RawShaderMaterial, Vector3 } from "three";
+import type { Theme } from "./colours.js";
+import type { Uniforms } from "./shading.js";
+
+const vertex = /* glsl */ `
+precision highp float;
+uniform mat4 viewMatrix, projectionMatrix;
+uniform vec3 centre;
+uniform float extent;
+in vec3 position;
+out vec3 place;
+void main() {
+  place = vec3(position.x * extent, 0.0, position.y * extent) + vec3(centre.x, 0.0, centre.z);
+  gl_Position = projectionMatrix * (viewMatrix * vec4(place, 1.0));
+}
+`;
+
+const fragment = /* glsl */ `
+precision highp float;
+uniform highp sampler2D shadowMap;
+uniform mat4 shadowMatrix;
+uniform vec3 colour, centre;
+uniform float extent, cell;
+uniform bool shadowed;
+in vec3 place;
+out vec4 result;
+
+float shade() {
+  vec3 at = (shadowMatrix * vec4(place, 1.0)).xyz;
+  if (!shadowed || any(lessThan(at.xy, vec2(0.01))) || any(greaterThan(at.xy, vec2(0.99)))) return 0.0;
+  float sum = 0.0;
+  for (int i = -1; i <= 1; i++)
+    for (int j = -1; j <= 1; j++) sum += float(texture(shadowMap, at.xy + vec2(i, j) * 1.8 / 1024.0).r < at.z - 0.002);
+  return sum / 9.0;
+}
+
+float grid(float size) {
+  vec2 at = place.xz / size;
+  vec2 width = fwidth(at);
+  vec2 line = smoothstep(width * 1.5, vec2(0.0), abs(fract(at - 0.5) - 0.5));
+  return max(line.x, line.y) * (1.0 - smoothstep(0.15, 0.4, max(width.x, width.y)));
+}
+
+void main() {
+  float away = length(place.xz - centre.xz) / extent;
+  float fade = 1.0 - smoothstep(0.12, 0.5, away);
+  float lines = grid(cell) * 0.10 + grid(cell * 0.2) * 0.04;
+  float dark = 1.0 - 0.42 * shade();
+  result = vec4(colour * dark * (1.0 - lines), fade);
+}
+`;
+
+/** The largest of 1, 2 or 5 times a power of ten that is not above a length. */
+export function niceLength(length: number): number {
+  const power = 10 ** Math.floor(Math.log10(Math.max(length, 1e-9)));
+  const factor = [5, 2, 1].find((candidate) => candidate * power <= length) ?? 1;
+  return factor * power;
+}
+
+export class Ground {
+  readonly mesh: Mesh;
+  private readonly uniforms: Uniforms;
+
+  constructor(shared: Uniforms) {
+    this.uniforms = {
+      shadowMap: shared.shadowMap, shadowMatrix: shared.shadowMatrix, shadowed: shared.shadowed,
+      colour: { value: new Color() },
+      centre: { value: new Vector3() },
+      extent: { value: 10 },
+      cell: { value: 1 },
+    };
+    const material = new RawShaderMaterial({
+      glslVersion: GLSL3, uniforms: this.uniforms, vertexShader: vertex, fragmentShader: fragment,
+      transparent: true, depthWrite: false, blending: NormalBlending, side: DoubleSide,
+    });
+    this.mesh = new Mesh(new PlaneGeometry(2, 2), material);
+    this.mesh.frustumCulled = false;
+    this.mesh.renderOrder = -1;
+  }
+
+  /** The side of a square of the grid in metres. */
+  get cell(): number {
+    return this.uniforms.cell.value as number;
+  }
+
+  place(centre: Vector3, radius: number): void {
+    (this.uniforms.centre.value as Vector3).copy(centre);
+    this.uniforms.extent.value = radius * 8;
+    this.uniforms.cell.value = niceLength(radius * 1.2);
+  }
+
+  useTheme(theme: Theme): void {
+    const hex = theme.ground;
+    (this.uniforms.colour.value as Color).setRGB(((hex >> 16) & 255) / 255, ((hex >> 8) & 255) / 255, (hex & 255) / 255);
+  }
+}

@@ -1,0 +1,234 @@
+/** Reads the binary messages of the protocol (docs/studio-protocol.md). Arrays are views of the message: nothing is copied. */
+
+export type Vector = readonly [number, number, number];
+
+export interface ShapeGroup {
+  shape: number;
+  count: number;
+  matrices: Float32Array;
+  colours: Uint8Array;
+  modules: Uint32Array;
+}
+
+export interface Packet {
+  kind: "packet";
+  growth: number;
+  step: number;
+  bytes: number;
+  /** The message that the arrays are views of. */
+  message: ArrayBuffer;
+  /** The first module of each plant. */
+  plants: Uint32Array;
+  lower: Vector;
+  upper: Vector;
+  radius: number;
+  internodeCount: number;
+  /** Six numbers an internode, as the graphics card reads them. */
+  internodes: Uint32Array;
+  positions: Float32Array;
+  normals: Int8Array;
+  colours: Uint8Array;
+  modules: Uint32Array;
+  indices: Uint32Array;
+  groups: ShapeGroup[];
+}
+
+export interface Shape {
+  shape: number;
+  positions: Float32Array;
+  normals: Float32Array;
+  texture: Float32Array;
+  indices: Uint32Array;
+}
+
+export interface Shapes {
+  kind: "shapes";
+  growth: number;
+  message: ArrayBuffer;
+  shapes: Shape[];
+}
+
+export interface Column {
+  kind: "column";
+  growth: number;
+  step: number;
+  name: string;
+  lowest: number;
+  highest: number;
+  values: Float32Array;
+}
+
+export interface Field {
+  kind: "field";
+  growth: number;
+  step: number;
+  name: string;
+  size: Vector;
+  lower: Vector;
+  upper: Vector;
+  lowest: number;
+  highest: number;
+  values: Uint8Array;
+}
+
+export type BinaryMessage = Packet | Shapes | Column | Field;
+
+class Reader {
+  private readonly view: DataView;
+  constructor(private readonly buffer: ArrayBuffer, private at: number) {
+    this.view = new DataView(buffer);
+  }
+  u32(): number {
+    this.at += 4;
+    return this.view.getUint32(this.at - 4, true);
+  }
+  i32(): number {
+    return this.u32() | 0;
+  }
+  f32(): number {
+    this.at += 4;
+    return this.view.getFloat32(this.at - 4, true);
+  }
+  vector(): Vector {
+    return [this.f32(), this.f32(), this.f32()];
+  }
+  floats(count: number): Float32Array {
+    return new Float32Array(this.buffer, this.skip(count * 4), count);
+  }
+  numbers(count: number): Uint32Array {
+    return new Uint32Array(this.buffer, this.skip(count * 4), count);
+  }
+  bytes(count: number): Uint8Array {
+    return new Uint8Array(this.buffer, this.skip(count), count);
+  }
+  signed(count: number): Int8Array {
+    return new Int8Array(this.buffer, this.skip(count), count);
+  }
+  name(): string {
+    const length = this.u32();
+    const text = new TextDecoder().decode(this.bytes(length));
+    this.skip((4 - (length % 4)) % 4);
+    return text;
+  }
+  private skip(count: number): number {
+    const start = this.at;
+    this.at += count;
+    if (this.at > this.buffer.byteLength) throw new Error("A binary message is shorter than its head says.");
+    return start;
+  }
+}
+
+export function readMessage(buffer: ArrayBuffer): BinaryMessage {
+  const letters = String.fromCharCode(...new Uint8Array(buffer, 0, 4));
+  const reader = new Reader(buffer, 4);
+  if (letters === "ESP1") return readPacket(reader, buffer);
+  if (letters === "ESS1") return readShapes(reader, buffer);
+  if (letters === "ESC1") return readColumn(reader);
+  if (letters === "ESF1") return readField(reader);
+  throw new Error(`A binary message begins with ${letters}, which this page does not know.`);
+}
+
+function readPacket(reader: Reader, message: ArrayBuffer): Packet {
+  const growth = reader.u32();
+  const step = reader.i32();
+  const [plantCount, internodeCount, vertices, indexCount, groupCount] = reader.numbers(5);
+  const lower = reader.vector();
+  const upper = reader.vector();
+  const radius = reader.f32();
+  const plants = reader.numbers(plantCount);
+  const internodes = reader.numbers(internodeCount * 6);
+  const positions = reader.floats(vertices * 3);
+  const normals = reader.signed(vertices * 4);
+  const colours = reader.bytes(vertices * 4);
+  const modules = reader.numbers(vertices);
+  const indices = reader.numbers(indexCount);
+  const groups: ShapeGroup[] = [];
+  for (let i = 0; i < groupCount; i++) groups.push(readGroup(reader));
+  return {
+    kind: "packet", growth, step, bytes: message.byteLength, message, plants, lower, upper, radius, internodeCount, internodes,
+    positions, normals, colours, modules, indices, groups,
+  };
+}
+
+function readGroup(reader: Reader): ShapeGroup {
+  const shape = reader.u32();
+  const count = reader.u32();
+  return {
+    shape, count,
+    matrices: reader.floats(count * 12),
+    colours: reader.bytes(count * 4),
+    modules: reader.numbers(count),
+  };
+}
+
+function readShapes(reader: Reader, message: ArrayBuffer): Shapes {
+  const growth = reader.u32();
+  const count = reader.u32();
+  const shapes: Shape[] = [];
+  for (let i = 0; i < count; i++) {
+    const shape = reader.u32();
+    const vertices = reader.u32();
+    const indices = reader.u32();
+    shapes.push({
+      shape,
+      positions: reader.floats(vertices * 3),
+      normals: reader.floats(vertices * 3),
+      texture: reader.floats(vertices * 2),
+      indices: reader.numbers(indices),
+    });
+  }
+  return { kind: "shapes", growth, message, shapes };
+}
+
+function readColumn(reader: Reader): Column {
+  const growth = reader.u32();
+  const step = reader.i32();
+  const modules = reader.u32();
+  const lowest = reader.f32();
+  const highest = reader.f32();
+  const name = reader.name();
+  return { kind: "column", growth, step, name, lowest, highest, values: reader.floats(modules) };
+}
+
+function readField(reader: Reader): Field {
+  const growth = reader.u32();
+  const step = reader.i32();
+  const size: Vector = [reader.u32(), reader.u32(), reader.u32()];
+  const lower = reader.vector();
+  const upper = reader.vector();
+  const lowest = reader.f32();
+  const highest = reader.f32();
+  const name = reader.name();
+  const values = reader.bytes(size[0] * size[1] * size[2]);
+  return { kind: "field", growth, step, name, size, lower, upper, lowest, highest, values };
+}
+
+export function triangleCount(packet: Packet): number {
+  return packet.indices.length / 3;
+}
+
+/** The box of everything in a packet, or null if it is empty. */
+export function boundsOf(packet: Packet): { lower: Vector; upper: Vector } | null {
+  const lower: [number, number, number] = [Infinity, Infinity, Infinity];
+  const upper: [number, number, number] = [-Infinity, -Infinity, -Infinity];
+  const add = (x: number, y: number, z: number, reach: number) => {
+    const point = [x, y, z];
+    for (let k = 0; k < 3; k++) {
+      lower[k] = Math.min(lower[k], point[k] - reach);
+      upper[k] = Math.max(upper[k], point[k] + reach);
+    }
+  };
+  if (packet.internodeCount > 0) {
+    add(...packet.lower, packet.radius);
+    add(...packet.upper, packet.radius);
+  }
+  const { positions } = packet;
+  for (let i = 0; i < positions.length; i += 3) add(positions[i], positions[i + 1], positions[i + 2], 0);
+  for (const { matrices } of packet.groups) {
+    for (let i = 0; i < matrices.length; i += 12) {
+      const reach = 0.5 * Math.hypot(matrices[i], matrices[i + 4], matrices[i + 8]);
+      add(matrices[i + 3], matrices[i + 7], matrices[i + 11], reach);
+    }
+  }
+  return Number.isFinite(lower[0]) ? { lower, upper } : null;
+}

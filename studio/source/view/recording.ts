@@ -1,0 +1,115 @@
+/** Plays a growth that was recorded in an HTML file: no server is needed. */
+import type { CameraState } from "./camera.js";
+import { themes, type Theme } from "./colours.js";
+import { decompress, fromBase64 } from "./compression.js";
+import { readMessage, type Packet } from "./packets.js";
+import { PlantScene } from "./scene3d.js";
+import { steer } from "./steer.js";
+
+export interface Recording {
+  title: string;
+  theme: Theme["name"];
+  steps: number[];
+  /** Compressed binary messages of the protocol, in base64. */
+  packets: string[];
+  shapes: string[];
+  camera: CameraState;
+}
+
+async function unpack(text: string): Promise<ArrayBuffer> {
+  const bytes = await decompress(fromBase64(text));
+  return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
+}
+
+class Player {
+  private readonly scene: PlantScene;
+  private readonly slider = document.createElement("input");
+  private readonly button = document.createElement("button");
+  private readonly label = document.createElement("output");
+  private readonly packets = new Map<number, Promise<Packet>>();
+  private at = 0;
+  private playing = false;
+
+  constructor(private readonly recording: Recording) {
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("aria-label", "The plant. Arrows turn, + and - zoom, F fits.");
+    document.body.append(canvas, this.bar());
+    this.scene = new PlantScene(canvas);
+    this.scene.theme = themes[recording.theme];
+    steer(this.scene);
+    const resize = () => this.scene.resize(canvas.clientWidth, canvas.clientHeight);
+    new ResizeObserver(resize).observe(canvas);
+    resize();
+  }
+
+  async start(): Promise<void> {
+    for (const text of this.recording.shapes) {
+      const message = readMessage(await unpack(text));
+      if (message.kind === "shapes") this.scene.learn(message.shapes);
+    }
+    await this.show(this.recording.packets.length - 1);
+    this.scene.orbit.state = this.recording.camera;
+  }
+
+  private bar(): HTMLElement {
+    const bar = document.createElement("div");
+    bar.className = "recording-bar";
+    const title = document.createElement("h1");
+    title.textContent = this.recording.title;
+    this.button.type = "button";
+    this.button.className = "button";
+    this.button.textContent = "Play";
+    this.button.addEventListener("click", () => this.toggle());
+    this.slider.type = "range";
+    this.slider.min = "0";
+    this.slider.max = String(this.recording.packets.length - 1);
+    this.slider.setAttribute("aria-label", "Step");
+    this.slider.addEventListener("input", () => void this.show(Number(this.slider.value)));
+    bar.append(title, this.button, this.slider, this.label);
+    return bar;
+  }
+
+  private packet(index: number): Promise<Packet> {
+    let packet = this.packets.get(index);
+    if (!packet) {
+      packet = unpack(this.recording.packets[index]).then((buffer) => {
+        const message = readMessage(buffer);
+        if (message.kind !== "packet") throw new Error("The recording is broken.");
+        return message;
+      });
+      this.packets.set(index, packet);
+    }
+    return packet;
+  }
+
+  private async show(index: number): Promise<void> {
+    this.at = index;
+    const packet = await this.packet(index);
+    if (this.at !== index) return;
+    this.scene.show(packet);
+    this.slider.value = String(index);
+    this.label.textContent = `step ${packet.step}`;
+    document.body.dataset.step = String(packet.step);
+  }
+
+  private toggle(): void {
+    this.playing = !this.playing;
+    this.button.textContent = this.playing ? "Pause" : "Play";
+    if (this.playing) void this.play();
+  }
+
+  private async play(): Promise<void> {
+    if (this.at >= this.recording.packets.length - 1) await this.show(0);
+    while (this.playing && this.at < this.recording.packets.length - 1) {
+      await new Promise((done) => setTimeout(done, 120));
+      if (this.playing) await this.show(this.at + 1);
+    }
+    if (this.playing) this.toggle();
+  }
+}
+
+/** Called by the shared file. */
+export function playRecording(): void {
+  const text = document.getElementById("recording")?.textContent;
+  if (text) void new Player(JSON.parse(text) as Recording).start();
+}

@@ -1,0 +1,299 @@
+/** The picture of a plant: what is drawn, from where, in which colours. It draws only when something has changed. */
+import {
+  Matrix4, OrthographicCamera, Scene, Vector2, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget,
+  type Camera, type DataTexture,
+} from "three";
+import { Backdrop } from "./backdrop.js";
+import { OrbitCamera } from "./camera.js";
+import { themes, type Theme } from "./colours.js";
+import { FieldView, type FieldLook } from "./fields.js";
+import { Ground } from "./ground.js";
+import { Internodes } from "./internodes.js";
+import { boundsOf, type Column, type Field, type Packet, type Shape, type Vector } from "./packets.js";
+import { markTable, Pass, shadowDepth, sharedUniforms, useTheme, valueTable } from "./shading.js";
+import { Shapes } from "./shapes.js";
+import { Triangles } from "./triangles.js";
+
+const shadowSize = 1024;
+const pickReach = 4; // pixels around the pointer
+const nothing = 0xffffffff;
+
+/** Whether this browser draws without a graphics card. */
+function drawsInSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return true;
+  const name = String(gl.getParameter(gl.RENDERER)) + String(gl.getParameter(37446));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
+export class PlantScene {
+  readonly orbit: OrbitCamera;
+  /** Called after a frame was drawn. */
+  drawn: (() => void) | null = null;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly uniforms = sharedUniforms();
+  private readonly backdrop = new Backdrop();
+  private readonly ground: Ground;
+  private readonly internodes: Internodes;
+  private readonly triangles: Triangles;
+  private readonly shapes: Shapes;
+  private readonly fieldView: FieldView;
+  private readonly shadowCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  private readonly shadowTarget = new WebGLRenderTarget(shadowSize, shadowSize, { depthTexture: shadowDepth(shadowSize) });
+  private readonly pickTarget = new WebGLRenderTarget(2 * pickReach + 1, 2 * pickReach + 1);
+  private readonly software = drawsInSoftware();
+  private bounds: { lower: Vector; upper: Vector } | null = null;
+  private shadowStale = true;
+  private requested = false;
+  private framed = false;
+  private width = 1;
+  private height = 1;
+  private groundShown = true;
+  private shadows = true;
+  packet: Packet | null = null;
+
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: false, powerPreference: "high-performance" });
+    this.renderer.autoClear = false;
+    this.orbit = new OrbitCamera(() => this.request());
+    this.ground = new Ground(this.uniforms);
+    this.internodes = new Internodes(this.uniforms);
+    this.triangles = new Triangles(this.uniforms);
+    this.shapes = new Shapes(this.uniforms, this.scene);
+    this.fieldView = new FieldView(this.uniforms, this.scene);
+    this.uniforms.shadowMap.value = this.shadowTarget.depthTexture;
+    this.scene.matrixWorldAutoUpdate = false;
+    this.scene.add(this.backdrop.mesh, this.ground.mesh, this.internodes.mesh, this.triangles.mesh);
+    this.theme = themes.light;
+  }
+
+  set theme(theme: Theme) {
+    useTheme(this.uniforms, theme);
+    this.backdrop.useTheme(theme);
+    this.ground.useTheme(theme);
+    this.request();
+  }
+
+  get gridCell(): number {
+    return this.ground.cell;
+  }
+
+  learn(shapes: Shape[]): void {
+    this.shapes.learn(shapes);
+  }
+
+  /** Draws a packet from now on. The camera stays, except for the first one. */
+  show(packet: Packet): void {
+    this.packet = packet;
+    this.internodes.show(packet);
+    this.triangles.show(packet);
+    this.shapes.show(packet);
+    this.bounds = boundsOf(packet);
+    this.shadowStale = true;
+    if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
+    if (!this.framed && this.bounds) {
+      this.framed = true;
+      this.fit();
+    }
+    this.request();
+  }
+
+  /** The next packet is shown whole, from the first direction. */
+  reframe(): void {
+    this.framed = false;
+  }
+
+  fit(): void {
+    if (this.bounds) this.orbit.fit(this.bounds.lower, this.bounds.upper);
+  }
+
+  home(): void {
+    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper);
+  }
+
+  /** Colours modules by a column, by the order of branching, or as the model does. */
+  colourBy(by: Column | "order" | null, range?: [number, number]): void {
+    this.uniforms.colouring.value = by === null ? 0 : by === "order" ? 2 : 1;
+    if (by === "order") (this.uniforms.range.value as Vector2).set(0, range ? range[1] : 6);
+    if (by !== null && by !== "order") {
+      (this.uniforms.values.value as DataTexture).dispose();
+      this.uniforms.values.value = valueTable(by.values);
+      (this.uniforms.range.value as Vector2).set(...(range ?? [by.lowest, by.highest]));
+    }
+    this.request();
+  }
+
+  /** Marks one module and its siblings; everything else steps back. */
+  mark(module: number | null, siblings: readonly number[] = []): void {
+    this.uniforms.marked.value = module !== null;
+    if (module !== null) {
+      const highest = Math.max(module, ...siblings.slice(-1), siblings.reduce((a, b) => Math.max(a, b), 0), this.highestModule());
+      const marks = new Uint8Array(highest + 1);
+      for (const sibling of siblings) marks[sibling] = 2;
+      marks[module] = 1;
+      (this.uniforms.marks.value as DataTexture).dispose();
+      this.uniforms.marks.value = markTable(marks);
+    }
+    this.request();
+  }
+
+  showField(field: Field | null, look: FieldLook): void {
+    if (field) this.fieldView.show(field);
+    this.fieldView.look(field ? look : null);
+    this.request();
+  }
+
+  lookAtField(look: FieldLook): void {
+    this.fieldView.look(look);
+    this.request();
+  }
+
+  setGround(shown: boolean): void {
+    this.groundShown = shown;
+    this.request();
+  }
+
+  setShadows(on: boolean): void {
+    this.shadows = on;
+    this.shadowStale = true;
+    this.request();
+  }
+
+  resize(width: number, height: number): void {
+    this.width = Math.max(1, width);
+    this.height = Math.max(1, height);
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(this.width, this.height, false);
+    this.orbit.resize(this.width, this.height);
+    this.request();
+  }
+
+  request(): void {
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame(() => {
+      this.requested = false;
+      this.draw();
+      this.drawn?.();
+    });
+  }
+
+  /** Draws now. */
+  draw(): void {
+    if (this.shadowStale) this.drawShadow();
+    this.drawPass(Pass.picture, this.orbit.camera, null);
+  }
+
+  /** The module under a point of the canvas, or null. */
+  pick(x: number, y: number): number | null {
+    const { camera } = this.orbit;
+    const side = 2 * pickReach + 1;
+    camera.setViewOffset(this.width, this.height, Math.round(x) - pickReach, Math.round(y) - pickReach, side, side);
+    this.drawPass(Pass.identity, camera, this.pickTarget);
+    camera.clearViewOffset();
+    const bytes = new Uint8Array(side * side * 4);
+    this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, side, side, bytes);
+    return nearestIdentity(bytes, side);
+  }
+
+  /** The picture as a PNG, with `scale` times the pixels. */
+  async snapshot(scale: number): Promise<Blob> {
+    const ratio = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(scale);
+    this.renderer.setSize(this.width, this.height, false);
+    this.draw();
+    const blob = await new Promise<Blob | null>((done) => this.canvas.toBlob(done, "image/png"));
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.width, this.height, false);
+    this.draw();
+    if (!blob) throw new Error("The browser could not write the picture.");
+    return blob;
+  }
+
+  /** Waits until everything drawn so far stands in the picture: for measurements. */
+  finish(): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
+  private highestModule(): number {
+    const { packet } = this;
+    if (!packet) return 0;
+    let highest = 0;
+    for (let i = 5; i < packet.internodes.length; i += 6) highest = Math.max(highest, packet.internodes[i]);
+    for (const module of packet.modules) highest = Math.max(highest, module);
+    for (const group of packet.groups) for (const module of group.modules) highest = Math.max(highest, module);
+    return highest;
+  }
+
+  private placeGround(lower: Vector, upper: Vector): void {
+    const centre = new Vector3((lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2);
+    const radius = Math.max(0.5 * Math.hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]), 1e-4);
+    this.ground.place(centre, radius);
+    const sun = this.uniforms.sun.value as Vector3;
+    const camera = this.shadowCamera;
+    camera.left = camera.bottom = -radius;
+    camera.right = camera.top = radius;
+    camera.near = 0;
+    // The ground may lie far behind the plant.
+    camera.far = 2 * radius + Math.max(0, centre.y) / sun.y + radius;
+    camera.position.copy(centre).addScaledVector(sun, radius);
+    camera.lookAt(centre);
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    const toTexture = new Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
+    (this.uniforms.shadowMatrix.value as Matrix4).copy(toTexture).multiply(camera.projectionMatrix).multiply(camera.matrixWorldInverse);
+    this.uniforms.shadowBias.value = (radius * 0.012) / camera.far;
+  }
+
+  private drawShadow(): void {
+    this.shadowStale = false;
+    const shadowed = this.shadows && this.bounds !== null;
+    this.uniforms.shadowed.value = false;
+    if (shadowed) this.drawPass(Pass.shadow, this.shadowCamera, this.shadowTarget);
+    this.uniforms.shadowed.value = shadowed;
+  }
+
+  private drawPass(pass: Pass, camera: Camera, target: WebGLRenderTarget | null): void {
+    const picture = pass === Pass.picture;
+    this.uniforms.pass.value = pass;
+    this.setEye(pass === Pass.shadow);
+    this.backdrop.mesh.visible = picture;
+    this.ground.mesh.visible = picture && this.groundShown;
+    this.renderer.setRenderTarget(target);
+    this.renderer.setClearColor(0xffffff, 1);
+    this.renderer.clear();
+    this.renderer.render(this.scene, camera);
+    this.renderer.setRenderTarget(null);
+  }
+
+  private setEye(parallel: boolean): void {
+    const eye = this.uniforms.eye.value as Vector4;
+    if (parallel) {
+      eye.set(...(this.uniforms.sun.value as Vector3).toArray(), 0);
+      this.uniforms.pixel.value = (this.shadowCamera.right * 2) / shadowSize;
+      return;
+    }
+    const { camera } = this.orbit;
+    eye.set(...camera.position.toArray(), 1);
+    const rows = this.height * this.renderer.getPixelRatio();
+    this.uniforms.pixel.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / rows;
+  }
+}
+
+function nearestIdentity(bytes: Uint8Array, side: number): number | null {
+  const view = new DataView(bytes.buffer);
+  const middle = (side - 1) / 2;
+  let best: number | null = null;
+  let nearest = Infinity;
+  for (let i = 0; i < side * side; i++) {
+    const identity = view.getUint32(i * 4, true);
+    const away = Math.hypot((i % side) - middle, Math.floor(i / side) - middle);
+    if (identity === nothing || away >= nearest) continue;
+    nearest = away;
+    best = identity;
+  }
+  return best;
+}

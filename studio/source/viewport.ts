@@ -1,0 +1,197 @@
+/** The picture with what belongs to it: colours and their legend, fields, ground, pictures and films. */
+import { download, h, iconButton, remember, remembered, short, whole } from "./elements.js";
+import { mapGradient, PlantScene, steer, themes, triangleCount, type Column, type Field, type FieldLook, type Packet } from "./view/index.js";
+import { errorText, type Studio } from "./state.js";
+import type { Timeline } from "./timeline.js";
+import { menuButton } from "./dialog.js";
+import { Film } from "./film.js";
+
+export class Viewport {
+  readonly element: HTMLElement;
+  readonly scene: PlantScene;
+  private readonly canvas = h("canvas", "", { "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits." });
+  private readonly colourSelect = h("select", "", { "aria-label": "Colour by" });
+  private readonly fieldSelect = h("select", "", { "aria-label": "Field" });
+  private readonly fieldTools = h("div", "field-tools", { hidden: true });
+  private readonly legend = h("div", "legend", { hidden: true, "aria-live": "polite" });
+  private readonly scale = h("div", "scale-note");
+  private colouring = remembered("colouring", "");
+  private fieldName = "";
+  private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
+  private askedColumn = "";
+  private documentPath = "";
+
+  constructor(private readonly studio: Studio, timeline: Timeline, clicked: (module: number | null) => void) {
+    this.scene = new PlantScene(this.canvas);
+    this.scene.theme = themes[studio.theme];
+    steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
+    const film = new Film(this.studio, this.scene, timeline);
+    this.buildFieldTools();
+    this.element = h("div", "viewport", {}, this.canvas, this.toolbar(film), this.legend, this.scale);
+    new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
+    this.colourSelect.addEventListener("change", () => this.colourBy(this.colourSelect.value));
+    this.fieldSelect.addEventListener("change", () => this.chooseField(this.fieldSelect.value));
+    this.listen();
+    this.fillColours();
+    this.fillFields();
+  }
+
+  private listen(): void {
+    const { studio } = this;
+    studio.on("theme", (theme) => (this.scene.theme = themes[theme]));
+    studio.on("shapes", ({ shapes }) => this.scene.learn(shapes));
+    studio.on("shown", (packet) => this.show(packet));
+    studio.on("columns", () => this.fillColours());
+    studio.on("fields", () => this.fillFields());
+    studio.on("column", (column) => this.paint(column));
+    studio.on("field", (field) => this.paintField(field));
+    studio.on("document", (document) => {
+      if (document.path !== this.documentPath) this.scene.reframe();
+      this.documentPath = document.path;
+    });
+    studio.on("growth", (growth) => {
+      if (growth.state === "done" && this.fieldName) this.askField();
+    });
+  }
+
+  private show(packet: Packet): void {
+    this.scene.show(packet);
+    this.scale.textContent = `grid ${short(this.scene.gridCell)} m`;
+    this.element.dataset.step = String(packet.step);
+    this.element.dataset.growth = String(packet.growth);
+    this.element.dataset.triangles = String(triangleCount(packet));
+    if (this.colouring && this.colouring !== "order") this.askColumn(packet);
+  }
+
+  private toolbar(film: Film): HTMLElement {
+    const shadows = remembered("shadows", true);
+    const ground = remembered("ground", true);
+    this.scene.setShadows(shadows);
+    this.scene.setGround(ground);
+    const look = menuButton(iconButton("layers", "Ground and shadows", () => undefined), () => [
+      { name: remembered("shadows", true) ? "Hide shadows" : "Show shadows", run: () => this.flip("shadows", (on) => this.scene.setShadows(on)) },
+      { name: remembered("ground", true) ? "Hide the ground" : "Show the ground", run: () => this.flip("ground", (on) => this.scene.setGround(on)) },
+    ]);
+    const pictures = menuButton(iconButton("camera", "Picture or film", () => undefined), () => [
+      { name: "Picture", hint: "PNG, as shown", run: () => void this.snapshot(1) },
+      { name: "Picture, twice as large", hint: "PNG, 2x", run: () => void this.snapshot(2) },
+      { name: film.running ? "End the film" : "Film of all steps", hint: "WebM", run: () => void film.toggle() },
+    ]);
+    return h("div", "picture-tools", { role: "toolbar", "aria-label": "Picture" },
+      h("label", "", {}, h("span", "", {}, "Colour"), this.colourSelect),
+      h("label", "field-choice", {}, h("span", "", {}, "Field"), this.fieldSelect), this.fieldTools,
+      h("span", "spread"),
+      iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
+      iconButton("home", "First view (Home)", () => this.scene.home()), look, pictures);
+  }
+
+  private flip(key: string, apply: (on: boolean) => void): void {
+    const on = !remembered(key, true);
+    remember(key, on);
+    apply(on);
+  }
+
+  private async snapshot(scale: number): Promise<void> {
+    try {
+      const name = this.studio.document?.name ?? "plant";
+      download(await this.scene.snapshot(scale * Math.min(window.devicePixelRatio, 2)), `${name}-${this.studio.frames.step}.png`);
+    } catch (error) {
+      this.studio.tell("error", errorText(error));
+    }
+  }
+
+  private fillColours(): void {
+    const { columns } = this.studio;
+    const names = columns.includes("order") ? columns : ["order", ...columns];
+    this.colourSelect.replaceChildren(h("option", "", { value: "" }, "as in the model"),
+      ...names.map((name) => h("option", "", { value: name }, name)));
+    if (!["", ...names].includes(this.colouring)) this.colourBy("");
+    this.colourSelect.value = this.colouring;
+    if (this.colouring && this.studio.frames.shown) this.colourBy(this.colouring);
+  }
+
+  private colourBy(name: string): void {
+    this.colouring = name;
+    remember("colouring", name);
+    this.askedColumn = "";
+    this.legend.hidden = true;
+    const { shown } = this.studio.frames;
+    if (name === "") this.scene.colourBy(null);
+    else if (!this.studio.columns.includes(name)) this.paintOrder(shown);
+    else if (shown) this.askColumn(shown);
+  }
+
+  private paintOrder(packet: Packet | null): void {
+    let highest = 1;
+    if (packet) for (let i = 4; i < packet.internodes.length; i += 6) highest = Math.max(highest, packet.internodes[i] >>> 24);
+    this.scene.colourBy("order", [0, highest]);
+    this.drawLegend("order of branching", 0, highest, "");
+  }
+
+  private askColumn(packet: Packet): void {
+    if (!this.studio.columns.includes(this.colouring)) return this.paintOrder(packet);
+    const key = `${packet.growth} ${packet.step} ${this.colouring}`;
+    if (key === this.askedColumn) return;
+    this.askedColumn = key;
+    this.studio.connection.request("column", { growth: packet.growth, step: packet.step, name: this.colouring }).catch(() => undefined);
+  }
+
+  private paint(column: Column): void {
+    const { shown } = this.studio.frames;
+    if (column.name !== this.colouring || column.step !== shown?.step || column.growth !== shown.growth) return;
+    this.scene.colourBy(column);
+    this.drawLegend(column.name, column.lowest, column.highest, column.values.some(Number.isNaN) ? "grey: no value" : "");
+  }
+
+  private drawLegend(name: string, lowest: number, highest: number, note: string): void {
+    const bar = h("div", "legend-bar");
+    bar.style.background = mapGradient();
+    this.legend.replaceChildren(h("strong", "", {}, name), bar,
+      h("div", "legend-ends", {}, h("span", "", {}, short(lowest)), h("span", "", {}, short((lowest + highest) / 2)), h("span", "", {}, short(highest))),
+      h("small", "", {}, note));
+    this.legend.hidden = false;
+  }
+
+  private fillFields(): void {
+    const { fields } = this.studio;
+    this.fieldSelect.replaceChildren(h("option", "", { value: "" }, "none"),
+      ...fields.map(({ name, unit, meaning }) => h("option", "", { value: name, title: meaning }, unit ? `${name} (${unit})` : name)));
+    this.fieldSelect.parentElement?.toggleAttribute("hidden", fields.length === 0);
+    this.chooseField(fields.some(({ name }) => name === this.fieldName) ? this.fieldName : "");
+  }
+
+  private chooseField(name: string): void {
+    this.fieldName = name;
+    this.fieldSelect.value = name;
+    this.fieldTools.hidden = name === "";
+    if (name === "") this.scene.showField(null, this.fieldLook);
+    else this.askField();
+  }
+
+  private askField(): void {
+    const { growth } = this.studio;
+    if (growth) this.studio.connection.request("field", { growth: growth.growth, name: this.fieldName }).catch(() => undefined);
+  }
+
+  private paintField(field: Field): void {
+    if (field.name !== this.fieldName) return;
+    this.scene.showField(field, this.fieldLook);
+    const unit = this.studio.fields.find(({ name }) => name === field.name)?.unit ?? "";
+    this.drawLegend(`${field.name}${unit ? ` (${unit})` : ""}`, field.lowest, field.highest, `after step ${whole(field.step)}`);
+  }
+
+  private buildFieldTools(): void {
+    const mode = h("select", "", { "aria-label": "Field as" },
+      ...["slice across y", "slice across x", "slice across z", "cloud"].map((name) => h("option", "", {}, name)));
+    const place = h("input", "", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, "aria-label": "Place of the slice" });
+    const update = () => {
+      const axis = [1, 0, 2, 0][mode.selectedIndex];
+      this.fieldLook = { mode: mode.selectedIndex === 3 ? "cloud" : "slice", axis, at: Number(place.value) };
+      place.hidden = this.fieldLook.mode === "cloud";
+      this.scene.lookAtField(this.fieldLook);
+    };
+    mode.addEventListener("change", update);
+    place.addEventListener("input", update);
+    this.fieldTools.append(mode, place);
+  }
+}
