@@ -89,7 +89,9 @@ export class Gallery {
     const address = this.pictures.get(number) ?? this.studio.connection.file(number).then((blob) => URL.createObjectURL(blob));
     this.pictures.set(number, address);
     try {
-      place.replaceChildren(h("img", "", { src: await address, alt: "" }));
+      const picture = h("img", "", { src: await address, alt: "" });
+      await picture.decode();
+      place.replaceChildren(picture);
     } catch {
       this.pictures.delete(number);
     }

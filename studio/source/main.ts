@@ -81,8 +81,8 @@ function start(): void {
   const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show() });
   layout.left.append(editor.element);
   layout.right.append(tabs.element);
-  layout.centre.append(viewport.element, timeline.element);
-  document.body.append(header.element, messages.banner, layout.element, new StatusLine(studio).element, messages.element, gallery.element);
+  layout.centre.append(viewport.element);
+  document.body.append(header.element, messages.banner, layout.element, timeline.element, new StatusLine(studio).element, messages.element, gallery.element);
   keysOfThePage(header, timeline);
   let first = true;
   studio.on("connection", (state) => {

@@ -10,6 +10,7 @@ import type { PlantScene } from "./view/index.js";
 
 export class PickPanel {
   readonly element = h("div", "pick");
+  private picked: Picked | null = null;
   private module: number | null = null;
   private growth = -1;
   private step = -1;
@@ -19,6 +20,9 @@ export class PickPanel {
     private readonly timeline: Timeline, private readonly opened: () => void,
   ) {
     this.empty();
+    studio.on("theme", () => {
+      if (this.picked) this.draw(this.picked);
+    });
     studio.on("shown", ({ growth, step }) => {
       // Numbers of modules belong to one step.
       if (this.module !== null && (growth !== this.growth || step !== this.step)) this.scene().mark(null);
@@ -35,7 +39,7 @@ export class PickPanel {
     const { growth, step } = shown;
     const picked = await this.studio.ask("pick", { growth, step, module });
     if (!picked || this.studio.frames.shown !== shown) return;
-    Object.assign(this, { module, growth, step });
+    Object.assign(this, { picked, module, growth, step });
     this.scene().mark(module, picked.siblings);
     this.editor.mark(picked.places);
     this.opened();
@@ -43,6 +47,7 @@ export class PickPanel {
   }
 
   private forget(): void {
+    this.picked = null;
     this.module = null;
     this.scene().mark(null);
     this.editor.mark([]);

@@ -59,7 +59,7 @@ export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve
     height: options.height,
     scales: { x: { time: false } },
     axes: axes(options.small ?? false),
-    legend: { show: !options.small },
+    legend: { show: curves.length > 1 },
     cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
     plugins: [stepMark(options.step)],
     series: [

@@ -48,6 +48,7 @@ class Player {
       if (message.kind === "shapes") this.scene.learn(message.shapes);
     }
     await this.show(this.recording.packets.length - 1);
+    this.scene.keepView();
     this.scene.orbit.state = this.recording.camera;
   }
 

@@ -47,7 +47,8 @@ export class PlantScene {
   private bounds: { lower: Vector; upper: Vector } | null = null;
   private shadowStale = true;
   private requested = false;
-  private framed = false;
+  private frame: { lower: Vector; upper: Vector } | null = null;
+  private framedGrowth: number | null = null;
   private width = 1;
   private height = 1;
   private groundShown = true;
@@ -63,7 +64,6 @@ export class PlantScene {
     this.triangles = new Triangles(this.uniforms);
     this.shapes = new Shapes(this.uniforms, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
-    this.uniforms.shadowMap.value = this.shadowTarget.depthTexture;
     this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(this.backdrop.mesh, this.ground.mesh, this.internodes.mesh, this.triangles.mesh);
     this.theme = themes.light;
@@ -93,16 +93,19 @@ export class PlantScene {
     this.bounds = boundsOf(packet);
     this.shadowStale = true;
     if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
-    if (!this.framed && this.bounds) {
-      this.framed = true;
-      this.fit();
-    }
+    this.followGrowth(packet);
     this.request();
   }
 
-  /** The next packet is shown whole, from the first direction. */
+  /** The next growth is shown whole, from the first direction. */
   reframe(): void {
-    this.framed = false;
+    this.frame = null;
+    this.framedGrowth = null;
+  }
+
+  /** The user has chosen a view: it stays. */
+  keepView(): void {
+    if (this.framedGrowth !== null) this.framedGrowth = -1;
   }
 
   fit(): void {
@@ -218,6 +221,22 @@ export class PlantScene {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
+  /** The first growth of a document stays whole in the picture while it grows; later ones leave the camera alone. */
+  private followGrowth(packet: Packet): void {
+    if (!this.bounds) return;
+    this.framedGrowth ??= packet.growth;
+    if (this.framedGrowth !== packet.growth) return;
+    const { lower, upper } = this.bounds;
+    const outside = !this.frame || lower.some((value, k) => value < this.frame!.lower[k]) || upper.some((value, k) => value > this.frame!.upper[k]);
+    if (!outside) return;
+    const least = (k: number) => Math.min(lower[k], this.frame?.lower[k] ?? Infinity);
+    const most = (k: number) => Math.max(upper[k], this.frame?.upper[k] ?? -Infinity);
+    const first = this.frame === null;
+    this.frame = { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
+    if (first) this.orbit.home(this.frame.lower, this.frame.upper);
+    else this.orbit.fit(this.frame.lower, this.frame.upper);
+  }
+
   private highestModule(): number {
     const { packet } = this;
     if (!packet) return 0;
@@ -252,7 +271,10 @@ export class PlantScene {
     this.shadowStale = false;
     const shadowed = this.shadows && this.bounds !== null;
     this.uniforms.shadowed.value = false;
+    // What is drawn to must not be read from.
+    this.uniforms.shadowMap.value = null;
     if (shadowed) this.drawPass(Pass.shadow, this.shadowCamera, this.shadowTarget);
+    this.uniforms.shadowMap.value = this.shadowTarget.depthTexture;
     this.uniforms.shadowed.value = shadowed;
   }
 

@@ -26,6 +26,7 @@ class Pointers {
     if (!before) return;
     const now = { x: event.offsetX, y: event.offsetY };
     this.travelled += Math.hypot(now.x - before.x, now.y - before.y);
+    if (this.travelled > steady) this.scene.keepView();
     if (this.down.size === 2) this.pinch(event.pointerId, before, now);
     else if (this.travelled > steady) this.drag(event, now.x - before.x, now.y - before.y);
     this.down.set(event.pointerId, now);
@@ -86,6 +87,7 @@ export function steer(scene: PlantScene, steering: Steering = {}): void {
   canvas.addEventListener("dblclick", () => scene.fit());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
+    scene.keepView();
     scene.orbit.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) * 0.003));
   }, { passive: false });
   const actions = keyActions(scene);
@@ -94,6 +96,7 @@ export function steer(scene: PlantScene, steering: Steering = {}): void {
     const action = actions[event.key];
     if (!action) return;
     event.preventDefault();
+    scene.keepView();
     action();
   });
 }
