@@ -19,6 +19,7 @@ if(ESPALIER_LOOK)
     CommonTransforms FiltersCore FiltersGeneral FiltersSources IOXML IOGeometry IOPLY IOImage IOExport
     IOOggTheora ChartsCore InteractionStyle InteractionWidgets RenderingAnnotation RenderingCore RenderingContext2D
     RenderingContextOpenGL2 RenderingFreeType RenderingOpenGL2 RenderingUI RenderingVolume RenderingVolumeOpenGL2)
+  find_package(Boost 1.74 REQUIRED)  # Beast and Asio are headers
   find_package(Qhull REQUIRED)  # convex hulls
   find_package(OpenGL QUIET COMPONENTS EGL)  # pictures without a display
 endif()

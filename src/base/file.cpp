@@ -77,6 +77,10 @@ std::string likely_reason(const fs::path& folder) {
 std::string read_text(const fs::path& path) {
     std::error_code error;
     if (fs::is_directory(path, error)) throw UserError(fmt::format("cannot read {}: it is a folder", path.string()));
+    if (std::optional<std::string> unsaved = ReadLog::unsaved(path)) {
+        ReadLog::note(path, *unsaved);
+        return *std::move(unsaved);
+    }
     std::ifstream in(path, std::ios::binary);
     if (!in) throw UserError(fmt::format("cannot read {}: {}", path.string(), reason(errno)));
     std::ostringstream text;

@@ -7,6 +7,10 @@ namespace {
 
 thread_local ReadLog* log_of_thread = nullptr;
 
+std::filesystem::path name_of(const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+}
+
 }  // namespace
 
 std::uint64_t digest(std::string_view bytes, std::uint64_t before) {
@@ -15,7 +19,7 @@ std::uint64_t digest(std::string_view bytes, std::uint64_t before) {
     return hash;
 }
 
-ReadLog::ReadLog(std::size_t most_kept) : most_kept_(most_kept) {}
+ReadLog::ReadLog(std::size_t most_kept, UnsavedTexts unsaved) : most_kept_(most_kept), unsaved_(std::move(unsaved)) {}
 
 ReadLog::~ReadLog() = default;
 
@@ -38,10 +42,15 @@ void ReadLog::note(const std::filesystem::path& path, std::string_view bytes) {
     if (ReadLog* log = log_of_thread) log->add(path, bytes);
 }
 
+std::optional<std::string> ReadLog::unsaved(const std::filesystem::path& path) {
+    if (!log_of_thread || log_of_thread->unsaved_.empty()) return std::nullopt;
+    const auto found = log_of_thread->unsaved_.find(name_of(path));
+    return found == log_of_thread->unsaved_.end() ? std::nullopt : std::optional(found->second);
+}
+
 void ReadLog::add(const std::filesystem::path& path, std::string_view bytes) {
-    const std::filesystem::path name = std::filesystem::absolute(path).lexically_normal();
     const std::lock_guard lock(mutex_);
-    const auto [place, is_new] = files_.try_emplace(name);
+    const auto [place, is_new] = files_.try_emplace(name_of(path));
     if (!is_new) return;
     File& file = place->second;
     file.digest = digest(bytes);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,9 @@ namespace espalier {
 /// FNV-1a, 64 bits (Fowler, Noll & Vo 1991): detects files that changed, not forged ones.
 /// `before`: the digest of the bytes before these.
 std::uint64_t digest(std::string_view bytes, std::uint64_t before = 0xCBF29CE484222325);
+
+/// Texts that stand for files while somebody edits them, by the files' absolute paths without `.` and `..`.
+using UnsavedTexts = std::map<std::filesystem::path, std::string>;
 
 /// While it lives, it notes every file that read_text() reads on its own thread, and on others within a Scope of it. A
 /// world notes what its plants read in the log of the thread that made it. A second log of a thread takes over from the
@@ -27,7 +31,8 @@ public:
     };
 
     /// Files are kept in full until they are `most_kept` bytes together; of others only size and digest are.
-    explicit ReadLog(std::size_t most_kept = std::size_t(16) << 20);
+    /// Where `unsaved` has a text, read_text() gives that instead of the file's, which must exist.
+    explicit ReadLog(std::size_t most_kept = std::size_t(16) << 20, UnsavedTexts unsaved = {});
     ~ReadLog();
     ReadLog(const ReadLog&) = delete;
     ReadLog& operator=(const ReadLog&) = delete;
@@ -50,13 +55,16 @@ public:
         ReadLog* before_;
     };
 
-    /// Called by read_text().
+    // Called by read_text().
     static void note(const std::filesystem::path& path, std::string_view bytes);
+    /// What stands for the file on this thread; none: the file itself.
+    static std::optional<std::string> unsaved(const std::filesystem::path& path);
 
 private:
     void add(const std::filesystem::path& path, std::string_view bytes);
 
     const std::size_t most_kept_;
+    const UnsavedTexts unsaved_;
     std::size_t kept_ = 0;
     mutable std::mutex mutex_;
     std::map<std::filesystem::path, File> files_;

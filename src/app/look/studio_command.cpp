@@ -1,0 +1,199 @@
+#include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
+#include "espalier/simulation/object.h"
+#include "espalier/studio/studio.h"
+
+#include "app/child.h"
+#include "app/command.h"
+#include "app/end_signals.h"
+#include "app/model_arguments.h"
+#include "app/model_library.h"
+#include "app/program_data.h"
+#include "app/temporary_folder.h"
+#include "base/child_program.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <system_error>
+
+namespace espalier::app {
+namespace {
+
+namespace fs = std::filesystem;
+using studio::LibraryEntry;
+using studio::Opened;
+
+std::atomic<bool> ended{false};
+
+// As `espalier run` reads it.
+Scene read(const Opened& opened) {
+    const SceneOptions options{{}, opened.steps, opened.seed};
+    if (is_scene(opened.path)) return read_scene(opened.path, options);
+    ModelArguments arguments;
+    arguments.file = opened.path;
+    return scene_of_object(object_of(arguments), options);
+}
+
+/// Where people keep what programs leave between their runs (XDG base directory specification).
+fs::path state_file(const fs::path& folder) {
+    const char* state = std::getenv("XDG_STATE_HOME");
+    const char* home = std::getenv("HOME");
+    const fs::path base = state && *state ? fs::path(state) : home && *home ? fs::path(home) / ".local/state" : fs::path();
+    if (base.empty()) return {};
+    return base / "espalier" / fmt::format("studio-{:016x}.json", digest(folder.string()));
+}
+
+/// The pictures and names of docs/gallery.md, by the files they show.
+struct GalleryPicture {
+    std::string name;
+    fs::path file;
+};
+
+std::map<fs::path, GalleryPicture> gallery(const fs::path& data) {
+    std::map<fs::path, GalleryPicture> pictures;
+    const fs::path page = data / "docs/gallery.md";
+    if (!fs::is_regular_file(page)) return pictures;
+    const std::string text = read_text(page);
+    static const std::regex cell(R"(!\[([^\]]*)\]\(([^)]*)\)<br>\*\*[^*]*\*\*<br>([^<]*)<br>`espalier run ([^ `]+))");
+    for (std::sregex_iterator at(text.begin(), text.end(), cell), end; at != end; ++at) {
+        const std::smatch& match = *at;
+        pictures[fs::path(match[4].str())] = {fmt::format("{} ({})", match[1].str(), match[3].str()),
+                                              data / "docs" / match[2].str()};
+    }
+    return pictures;
+}
+
+class Library {
+public:
+    explicit Library(fs::path folder) : folder_(std::move(folder)), models_(model_library({})) {}
+
+    std::vector<LibraryEntry> entries() const {
+        std::vector<LibraryEntry> entries;
+        const fs::path data = fs::absolute(models_).lexically_normal().parent_path();
+        const auto pictures = gallery(data);
+        const auto add = [&](const fs::path& file) {
+            const fs::path path = fs::absolute(file).lexically_normal();
+            const PartDescription description = describe_file(path);
+            const auto known = pictures.find(path.lexically_relative(data));
+            LibraryEntry entry{path, path.stem().string(), description.summary};
+            entry.is_scene = path.extension() == ".toml";
+            if (known != pictures.end()) {
+                entry.name = known->second.name;
+                if (fs::exists(known->second.file)) entry.picture = known->second.file;
+            }
+            entries.push_back(std::move(entry));
+        };
+        for (const PartDescription& model : models_of(data / "models")) add(model.name);
+        for (const fs::path& scene : scenes_below(data / "environments")) add(scene);
+        add_own(data, entries);
+        return entries;
+    }
+
+private:
+    static std::vector<fs::path> scenes_below(const fs::path& folder) {
+        std::vector<fs::path> scenes;
+        if (!fs::is_directory(folder)) return scenes;
+        for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+            if (entry.is_regular_file() && describes_scene(entry.path())) scenes.push_back(entry.path());
+        }
+        std::sort(scenes.begin(), scenes.end());
+        return scenes;
+    }
+
+    // The files of the opened folder itself, without what lies deeper: that may be anything.
+    void add_own(const fs::path& data, std::vector<LibraryEntry>& entries) const {
+        std::error_code ignored;
+        for (const auto& file : fs::directory_iterator(folder_, ignored)) {
+            const bool is_scene = file.is_regular_file() && describes_scene(file.path());
+            if (!is_scene && !(file.is_regular_file() && describes_model(file.path()))) continue;
+            if (file.path().parent_path() == data) continue;
+            entries.push_back({file.path(), file.path().stem().string(), describe_file(file.path()).summary, {},
+                               is_scene, true});
+        }
+    }
+
+    const fs::path folder_, models_;
+};
+
+void open_browser(const std::string& address) {
+    try {
+        start({.words = {"xdg-open", address}});
+    } catch (const std::system_error&) {
+        // Whoever has no such program opens the address that is printed.
+    }
+}
+
+class Studio final : public Command {
+public:
+    explicit Studio(CLI::App& program)
+        : Command(program, "studio", "edit, grow, watch and measure plants in the browser") {
+        app().add_option("what", what_, "a model, a scene, or the folder of an object; default: the library");
+        app()
+            .add_option("--folder", folder_,
+                        "files are read and written below it; default: this folder, or the one of a file outside it");
+        app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
+        app().add_flag("--no-browser", no_browser_, "print the address instead of opening it");
+        app().footer(R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
+holds a key: whoever has it can edit and grow, below the folder only. Unsaved work is there again next time.
+Examples:
+  espalier studio                                    the library
+  espalier studio models/trees/honda.l
+  espalier studio environments/two-trees.toml
+  espalier studio --no-browser --port 8700           for a tunnel: ssh -L 8700:127.0.0.1:8700 HOST)");
+    }
+
+    int run() override {
+        const EndSignals signals([](int) { ended = true; }, /*only_once=*/true);
+        const TemporaryFolder scratch("studio");
+        studio::StudioOptions options;
+        options.opened.path = what_.empty() ? fs::path() : fs::absolute(here_or_with_program(what_)).lexically_normal();
+        if (!what_.empty() && !fs::exists(options.opened.path)) {
+            throw UserError(fmt::format("{} does not exist; `espalier studio` alone opens the library", what_.string()));
+        }
+        options.folder = folder();
+        options.scratch = scratch.path();
+        options.state = state_file(options.folder);
+        options.port = port_;
+        options.read = read;
+        options.library = [library = Library(options.folder)] { return library.entries(); };
+        options.interrupt = &ended;
+        options.ready = [this](const std::string& address) {
+            fmt::print("{}\n", address);
+            std::fflush(stdout);
+            if (!no_browser_) open_browser(address);
+        };
+        studio::serve(options);
+        return exit_code::done;
+    }
+
+private:
+    fs::path folder() const {
+        fs::path folder = fs::absolute(folder_.empty() ? default_folder() : folder_).lexically_normal();
+        if (!fs::is_directory(folder)) throw UserError(fmt::format("the folder {} does not exist", folder.string()));
+        return folder.has_filename() ? folder : folder.parent_path();
+    }
+
+    // A file that lies elsewhere is edited where it lies, unless it came with the program.
+    fs::path default_folder() const {
+        const fs::path here = fs::current_path();
+        if (what_.empty() || !fs::exists(what_)) return here;
+        const fs::path file = fs::absolute(what_).lexically_normal();
+        const fs::path below = file.lexically_relative(here);
+        return !below.empty() && *below.begin() != ".." ? here : file.parent_path();
+    }
+
+    fs::path what_, folder_;
+    int port_ = 0;
+    bool no_browser_ = false;
+};
+
+const RegisteredCommand<Studio> studio_entry{46};
+
+}  // namespace
+}  // namespace espalier::app

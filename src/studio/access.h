@@ -1,0 +1,22 @@
+// Who may talk to the studio: pages that came from it and know its token.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace espalier::studio {
+
+/// 128 random bits in hexadecimal.
+std::string new_token();
+
+/// Compares in a time that does not tell how much of it is right.
+bool is_token(std::string_view given, std::string_view token);
+
+/// True for this machine under its own names, with any port: a tunnel may have another. A name that somebody else's
+/// server gave to this machine is none of them (DNS rebinding).
+bool is_own_host(std::string_view host);
+
+/// True for an Origin that is a page of this host.
+bool is_own_origin(std::string_view origin, std::string_view host);
+
+}  // namespace espalier::studio

@@ -1,0 +1,62 @@
+#include "studio/export_job.h"
+
+#include "espalier/formats/exporter.h"
+#include "espalier/simulation/simulation.h"
+
+#include <exception>
+#include <utility>
+
+namespace espalier::studio {
+
+namespace fs = std::filesystem;
+
+ExportRun::ExportRun(ExportOrder order, Progressed progressed, Done done)
+    : order_(std::move(order)),
+      progressed_(std::move(progressed)),
+      done_(std::move(done)),
+      thread_([this] { work(); }) {}
+
+ExportRun::~ExportRun() {
+    cancelled_ = true;
+    thread_.join();
+}
+
+void ExportRun::work() {
+    try {
+        std::vector<fs::path> files = write();
+        if (!cancelled_) done_(std::move(files), "");
+    } catch (const std::exception& error) {
+        if (!cancelled_) done_({}, error.what());
+    }
+    ended_ = true;
+}
+
+std::vector<fs::path> ExportRun::write() {
+    const ReadLog reads(std::size_t(16) << 20, order_.unsaved);
+    Opened opened = order_.opened;
+    if (order_.step >= 0) opened.steps = order_.step;
+    const Scene scene = order_.read(opened);
+
+    RunOptions options;
+    options.output = order_.scratch / "run";
+    options.overwrite = true;
+    options.interrupt = &cancelled_;
+    options.inputs = &reads;
+    options.progress = [this](const Progress& progress) {
+        if (progress.steps > 0) progressed_(double(progress.step) / progress.steps);
+    };
+    run(scene, options);
+    if (cancelled_) return {};
+
+    const RecordedRun recorded(options.output);
+    std::vector<const RecordedFrame*> frames;
+    for (const RecordedFrame& frame : recorded.frames()) frames.push_back(&frame);
+    if (!order_.is_film && !frames.empty()) frames.erase(frames.begin(), frames.end() - 1);
+    std::vector<fs::path> files;
+    const auto report = [&](const ExportedFile& file) { files.push_back(file.path); };
+    const ExportJob job{recorded, frames, {}, order_.scratch / "export", report};
+    export_run(job, std::vector{order_.format});
+    return files;
+}
+
+}  // namespace espalier::studio

@@ -1,0 +1,50 @@
+// Grows what is open once more with a timeline, and writes it for another program; on a thread of its own.
+#pragma once
+
+#include "espalier/base/read_log.h"
+#include "espalier/studio/studio.h"
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace espalier::studio {
+
+struct ExportOrder {
+    Opened opened;
+    UnsavedTexts unsaved;
+    std::string format;
+    int step = -1;         ///< -1: the last; the growth ends there
+    bool is_film = false;  ///< every step, in formats that have animations or a file a step
+    std::filesystem::path scratch;
+    std::function<Scene(const Opened&)> read;
+};
+
+class ExportRun {
+public:
+    /// Both are called on the job's thread. `done` with an empty list says why it failed.
+    using Progressed = std::function<void(double share)>;
+    using Done = std::function<void(std::vector<std::filesystem::path> files, std::string why)>;
+
+    ExportRun(ExportOrder order, Progressed progressed, Done done);
+    /// Ends it after the step at hand.
+    ~ExportRun();
+    ExportRun(const ExportRun&) = delete;
+    ExportRun& operator=(const ExportRun&) = delete;
+
+    bool has_ended() const { return ended_; }
+
+private:
+    void work();
+    std::vector<std::filesystem::path> write();
+
+    const ExportOrder order_;
+    const Progressed progressed_;
+    const Done done_;
+    std::atomic<bool> cancelled_ = false, ended_ = false;
+    std::thread thread_;  ///< the last: it uses all others
+};
+
+}  // namespace espalier::studio

@@ -1,0 +1,112 @@
+// One growth of what the studio has open, on a thread of its own.
+#pragma once
+
+#include "espalier/base/read_log.h"
+#include "espalier/simulation/world.h"
+#include "espalier/studio/studio.h"
+
+#include "studio/kept_steps.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace espalier::studio {
+
+struct GrowthOrder {
+    std::uint32_t number = 0;   ///< names the growth
+    std::uint64_t version = 0;  ///< of the document that it grows
+    Opened opened;
+    UnsavedTexts unsaved;
+    std::filesystem::path scratch;  ///< a folder for its files
+    std::function<Scene(const Opened&)> read;
+};
+
+struct FieldDescription {
+    std::string name, unit, meaning;
+};
+
+/// What is known once the files were read.
+struct GrowthStart {
+    std::map<std::filesystem::path, ReadLog::File> files;
+    std::vector<std::string> plants;
+    std::vector<Diagnostic> warnings;
+    std::vector<FieldDescription> fields;
+    int last_step = 0;
+    std::uint64_t seed = 0;
+};
+
+struct GrownStep {
+    int step = 0, last_step = 0;
+    std::size_t modules = 0, internodes = 0;
+    double seconds = 0;       ///< since it began
+    std::string statistics;   ///< the rows of statistics.csv that this step added, with the header in the first
+    bool is_end = false;      ///< no step follows
+};
+
+/// Told on the thread of the growth.
+class GrowthListener {
+public:
+    virtual ~GrowthListener() = default;
+    virtual void started(std::uint32_t growth, GrowthStart start) = 0;
+    virtual void grown(std::uint32_t growth, GrownStep step) = 0;
+    /// It could not be read, or did not go on. A growth that is told to end says nothing.
+    virtual void failed(std::uint32_t growth, std::vector<Diagnostic> why) = 0;
+};
+
+class Growth {
+public:
+    Growth(GrowthOrder order, GrowthListener& listener);
+    /// Waits for the step at hand.
+    ~Growth();
+    Growth(const Growth&) = delete;
+    Growth& operator=(const Growth&) = delete;
+
+    std::uint32_t number() const { return order_.number; }
+    std::uint64_t version() const { return order_.version; }
+    const KeptSteps& steps() const { return steps_; }
+    double seconds() const;  ///< since it began
+    /// The scene as it grows; null before it has started.
+    std::shared_ptr<const Scene> scene() const;
+
+    /// No more steps: it ends after the one at hand, and its thread with it.
+    void cancel();
+    /// True once its thread has ended: the destructor does not wait.
+    bool has_ended() const { return ended_; }
+    /// No more steps, but it still answers questions.
+    void stop() { stopped_ = true; }
+    bool is_stopped() const { return stopped_; }
+
+    /// Called with the world on the thread of the growth: between two steps, or after the last.
+    void ask(std::function<void(const World&)> question);
+
+private:
+    void live();
+    void grow(const Scene& scene, GrowthStart start);
+    void note(const World& world, const std::filesystem::path& statistics);
+    void answer(const World& world);
+    void answer_to_the_end(const World& world);
+
+    const GrowthOrder order_;
+    GrowthListener& listener_;
+    KeptSteps steps_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::size_t statistics_read_ = 0;
+    std::atomic<bool> cancelled_ = false, stopped_ = false, ended_ = false;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::shared_ptr<const Scene> scene_;
+    std::deque<std::function<void(const World&)>> questions_;
+    std::thread thread_;  ///< the last: it uses all others
+};
+
+}  // namespace espalier::studio

@@ -1,0 +1,325 @@
+#include "studio/packet.h"
+
+#include "espalier/geometry/surface.h"
+
+#include "geometry/polygon_triangles.h"
+#include "studio/message_bytes.h"
+#include "timeline/organ_mesh.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace espalier::studio {
+namespace {
+
+constexpr std::uint32_t disc = 0, sphere = 1, outline = 2, first_surface = 3;
+
+using Rgba = std::array<std::uint8_t, 4>;
+using Normal = std::array<std::int8_t, 4>;
+using Point = std::array<float, 3>;
+
+/// The colours of a plant's indices, each worked out once.
+class Colours {
+public:
+    explicit Colours(const Palette* palette) : palette_(palette) {}
+
+    Rgba of(std::uint16_t index, bool is_wood) {
+        if (!palette_) return is_wood ? Rgba{117, 84, 55, 255} : Rgba{82, 143, 61, 255};
+        const auto [place, is_new] = known_.try_emplace(index);
+        if (is_new) {
+            const Material material = palette_->material(index);
+            const auto [red, green, blue] = shown_colour(material);
+            const double opacity = std::clamp(material.diffuse.a, 0.0, 1.0);
+            place->second = {red, green, blue, static_cast<std::uint8_t>(std::lround(255 * opacity))};
+        }
+        return place->second;
+    }
+
+private:
+    const Palette* palette_;
+    std::map<std::uint16_t, Rgba> known_;
+};
+
+Point point_of(const glm::dvec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+Normal normal_of(const glm::dvec3& v) {
+    const auto part = [](double x) { return static_cast<std::int8_t>(std::lround(127 * std::clamp(x, -1.0, 1.0))); };
+    return {part(v.x), part(v.y), part(v.z), 0};
+}
+
+/// The box and the largest radius of all internodes, which their bytes are parts of.
+struct Extent {
+    Box box;
+    double radius = 0;
+
+    explicit Extent(const timeline::Frame& frame) {
+        for (const timeline::PlantFrame& plant : frame.plants) {
+            for (const Internode& internode : plant.interpretation->geometry.internodes) {
+                box.add(internode.base);
+                box.add(internode.tip);
+                radius = std::max({radius, internode.base_radius, internode.tip_radius});
+            }
+        }
+        if (box.empty()) box.lower = box.upper = glm::dvec3(0);
+    }
+
+    std::array<std::uint16_t, 3> parts(const glm::dvec3& point) const {
+        std::array<std::uint16_t, 3> result;
+        for (int k = 0; k < 3; ++k) {
+            const double size = box.upper[k] - box.lower[k];
+            result[static_cast<std::size_t>(k)] = part(size > 0 ? (point[k] - box.lower[k]) / size : 0);
+        }
+        return result;
+    }
+    std::uint16_t part_of_radius(double value) const { return part(radius > 0 ? value / radius : 0); }
+
+private:
+    static std::uint16_t part(double share) {
+        return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0)));
+    }
+};
+
+struct InternodeBytes {
+    std::array<std::uint16_t, 3> base, tip;
+    std::uint16_t base_radius, tip_radius;
+    std::array<std::uint8_t, 3> rgb;
+    std::uint8_t order;
+    std::uint32_t module;
+};
+static_assert(sizeof(InternodeBytes) == 24);
+
+struct Triangles {
+    std::vector<Point> points;
+    std::vector<Normal> normals;
+    std::vector<Rgba> colours;
+    std::vector<std::uint32_t> modules, indices;
+
+    std::uint32_t add(const glm::dvec3& point, const glm::dvec3& normal, Rgba colour, std::uint32_t module) {
+        points.push_back(point_of(point));
+        normals.push_back(normal_of(normal));
+        colours.push_back(colour);
+        modules.push_back(module);
+        return static_cast<std::uint32_t>(points.size() - 1);
+    }
+};
+
+/// Organs of one shape.
+struct Group {
+    std::vector<std::array<float, 12>> places;
+    std::vector<Rgba> colours;
+    std::vector<std::uint32_t> modules;
+};
+
+std::array<float, 12> matrix(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& at) {
+    std::array<float, 12> rows;
+    for (int row = 0; row < 3; ++row) {
+        const std::array<double, 4> values{x[row], y[row], z[row], at[row]};
+        std::transform(values.begin(), values.end(), rows.begin() + 4 * row,
+                       [](double value) { return static_cast<float>(value); });
+    }
+    return rows;
+}
+
+/// Newell's normal: right for polygons that are not quite flat.
+glm::dvec3 normal_of_polygon(std::span<const glm::dvec3> corners) {
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        sum += glm::cross(a - corners.front(), b - corners.front());
+    }
+    const double length = glm::length(sum);
+    return length > 0 ? sum / length : glm::dvec3(0, 1, 0);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> first_modules(const timeline::Frame& frame) {
+    std::vector<std::uint32_t> firsts{0};
+    for (const timeline::PlantFrame& plant : frame.plants) {
+        firsts.push_back(firsts.back() + static_cast<std::uint32_t>(plant.string->size()));
+    }
+    return firsts;
+}
+
+/// One packet while it is written.
+class PacketWriter::Scribe {
+public:
+    Scribe(PacketWriter& writer, const timeline::Frame& frame) : writer_(writer), frame_(frame), extent_(frame) {}
+
+    Packet write() {
+        const std::vector<std::uint32_t> firsts = first_modules(frame_);
+        for (std::size_t i = 0; i < frame_.plants.size(); ++i) {
+            const timeline::PlantFrame& plant = frame_.plants[i];
+            Colours colours(plant.palette);
+            add_internodes(plant.interpretation->geometry, firsts[i], colours);
+            add_polygons(plant.interpretation->geometry, firsts[i], colours);
+            add_mesh(plant.interpretation->geometry.mesh, firsts[i], colours);
+            add_organs(plant.interpretation->geometry, firsts[i], colours);
+        }
+        return {shapes_message(), packet(firsts), internodes_.size()};
+    }
+
+private:
+    void add_internodes(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
+        internodes_.reserve(internodes_.size() + geometry.internodes.size());
+        for (const Internode& internode : geometry.internodes) {
+            const Rgba colour = colours.of(internode.colour, true);
+            internodes_.push_back({extent_.parts(internode.base),
+                                   extent_.parts(internode.tip),
+                                   extent_.part_of_radius(internode.base_radius),
+                                   extent_.part_of_radius(internode.tip_radius),
+                                   {colour[0], colour[1], colour[2]},
+                                   static_cast<std::uint8_t>(std::min<int>(internode.order, 255)),
+                                   first + internode.module});
+        }
+    }
+
+    void add_polygon(std::span<const glm::dvec3> corners, Rgba colour, std::uint32_t module) {
+        if (corners.size() < 3) return;
+        const glm::dvec3 normal = normal_of_polygon(corners);
+        std::vector<std::uint32_t> cut = geometry::triangles_of(corners, normal);
+        for (std::uint32_t i = 2; cut.size() < 3 * (corners.size() - 2) && i < corners.size(); ++i) {
+            cut.insert(cut.end(), {0, i - 1, i});
+        }
+        const auto origin = static_cast<std::uint32_t>(triangles_.points.size());
+        for (const glm::dvec3& corner : corners) triangles_.add(corner, normal, colour, module);
+        for (const std::uint32_t corner : cut) triangles_.indices.push_back(origin + corner);
+    }
+
+    void add_polygons(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
+        for (const Polygon& polygon : geometry.polygons) {
+            add_polygon(std::span(geometry.vertices).subspan(polygon.first, polygon.count),
+                        colours.of(polygon.colour, false), first + polygon.module);
+        }
+    }
+
+    // Pieces of a cylinder share rings: a vertex is the first piece's that uses it.
+    void add_mesh(const DrawnMesh& mesh, std::uint32_t first, Colours& colours) {
+        constexpr std::uint32_t unused = 0xFFFFFFFF;
+        std::vector<std::uint32_t> written(mesh.vertices.size(), unused);
+        for (const MeshPiece& piece : mesh.pieces) {
+            const Rgba colour = colours.of(piece.colour, piece.kind == MeshPiece::Kind::cylinder);
+            for (const std::uint32_t index : std::span(mesh.triangles).subspan(piece.first, piece.count)) {
+                std::uint32_t& place = written[index];
+                const SurfaceVertex& vertex = mesh.vertices[index];
+                if (place == unused) {
+                    place = triangles_.add(vertex.position, vertex.normal, colour, first + piece.module);
+                }
+                triangles_.indices.push_back(place);
+            }
+        }
+    }
+
+    void add_organs(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
+        for (const Organ& organ : geometry.organs) {
+            const Rgba colour = colours.of(organ.colour, false);
+            const bool is_surface = organ.shape == Organ::Shape::surface;
+            const std::optional<std::uint32_t> shape = shape_of(organ, geometry.shapes);
+            if (!shape) {
+                add_polygon(timeline::rhombus_of(organ), colour, first + organ.module);
+                continue;
+            }
+            const Pose& pose = organ.pose;
+            Group& group = groups_[*shape];
+            // Round organs lie across `up`; surfaces have x along left, y along heading, z along up.
+            const glm::dvec3 size = is_surface ? organ.size : glm::dvec3(organ.size.x);
+            group.places.push_back(
+                matrix(size.x * pose.left, size.y * pose.heading, size.z * pose.up, pose.position));
+            group.colours.push_back(colour);
+            group.modules.push_back(first + organ.module);
+        }
+    }
+
+    // None for a surface that no view file describes.
+    std::optional<std::uint32_t> shape_of(const Organ& organ, const std::shared_ptr<const Shapes>& shapes) {
+        switch (organ.shape) {
+            case Organ::Shape::disc:
+                return disc;
+            case Organ::Shape::sphere:
+                return sphere;
+            case Organ::Shape::circle:
+                return outline;
+            case Organ::Shape::surface:
+                break;
+        }
+        if (!shapes || !shapes->surfaces.contains(organ.surface)) return std::nullopt;
+        const auto [place, is_new] = writer_.shapes_.try_emplace({shapes.get(), organ.surface});
+        if (is_new) {
+            place->second = first_surface + static_cast<std::uint32_t>(writer_.shapes_.size()) - 1;
+            writer_.kept_.push_back(shapes);
+            new_shapes_.emplace_back(place->second, &shapes->surfaces.at(organ.surface));
+        }
+        return place->second;
+    }
+
+    std::string shapes_message() const {
+        if (new_shapes_.empty()) return "";
+        MessageBytes out("ESS1");
+        out.put(writer_.growth_, static_cast<std::uint32_t>(new_shapes_.size()));
+        for (const auto& [number, surface] : new_shapes_) put_shape(number, mesh_of(*surface), out);
+        return out.take();
+    }
+
+    static void put_shape(std::uint32_t number, const SurfaceMesh& mesh, MessageBytes& out) {
+        std::vector<std::uint32_t> triangles;
+        std::uint32_t at = 0;
+        for (const std::uint32_t corners : mesh.faces) {
+            for (std::uint32_t i = 2; i < corners; ++i) {
+                triangles.insert(triangles.end(),
+                                 {mesh.indices[at], mesh.indices[at + i - 1], mesh.indices[at + i]});
+            }
+            at += corners;
+        }
+        out.put(number, static_cast<std::uint32_t>(mesh.vertices.size()), static_cast<std::uint32_t>(triangles.size()));
+        for (const SurfaceVertex& vertex : mesh.vertices) out.put(point_of(vertex.position));
+        for (const SurfaceVertex& vertex : mesh.vertices) out.put(point_of(vertex.normal));
+        for (const SurfaceVertex& vertex : mesh.vertices) {
+            out.put(static_cast<float>(vertex.uv.x), static_cast<float>(vertex.uv.y));
+        }
+        out.put_all(std::span<const std::uint32_t>(triangles));
+    }
+
+    std::string packet(const std::vector<std::uint32_t>& firsts) const {
+        const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+        MessageBytes out("ESP1");
+        out.reserve(128 + 24 * internodes_.size() + 28 * triangles_.points.size() + 4 * triangles_.indices.size());
+        out.put(writer_.growth_, static_cast<std::int32_t>(frame_.step), count(frame_.plants), count(internodes_),
+                count(triangles_.points), count(triangles_.indices), count(groups_), point_of(extent_.box.lower),
+                point_of(extent_.box.upper), static_cast<float>(extent_.radius));
+        out.put_all(std::span(firsts).first(frame_.plants.size()));
+        out.put_all(std::span<const InternodeBytes>(internodes_));
+        out.put_all(std::span<const Point>(triangles_.points));
+        out.put_all(std::span<const Normal>(triangles_.normals));
+        out.put_all(std::span<const Rgba>(triangles_.colours));
+        out.put_all(std::span<const std::uint32_t>(triangles_.modules));
+        out.put_all(std::span<const std::uint32_t>(triangles_.indices));
+        for (const auto& [shape, group] : groups_) {
+            out.put(shape, count(group.places));
+            out.put_all(std::span<const std::array<float, 12>>(group.places));
+            out.put_all(std::span<const Rgba>(group.colours));
+            out.put_all(std::span<const std::uint32_t>(group.modules));
+        }
+        return out.take();
+    }
+
+    PacketWriter& writer_;
+    const timeline::Frame& frame_;
+    const Extent extent_;
+    std::vector<InternodeBytes> internodes_;
+    Triangles triangles_;
+    std::map<std::uint32_t, Group> groups_;
+    std::vector<std::pair<std::uint32_t, const Surface*>> new_shapes_;
+};
+
+Packet PacketWriter::write(const timeline::Frame& frame) {
+    return Scribe(*this, frame).write();
+}
+
+}  // namespace espalier::studio

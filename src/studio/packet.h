@@ -1,0 +1,47 @@
+// A frame as the studio's page draws it: docs/studio-protocol.md, "Binary messages".
+#pragma once
+
+#include "espalier/timeline/frame.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace espalier::studio {
+
+/// The number of the first module of each plant, and behind the last the number of all modules: the modules of a frame
+/// are counted through its plants.
+std::vector<std::uint32_t> first_modules(const timeline::Frame& frame);
+
+struct Packet {
+    std::string shapes;  ///< the message with the surfaces that this packet is the first to use; may be empty
+    std::string bytes;
+    std::size_t internodes = 0;
+};
+
+/// Writes the packets of one growth.
+class PacketWriter {
+public:
+    explicit PacketWriter(std::uint32_t growth) : growth_(growth) {}
+
+    Packet write(const timeline::Frame& frame);
+
+private:
+    /// Of an organ with a surface: what stands for it in groups.
+    struct ShapeKey {
+        const Shapes* shapes;
+        std::uint32_t surface;
+        auto operator<=>(const ShapeKey&) const = default;
+    };
+
+    class Scribe;
+
+    std::uint32_t growth_;
+    std::map<ShapeKey, std::uint32_t> shapes_;
+    std::vector<std::shared_ptr<const Shapes>> kept_;  ///< so that no other has the address of one
+};
+
+}  // namespace espalier::studio

@@ -1,0 +1,355 @@
+#include "studio/session.h"
+
+#include "espalier/base/file.h"
+
+#include "studio/inquiry.h"
+#include "studio/session_viewer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <climits>
+#include <system_error>
+#include <utility>
+
+namespace espalier::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// A growth that takes longer shows its steps as they come, even if only something was edited.
+constexpr double patience = 0.7;
+/// While something is dragged, a growth may take so long before the next change replaces it.
+constexpr double least_growth = 0.4;
+
+Json json_of(const Diagnostic& diagnostic) {
+    return {{"severity", diagnostic.severity == Diagnostic::Severity::error ? "error" : "warning"},
+            {"file", diagnostic.place.file},
+            {"line", diagnostic.place.line},
+            {"column", diagnostic.place.column},
+            {"message", diagnostic.message},
+            {"source", diagnostic.source}};
+}
+
+// The cells of a line of CSV, which may stand in quotes.
+std::vector<std::string> cells_of(std::string_view line) {
+    std::vector<std::string> cells{""};
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            cells.emplace_back();
+        } else {
+            cells.back() += c;
+        }
+    }
+    return cells;
+}
+
+Json cell_json(const std::string& cell) {
+    double value = 0;
+    const auto [rest, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error == std::errc() && rest == cell.data() + cell.size()) return value;
+    return cell.empty() ? Json() : Json(cell);
+}
+
+}  // namespace
+
+Session::Session(const StudioOptions& options, Post post) : options_(options), post_(std::move(post)) {
+    restore();
+    if (document_.is_open()) begin_growth();
+}
+
+Session::~Session() = default;
+
+void Session::join(Page& page) {
+    viewers_.push_back(std::make_unique<Viewer>(page));
+}
+
+void Session::leave(Page& page) {
+    std::erase_if(viewers_, [&](const auto& viewer) { return &viewer->page == &page; });
+}
+
+void Session::receive(Page& page, const std::string& text) {
+    const auto viewer =
+        std::find_if(viewers_.begin(), viewers_.end(), [&](const auto& known) { return &known->page == &page; });
+    if (viewer == viewers_.end()) return;
+    Json reply = {{"reply", nullptr}};
+    try {
+        const Json request = Json::parse(text);
+        reply["reply"] = request.at("id");
+        const Request answer = request_named(request.at("do").get<std::string>());
+        reply.update((this->*answer)(**viewer, request));
+    } catch (const Json::exception& error) {
+        reply["error"] = fmt::format("the request cannot be understood: {}", error.what());
+    } catch (const std::exception& error) {
+        reply["error"] = error.what();
+    }
+    page.send_text(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
+    // What a page shows at first it is told behind the reply to its greeting.
+    if ((*viewer)->is_new && !reply.contains("error")) tell_all_to(**viewer);
+}
+
+void Session::tick() {
+    begin_next_growth();
+    std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
+    if (unkept_) keep();
+}
+
+// --- the document
+
+void Session::apply(DocumentState state, const std::string& label, bool transient) {
+    const bool other = state.opened.path != document_.now().opened.path;
+    document_.change(std::move(state), label, transient);
+    document_changed(other);
+}
+
+void Session::document_changed(bool is_other) {
+    if (is_other) {
+        read_.clear();
+        problems_.clear();
+        follow_from_ = 0;
+    } else {
+        follow_from_ = INT_MAX;
+    }
+    unkept_ = true;
+    tell(document_json());
+    begin_growth();
+}
+
+std::string Session::text_of(const fs::path& file, const DocumentState& state) const {
+    const auto found = state.unsaved.find(file);
+    return found != state.unsaved.end() ? found->second : read_text(file);
+}
+
+void Session::keep() {
+    unkept_ = false;
+    if (options_.state.empty()) return;
+    try {
+        fs::create_directories(options_.state.parent_path());
+        write_text(options_.state, document_.to_json().dump());
+    } catch (const std::exception& error) {
+        say("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
+    }
+}
+
+void Session::restore() {
+    if (!options_.state.empty() && fs::exists(options_.state)) {
+        try {
+            document_ = Document::from_json(Json::parse(read_text(options_.state)));
+        } catch (const std::exception&) {
+            say("warning", fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
+        }
+    }
+    if (options_.opened.path.empty()) return;
+    Opened opened = options_.opened;
+    opened.path = fs::absolute(opened.path).lexically_normal();
+    if (document_.now().opened.path == opened.path) return;
+    document_.change({opened, {}}, fmt::format("open {}", opened.path.filename().string()), false);
+}
+
+// --- growth
+
+void Session::begin_growth() {
+    waits_ = true;
+    begin_next_growth();
+}
+
+void Session::begin_next_growth() {
+    if (!waits_ || !document_.is_open()) return;
+    const std::unique_ptr<Growth>& latest = next_ ? next_ : growth_;
+    if (latest && latest->version() > 0 && is_busy_ && latest->seconds() < least_growth) return;
+    waits_ = false;
+    is_busy_ = true;
+    if (next_) retire(std::move(next_));
+    const DocumentState& now = document_.now();
+    GrowthListener& listener = *this;
+    next_ = std::make_unique<Growth>(GrowthOrder{++last_growth_, document_.version(), now.opened, now.unsaved,
+                                                 options_.scratch, options_.read},
+                                     listener);
+}
+
+void Session::started(std::uint32_t growth, GrowthStart start) {
+    post_([this, growth, start = std::move(start)]() mutable { note_started(growth, std::move(start)); });
+}
+
+void Session::grown(std::uint32_t growth, GrownStep step) {
+    post_([this, growth, step = std::move(step)] { note_grown(growth, step); });
+}
+
+void Session::failed(std::uint32_t growth, std::vector<Diagnostic> why) {
+    post_([this, growth, why = std::move(why)] { note_failed(growth, why); });
+}
+
+void Session::retire(std::unique_ptr<Growth> growth) {
+    if (!growth) return;
+    growth->cancel();
+    retired_.push_back(std::move(growth));
+}
+
+void Session::note_started(std::uint32_t growth, GrowthStart start) {
+    if (!next_ || next_->number() != growth) return;
+    retire(std::move(growth_));
+    growth_ = std::move(next_);
+    start_ = std::move(start);
+    read_ = start_.files;
+    problems_ = start_.warnings;
+    newest_ = {};
+    newest_.step = -1;
+    newest_.last_step = start_.last_step;
+    state_ = "growing";
+    reason_.clear();
+    columns_.clear();
+    rows_.clear();
+    tell(document_json());
+    tell(problems_json());
+    tell(growth_json());
+    tell(columns_json());
+    tell(fields_json());
+}
+
+void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
+    if (!growth_ || growth_->number() != growth) return;
+    newest_ = step;
+    newest_.statistics.clear();
+    add_statistics(step.statistics);
+    if (step.is_end || growth_->is_stopped()) {
+        state_ = step.is_end ? "done" : "stopped";
+        is_busy_ = false;
+    }
+    const bool is_over = state_ != "growing";
+    const auto now = std::chrono::steady_clock::now();
+    if (is_over || now - told_ > std::chrono::milliseconds(40)) {
+        told_ = now;
+        tell(growth_json());
+        tell(statistics_json(untold_rows_));
+        untold_rows_ = rows_.size();
+    }
+    for (const auto& viewer : viewers_) {
+        const bool follows = step.step >= follow_from_ || step.seconds > patience;
+        const bool wanted = viewer->step ? *viewer->step == step.step || (is_over && *viewer->step > step.step)
+                                         : is_over || (follows && !viewer->page.is_behind());
+        if (wanted) send_packet(*viewer, step.step);
+    }
+    begin_next_growth();
+}
+
+void Session::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why) {
+    is_busy_ = false;
+    if (next_ && next_->number() == growth) {
+        retire(std::move(next_));
+        problems_ = why;
+        tell(problems_json());
+    } else if (growth_ && growth_->number() == growth) {
+        state_ = "failed";
+        for (const Diagnostic& diagnostic : why) reason_ += (reason_.empty() ? "" : "\n") + diagnostic.message;
+        problems_ = why;
+        tell(problems_json());
+        tell(growth_json());
+    }
+    begin_next_growth();
+}
+
+void Session::add_statistics(const std::string& rows) {
+    std::size_t begin = 0;
+    for (std::size_t end; (end = rows.find('\n', begin)) != std::string::npos; begin = end + 1) {
+        std::vector<std::string> cells = cells_of(std::string_view(rows).substr(begin, end - begin));
+        if (columns_.empty()) {
+            columns_ = std::move(cells);
+            untold_rows_ = 0;
+        } else {
+            rows_.push_back(std::move(cells));
+        }
+    }
+}
+
+void Session::show(Viewer& viewer) {
+    if (!growth_ || newest_.step < 0) return;
+    const int wanted = std::min(viewer.step.value_or(newest_.step), newest_.step);
+    if (growth_->steps().has(wanted)) send_packet(viewer, wanted);
+}
+
+void Session::send_packet(Viewer& viewer, int step) {
+    const std::vector<std::string> shapes = growth_->steps().shapes();
+    if (viewer.growth != growth_->number()) viewer.shapes = 0;
+    viewer.growth = growth_->number();
+    for (; viewer.shapes < shapes.size(); ++viewer.shapes) viewer.page.send_bytes(shapes[viewer.shapes]);
+    viewer.page.send_bytes(growth_->steps().packet(step));
+}
+
+// --- what pages are told
+
+void Session::tell(const Json& message) {
+    const std::string text = message.dump(-1, ' ', false, Json::error_handler_t::replace);
+    for (const auto& viewer : viewers_) viewer->page.send_text(text);
+}
+
+void Session::say(const std::string& severity, const std::string& text) {
+    Json& message = messages_[++last_message_];
+    message = {{"say", "message"}, {"number", last_message_}, {"severity", severity}, {"text", text}};
+    tell(message);
+}
+
+void Session::tell_all_to(Viewer& viewer) {
+    viewer.is_new = false;
+    const auto send = [&](const Json& message) {
+        viewer.page.send_text(message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    };
+    send(document_json());
+    send(problems_json());
+    for (const auto& [number, message] : messages_) send(message);
+    if (!growth_) return;
+    send(growth_json());
+    send(columns_json());
+    send(fields_json());
+    send(statistics_json(0));
+    show(viewer);
+}
+
+Json Session::problems_json() const {
+    Json problems = Json::array();
+    for (const Diagnostic& problem : problems_) problems.push_back(json_of(problem));
+    return {{"say", "problems"}, {"version", document_.version()}, {"problems", problems}};
+}
+
+Json Session::growth_json() const {
+    return {{"say", "growth"},
+            {"growth", growth_->number()},
+            {"version", growth_->version()},
+            {"state", state_},
+            {"step", newest_.step},
+            {"last", newest_.last_step},
+            {"modules", newest_.modules},
+            {"internodes", newest_.internodes},
+            {"seconds", newest_.seconds},
+            {"reason", reason_},
+            {"plants", start_.plants}};
+}
+
+Json Session::columns_json() const {
+    return {{"say", "columns"}, {"growth", growth_->number()}, {"columns", column_names(*growth_->scene())}};
+}
+
+Json Session::fields_json() const {
+    Json fields = Json::array();
+    for (const FieldDescription& field : start_.fields) {
+        fields.push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning}});
+    }
+    return {{"say", "fields"}, {"growth", growth_->number()}, {"fields", fields}};
+}
+
+Json Session::statistics_json(std::size_t first) const {
+    Json rows = Json::array();
+    for (std::size_t i = first; i < rows_.size(); ++i) {
+        Json row = Json::array();
+        for (const std::string& cell : rows_[i]) row.push_back(cell_json(cell));
+        rows.push_back(std::move(row));
+    }
+    return {{"say", "statistics"}, {"growth", growth_->number()}, {"columns", columns_}, {"rows", rows}};
+}
+
+}  // namespace espalier::studio

@@ -1,0 +1,175 @@
+#include "studio/written_numbers.h"
+
+#include "espalier/base/settings.h"
+#include "espalier/language/model_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+namespace espalier::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where each line of a text begins.
+class Lines {
+public:
+    explicit Lines(const std::string& text) : text_(text), begins_{0} {
+        for (std::size_t i = 0; i < text.size(); ++i) {
+            if (text[i] == '\n') begins_.push_back(i + 1);
+        }
+    }
+
+    /// Lines count from 1.
+    bool has(int line) const { return line > 0 && static_cast<std::size_t>(line) <= begins_.size(); }
+    std::size_t begin(int line) const { return begins_[static_cast<std::size_t>(line) - 1]; }
+    std::size_t end(int line) const {
+        const std::size_t newline = text_.find('\n', begin(line));
+        return newline == std::string::npos ? text_.size() : newline;
+    }
+
+private:
+    const std::string& text_;
+    std::vector<std::size_t> begins_;
+};
+
+bool is_of_word(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+// Behind `word` as a word of its own; npos if it is not there before `end`.
+std::size_t behind_word(const std::string& text, const std::string& word, std::size_t begin, std::size_t end) {
+    for (std::size_t at = text.find(word, begin); at < end; at = text.find(word, at + 1)) {
+        const std::size_t behind = at + word.size();
+        if ((at == begin || !is_of_word(text[at - 1])) && (behind == text.size() || !is_of_word(text[behind])))
+            return behind;
+    }
+    return std::string::npos;
+}
+
+// Of the value that its line writes behind its name, in whatever notation; none if it is not written there as it is.
+std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std::string& text, const Lines& lines) {
+    if (!lines.has(setting.place.line) || setting.text.empty()) return std::nullopt;
+    const std::size_t end = lines.end(setting.place.line);
+    const std::size_t behind = behind_word(text, setting.name, lines.begin(setting.place.line), end);
+    if (behind == std::string::npos) return std::nullopt;
+    const std::size_t at = text.find(setting.text, behind);
+    if (at == std::string::npos || at + setting.text.size() > end) return std::nullopt;
+    return at;
+}
+
+std::vector<WrittenNumber> numbers_of_model(const fs::path& file, const std::string& text) {
+    std::vector<WrittenNumber> numbers;
+    const Lines lines(text);
+    const fs::path name = file.lexically_normal();
+    for (const ModelSetting& setting : ModelSettings::parse(text, file.string(), file.parent_path()).list()) {
+        if (fs::path(setting.place.file).lexically_normal() != name) continue;
+        const std::optional<std::size_t> place = place_of_value(setting, text, lines);
+        if (!place) continue;
+        numbers.push_back({.name = setting.name,
+                           .label = setting.summary,
+                           .group = setting.group,
+                           .unit = setting.unit,
+                           .text = setting.text,
+                           .whole = setting.whole,
+                           .value = setting.value,
+                           .lowest = setting.lowest,
+                           .highest = setting.highest,
+                           .offset = *place});
+    }
+    return numbers;
+}
+
+/// The numbers and switches of a scene file's tables, but not those of lists.
+class SceneNumbers {
+public:
+    explicit SceneNumbers(const std::string& text) : text_(text), lines_(text) {}
+
+    std::vector<WrittenNumber> of(const Settings& scene) {
+        add(scene, "");
+        return std::move(numbers_);
+    }
+
+private:
+    void add(const Settings& table, const std::string& path) {
+        for (const std::string& key : table.keys()) {
+            const std::string name = path.empty() ? key : path + "." + key;
+            if (table.is_table(key)) {
+                add(table.table(key), name);
+            } else if (!add_tables(table, key, name)) {
+                add(table.place(key), name, path);
+            }
+        }
+    }
+
+    // False if the key has no list of tables.
+    bool add_tables(const Settings& table, const std::string& key, const std::string& name) {
+        std::vector<Settings> tables;
+        try {
+            tables = table.tables(key);
+        } catch (const UserError&) {
+            return false;
+        }
+        for (std::size_t i = 0; i < tables.size(); ++i) add(tables[i], fmt::format("{}.{}", name, i));
+        return true;
+    }
+
+    void add(const Place& place, const std::string& name, const std::string& group) {
+        if (!lines_.has(place.line)) return;
+        const std::size_t at = lines_.begin(place.line) + static_cast<std::size_t>(std::max(place.column, 1)) - 1;
+        const std::size_t end = lines_.end(place.line);
+        const std::size_t behind = std::min(text_.find_first_of(" \t\r,}]#", at), end);
+        const std::string text = at < behind ? text_.substr(at, behind - at) : "";
+        const bool is_switch = text == "true" || text == "false";
+        const std::optional<double> value = is_switch ? std::optional(text == "true" ? 1.0 : 0.0) : number(text);
+        if (!value) return;
+        WrittenNumber found{.name = name, .label = comment(behind, end), .group = group, .text = text};
+        if (found.label.empty()) found.label = name.substr(name.rfind('.') + 1);
+        found.is_switch = is_switch;
+        found.whole = !is_switch && text.find_first_of(".eE") == std::string::npos;
+        found.value = *value;
+        found.offset = at;
+        numbers_.push_back(std::move(found));
+    }
+
+    static std::optional<double> number(const std::string& text) {
+        double value = 0;
+        const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_whole = error == std::errc() && rest == text.data() + text.size();
+        return is_whole ? std::optional(value) : std::nullopt;
+    }
+
+    // What the rest of the line says behind its '#'.
+    std::string comment(std::size_t from, std::size_t end) const {
+        const std::size_t mark = text_.find('#', from);
+        if (mark >= end) return "";
+        const std::size_t begin = text_.find_first_not_of("# \t", mark);
+        return begin >= end ? "" : text_.substr(begin, end - begin);
+    }
+
+    const std::string& text_;
+    const Lines lines_;
+    std::vector<WrittenNumber> numbers_;
+};
+
+}  // namespace
+
+std::vector<WrittenNumber> written_numbers(const fs::path& file, const std::string& text) {
+    try {
+        if (file.extension() != ".toml") return numbers_of_model(file, text);
+        return SceneNumbers(text).of(Settings::parse_toml(text, file.string(), file.parent_path()));
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+std::string with_number(const std::string& text, const WrittenNumber& number, const std::string& value) {
+    std::string changed = text;
+    return changed.replace(number.offset, number.text.size(), value);
+}
+
+}  // namespace espalier::studio
