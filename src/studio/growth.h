@@ -48,9 +48,9 @@ struct GrowthStart {
 struct GrownStep {
     int step = 0, last_step = 0;
     std::size_t modules = 0, internodes = 0;
-    double seconds = 0;       ///< since it began
-    std::string statistics;   ///< the rows of statistics.csv that this step added, with the header in the first
-    bool is_end = false;      ///< no step follows
+    double seconds = 0;      ///< since it began
+    std::string statistics;  ///< the rows of statistics.csv that this step added, with the header in the first
+    bool is_end = false;     ///< no step follows
 };
 
 /// Told on the thread of the growth.
@@ -73,6 +73,7 @@ public:
 
     std::uint32_t number() const { return order_.number; }
     std::uint64_t version() const { return order_.version; }
+    const Opened& opened() const { return order_.opened; }
     const KeptSteps& steps() const { return steps_; }
     double seconds() const;  ///< since it began
     /// The scene as it grows; null before it has started.

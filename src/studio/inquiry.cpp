@@ -103,9 +103,7 @@ public:
     }
 
 private:
-    PlantString at(int step) const {
-        return {steps_.string(step, plant_), source_of(*scene_.plants[plant_].model)};
-    }
+    PlantString at(int step) const { return {steps_.string(step, plant_), source_of(*scene_.plants[plant_].model)}; }
 
     static std::string name(Identity identity) { return fmt::format("{:016x}", identity); }
 

@@ -20,7 +20,6 @@ nlohmann::ordered_json what_is_known(const Scene& scene, const KeptSteps& steps,
 /// What modules can be coloured by.
 std::vector<std::string> column_names(const Scene& scene);
 /// The message `ESC1` with one number a module. Throws UserError if there is no such step or column.
-std::string column(const Scene& scene, const KeptSteps& steps, std::uint32_t growth, int step,
-                   const std::string& name);
+std::string column(const Scene& scene, const KeptSteps& steps, std::uint32_t growth, int step, const std::string& name);
 
 }  // namespace espalier::studio

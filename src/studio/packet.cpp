@@ -230,8 +230,7 @@ private:
             Group& group = groups_[*shape];
             // Round organs lie across `up`; surfaces have x along left, y along heading, z along up.
             const glm::dvec3 size = is_surface ? organ.size : glm::dvec3(organ.size.x);
-            group.places.push_back(
-                matrix(size.x * pose.left, size.y * pose.heading, size.z * pose.up, pose.position));
+            group.places.push_back(matrix(size.x * pose.left, size.y * pose.heading, size.z * pose.up, pose.position));
             group.colours.push_back(colour);
             group.modules.push_back(first + organ.module);
         }
@@ -272,8 +271,7 @@ private:
         std::uint32_t at = 0;
         for (const std::uint32_t corners : mesh.faces) {
             for (std::uint32_t i = 2; i < corners; ++i) {
-                triangles.insert(triangles.end(),
-                                 {mesh.indices[at], mesh.indices[at + i - 1], mesh.indices[at + i]});
+                triangles.insert(triangles.end(), {mesh.indices[at], mesh.indices[at + i - 1], mesh.indices[at + i]});
             }
             at += corners;
         }

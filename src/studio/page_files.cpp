@@ -1,12 +1,12 @@
 #include "studio/page_files.h"
 
 // The assembler reads the files: a compiler would take seconds for as many characters.
-#define ESPALIER_PAGE_FILE(name, file)                                          \
-    asm(".section .rodata\n" #name "_begin:\n.incbin \"" ESPALIER_PAGE "/" file \
-        "\"\n" #name "_end:\n.byte 0\n.previous\n");                            \
-    extern "C" {                                                                \
-    extern const char name##_begin[] __attribute__((visibility("hidden")));     \
-    extern const char name##_end[] __attribute__((visibility("hidden")));       \
+#define ESPALIER_PAGE_FILE(name, file)                                                       \
+    asm(".section .rodata\n" #name "_begin:\n.incbin \"" ESPALIER_PAGE "/" file "\"\n" #name \
+        "_end:\n.byte 0\n.previous\n");                                                      \
+    extern "C" {                                                                             \
+    extern const char name##_begin[] __attribute__((visibility("hidden")));                  \
+    extern const char name##_end[] __attribute__((visibility("hidden")));                    \
     }
 
 ESPALIER_PAGE_FILE(espalier_studio_html, "index.html")

@@ -111,12 +111,12 @@ Json bound(double value) {
 
 Session::Request Session::request_named(const std::string& name) {
     static const std::map<std::string, Request> requests{
-        {"hello", &Session::hello},   {"library", &Session::library}, {"help", &Session::help},
+        {"hello", &Session::hello},   {"library", &Session::library},     {"help", &Session::help},
         {"open", &Session::open},     {"open-text", &Session::open_text}, {"change", &Session::change},
-        {"undo", &Session::undo},     {"redo", &Session::redo},       {"grow", &Session::grow},
-        {"stop", &Session::stop},     {"look", &Session::look},       {"frame", &Session::frame},
-        {"column", &Session::column}, {"pick", &Session::pick},       {"field", &Session::field},
-        {"save", &Session::save},     {"export", &Session::export_run}, {"dismiss", &Session::dismiss},
+        {"undo", &Session::undo},     {"redo", &Session::redo},           {"grow", &Session::grow},
+        {"stop", &Session::stop},     {"look", &Session::look},           {"frame", &Session::frame},
+        {"column", &Session::column}, {"pick", &Session::pick},           {"field", &Session::field},
+        {"save", &Session::save},     {"export", &Session::export_run},   {"dismiss", &Session::dismiss},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));
@@ -152,7 +152,8 @@ Json Session::help(Viewer&, const Json&) {
             {"recorders", parts<RecorderType>()},
             {"notations", parts<NotationType>()},
             {"exporters", parts<ExporterType>()},
-            {"keys", Json::array({{{"name", "scene"}, {"summary", "the tables of a scene file"}, {"help", scene_help()}}})}};
+            {"keys",
+             Json::array({{{"name", "scene"}, {"summary", "the tables of a scene file"}, {"help", scene_help()}}})}};
 }
 
 Json Session::open(Viewer&, const Json& request) {
@@ -196,7 +197,8 @@ Json Session::change(Viewer&, const Json& request) {
     }
     if (request.contains("settings")) set_numbers(request["settings"], state);
     if (request.contains("seed")) {
-        state.opened.seed = request["seed"].is_null() ? std::nullopt : std::optional(request["seed"].get<std::uint64_t>());
+        state.opened.seed =
+            request["seed"].is_null() ? std::nullopt : std::optional(request["seed"].get<std::uint64_t>());
     }
     if (request.contains("steps")) {
         state.opened.steps = request["steps"].is_null()
@@ -237,7 +239,8 @@ Json Session::stop(Viewer&, const Json&) {
 
 Json Session::look(Viewer& viewer, const Json& request) {
     viewer.step = request.at("step").is_number() ? std::optional(request["step"].get<int>()) : std::nullopt;
-    show(viewer);
+    const bool is_held = growth_ && request.value("held", Json()) == Json(growth_->number());
+    if (!is_held) show(viewer);
     return {{"step", newest_.step}};
 }
 
@@ -309,8 +312,8 @@ void Session::save_as(const fs::path& path) {
         const fs::path beside = file.lexically_relative(folder);
         if (file == main || folder == path.parent_path()) continue;
         if (beside.empty() || *beside.begin() == "..") {
-            throw UserError(fmt::format("it reads {}, which is not below {}: save it there", file.string(),
-                                        folder.string()));
+            throw UserError(
+                fmt::format("it reads {}, which is not below {}: save it there", file.string(), folder.string()));
         }
         const fs::path copy = below_folder(path.parent_path() / beside);
         if (fs::exists(copy)) continue;
@@ -434,8 +437,8 @@ Json Session::document_json() const {
     json["kind"] = kind_of(opened.path);
     json["texts"] = texts_json();
     json["settings"] = settings_json();
-    json["seed"] = opened.seed.value_or(start_.seed);
-    json["steps"] = opened.steps.value_or(start_.last_step);
+    json["seed"] = opened.seed.value_or(own_seed_);
+    json["steps"] = opened.steps.value_or(own_steps_);
     return json;
 }
 
@@ -477,10 +480,9 @@ Json Session::settings_json() const {
         const auto saved = std::find_if(place->second.begin(), place->second.end(),
                                         [&](const WrittenNumber& other) { return other.name == number.name; });
         const std::string fallback = saved == place->second.end() ? number.text : saved->text;
-        const std::string group = *row.file == main ? number.group
-                                  : number.group.empty()
-                                      ? row.file->filename().string()
-                                      : row.file->filename().string() + ", " + number.group;
+        const std::string group = *row.file == main      ? number.group
+                                  : number.group.empty() ? row.file->filename().string()
+                                                         : row.file->filename().string() + ", " + number.group;
         list.push_back({{"name", row.name},
                         {"label", number.label},
                         {"kind", number.is_switch ? "switch" : "number"},

@@ -7,6 +7,8 @@
 #include "studio/page_files.h"
 #include "studio/session.h"
 
+#include <fmt/format.h>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -14,9 +16,6 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-
-#include <fmt/format.h>
-
 #include <charconv>
 #include <deque>
 #include <utility>
@@ -143,8 +142,7 @@ private:
 /// A connection that asks for files, until it becomes a page.
 class Visitor : public std::enable_shared_from_this<Visitor> {
 public:
-    Visitor(tcp::socket&& socket, House& house)
-        : stream_(std::move(socket)), guest_(std::make_shared<Guest>(house)) {}
+    Visitor(tcp::socket&& socket, House& house) : stream_(std::move(socket)), guest_(std::make_shared<Guest>(house)) {}
 
     void read() {
         parser_.emplace();
@@ -168,7 +166,8 @@ private:
         const Request& request = parser_->get();
         const std::string_view host = field(request, http::field::host);
         const std::string_view target(request.target().data(), request.target().size());
-        if (!is_own_host(host)) return answer(http::status::forbidden, "text/plain", "this is not a host of the studio");
+        if (!is_own_host(host))
+            return answer(http::status::forbidden, "text/plain", "this is not a host of the studio");
         if (websocket::is_upgrade(request)) return upgrade(request, host);
         if (request.method() != http::verb::get) return answer(http::status::method_not_allowed, "text/plain", "");
         if (const auto file = page_file(target)) {

@@ -5,12 +5,12 @@
 #include "studio/inquiry.h"
 #include "studio/session_viewer.h"
 
+#include <climits>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <climits>
 #include <system_error>
 #include <utility>
 
@@ -168,9 +168,9 @@ void Session::begin_next_growth() {
     if (next_) retire(std::move(next_));
     const DocumentState& now = document_.now();
     GrowthListener& listener = *this;
-    next_ = std::make_unique<Growth>(GrowthOrder{++last_growth_, document_.version(), now.opened, now.unsaved,
-                                                 options_.scratch, options_.read},
-                                     listener);
+    next_ = std::make_unique<Growth>(
+        GrowthOrder{++last_growth_, document_.version(), now.opened, now.unsaved, options_.scratch, options_.read},
+        listener);
 }
 
 void Session::started(std::uint32_t growth, GrowthStart start) {
@@ -197,6 +197,8 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     growth_ = std::move(next_);
     start_ = std::move(start);
     read_ = start_.files;
+    if (!growth_->opened().seed) own_seed_ = start_.seed;
+    if (!growth_->opened().steps) own_steps_ = start_.last_step;
     problems_ = start_.warnings;
     newest_ = {};
     newest_.step = -1;

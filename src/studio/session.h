@@ -134,18 +134,20 @@ private:
     bool unkept_ = false;  ///< the newest state is not on disk
 
     std::uint32_t last_growth_ = 0;
-    bool waits_ = false;                    ///< a growth of the newest version is to begin
-    std::unique_ptr<Growth> next_;          ///< reads its files; the present growth goes on if it cannot
-    std::unique_ptr<Growth> growth_;        ///< the one that pages see
+    bool waits_ = false;                            ///< a growth of the newest version is to begin
+    std::unique_ptr<Growth> next_;                  ///< reads its files; the present growth goes on if it cannot
+    std::unique_ptr<Growth> growth_;                ///< the one that pages see
     std::vector<std::unique_ptr<Growth>> retired_;  ///< end after their step
     GrowthStart start_;
+    std::uint64_t own_seed_ = 0;  ///< what the files say, where nobody says more
+    int own_steps_ = 0;
     GrownStep newest_;
     std::string state_ = "done", reason_;
     std::vector<std::string> columns_;
     std::vector<std::vector<std::string>> rows_;
     std::size_t untold_rows_ = 0;  ///< the first row that pages have not been told
     std::chrono::steady_clock::time_point told_{};
-    int follow_from_ = 0;  ///< pages that look at the last step see every one from here on
+    int follow_from_ = 0;   ///< pages that look at the last step see every one from here on
     bool is_busy_ = false;  ///< the newest growth has not come to its end
 
     int exports_ = 0;

@@ -9,7 +9,7 @@ struct Session::Viewer {
     explicit Viewer(Page& its_page) : page(its_page) {}
 
     Page& page;
-    bool is_new = true;           ///< has not been told what there is
+    bool is_new = true;            ///< has not been told what there is
     std::optional<int> step = {};  ///< that it looks at; none: the last
     std::uint32_t growth = 0;      ///< whose shapes it has
     std::size_t shapes = 0;        ///< messages of them

@@ -2,13 +2,16 @@
 
 #include "espalier/base/settings.h"
 #include "espalier/language/model_settings.h"
+#include "espalier/language/notation.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdlib>
 #include <optional>
+#include <regex>
 
 namespace espalier::studio {
 namespace {
@@ -51,36 +54,72 @@ std::size_t behind_word(const std::string& text, const std::string& word, std::s
     return std::string::npos;
 }
 
+std::string without_blanks(const std::string& text) {
+    const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+    return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
 // Of the value that its line writes behind its name, in whatever notation; none if it is not written there as it is.
-std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std::string& text, const Lines& lines) {
-    if (!lines.has(setting.place.line) || setting.text.empty()) return std::nullopt;
+std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std::string& value,
+                                          const std::string& text, const Lines& lines) {
+    if (!lines.has(setting.place.line) || value.empty()) return std::nullopt;
     const std::size_t end = lines.end(setting.place.line);
     const std::size_t behind = behind_word(text, setting.name, lines.begin(setting.place.line), end);
     if (behind == std::string::npos) return std::nullopt;
-    const std::size_t at = text.find(setting.text, behind);
-    if (at == std::string::npos || at + setting.text.size() > end) return std::nullopt;
+    const std::size_t at = text.find(value, behind);
+    if (at == std::string::npos || at + value.size() > end) return std::nullopt;
     return at;
+}
+
+// A macro that stands for a number and for nothing else, with its comment if there is one.
+std::optional<WrittenNumber> plain_definition(const std::string& text, std::size_t begin, std::size_t end) {
+    static const std::regex definition(
+        R"(^\s*#define\s+(\w+)\s+([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(?:/\*\s*(.*?)\s*\*/|//\s*(.*?))?\s*$)");
+    std::smatch match;
+    const std::string line = text.substr(begin, end - begin);
+    if (!std::regex_match(line, match, definition)) return std::nullopt;
+    WrittenNumber number{.name = match[1], .label = match[3].matched ? match[3] : match[4], .text = match[2]};
+    if (number.label.empty()) number.label = number.name;
+    number.value = std::strtod(number.text.c_str(), nullptr);
+    number.offset = begin + static_cast<std::size_t>(match.position(2));
+    return number;
+}
+
+// Those that no comment describes with a range.
+void add_plain_definitions(const std::string& text, std::vector<WrittenNumber>& numbers) {
+    const Lines lines(text);
+    for (int line = 1; lines.has(line); ++line) {
+        const std::optional<WrittenNumber> number = plain_definition(text, lines.begin(line), lines.end(line));
+        if (!number) continue;
+        const bool is_known = std::any_of(numbers.begin(), numbers.end(),
+                                          [&](const WrittenNumber& other) { return other.name == number->name; });
+        if (!is_known) numbers.push_back(*number);
+    }
+    std::sort(numbers.begin(), numbers.end(), [](const auto& a, const auto& b) { return a.offset < b.offset; });
 }
 
 std::vector<WrittenNumber> numbers_of_model(const fs::path& file, const std::string& text) {
     std::vector<WrittenNumber> numbers;
     const Lines lines(text);
     const fs::path name = file.lexically_normal();
-    for (const ModelSetting& setting : ModelSettings::parse(text, file.string(), file.parent_path()).list()) {
+    const ModelSettings settings = ModelSettings::parse(text, file.string(), file.parent_path());
+    for (const ModelSetting& setting : settings.list()) {
         if (fs::path(setting.place.file).lexically_normal() != name) continue;
-        const std::optional<std::size_t> place = place_of_value(setting, text, lines);
+        const std::string value = without_blanks(setting.text);
+        const std::optional<std::size_t> place = place_of_value(setting, value, text, lines);
         if (!place) continue;
         numbers.push_back({.name = setting.name,
                            .label = setting.summary,
                            .group = setting.group,
                            .unit = setting.unit,
-                           .text = setting.text,
+                           .text = value,
                            .whole = setting.whole,
                            .value = setting.value,
                            .lowest = setting.lowest,
                            .highest = setting.highest,
                            .offset = *place});
     }
+    if (!notation_of(file)) add_plain_definitions(text, numbers);
     return numbers;
 }
 
@@ -118,10 +157,12 @@ private:
         return true;
     }
 
+    // `place` is the key's.
     void add(const Place& place, const std::string& name, const std::string& group) {
         if (!lines_.has(place.line)) return;
-        const std::size_t at = lines_.begin(place.line) + static_cast<std::size_t>(std::max(place.column, 1)) - 1;
         const std::size_t end = lines_.end(place.line);
+        const std::size_t key = lines_.begin(place.line) + static_cast<std::size_t>(std::max(place.column, 1)) - 1;
+        const std::size_t at = std::min(text_.find_first_not_of("= \t", text_.find('=', key)), end);
         const std::size_t behind = std::min(text_.find_first_of(" \t\r,}]#", at), end);
         const std::string text = at < behind ? text_.substr(at, behind - at) : "";
         const bool is_switch = text == "true" || text == "false";

@@ -13,7 +13,7 @@ namespace espalier::studio {
 struct WrittenNumber {
     std::string name;   ///< "HEIGHT", "environment.light.voxel"
     std::string label;  ///< what it is, for people
-    std::string group, unit;
+    std::string group = {}, unit = {};
     std::string text;  ///< as it is written: "6", "-0.25", "true"
     bool is_switch = false, whole = false;
     double value = 0;

@@ -1,4 +1,5 @@
-// The studio: a server on this machine for a page in the browser, where one edits, watches and measures a growing plant.
+// The studio: a server on this machine for a page in the browser, where one edits, watches and measures a growing
+// plant.
 #pragma once
 
 #include "espalier/simulation/scene.h"

@@ -44,7 +44,9 @@ Scene read(const Opened& opened) {
 fs::path state_file(const fs::path& folder) {
     const char* state = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
-    const fs::path base = state && *state ? fs::path(state) : home && *home ? fs::path(home) / ".local/state" : fs::path();
+    const fs::path base = state && *state ? fs::path(state)
+                          : home && *home ? fs::path(home) / ".local/state"
+                                          : fs::path();
     if (base.empty()) return {};
     return base / "espalier" / fmt::format("studio-{:016x}.json", digest(folder.string()));
 }
@@ -113,8 +115,8 @@ private:
             const bool is_scene = file.is_regular_file() && describes_scene(file.path());
             if (!is_scene && !(file.is_regular_file() && describes_model(file.path()))) continue;
             if (file.path().parent_path() == data) continue;
-            entries.push_back({file.path(), file.path().stem().string(), describe_file(file.path()).summary, {},
-                               is_scene, true});
+            entries.push_back(
+                {file.path(), file.path().stem().string(), describe_file(file.path()).summary, {}, is_scene, true});
         }
     }
 
@@ -134,12 +136,12 @@ public:
     explicit Studio(CLI::App& program)
         : Command(program, "studio", "edit, grow, watch and measure plants in the browser") {
         app().add_option("what", what_, "a model, a scene, or the folder of an object; default: the library");
-        app()
-            .add_option("--folder", folder_,
-                        "files are read and written below it; default: this folder, or the one of a file outside it");
+        app().add_option("--folder", folder_,
+                         "files are read and written below it; default: this folder, or the one of a file outside it");
         app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
         app().add_flag("--no-browser", no_browser_, "print the address instead of opening it");
-        app().footer(R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
+        app().footer(
+            R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
 holds a key: whoever has it can edit and grow, below the folder only. Unsaved work is there again next time.
 Examples:
   espalier studio                                    the library
@@ -154,7 +156,8 @@ Examples:
         studio::StudioOptions options;
         options.opened.path = what_.empty() ? fs::path() : fs::absolute(here_or_with_program(what_)).lexically_normal();
         if (!what_.empty() && !fs::exists(options.opened.path)) {
-            throw UserError(fmt::format("{} does not exist; `espalier studio` alone opens the library", what_.string()));
+            throw UserError(
+                fmt::format("{} does not exist; `espalier studio` alone opens the library", what_.string()));
         }
         options.folder = folder();
         options.scratch = scratch.path();

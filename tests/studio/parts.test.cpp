@@ -1,0 +1,96 @@
+#include "catch.h"
+#include "studio/access.h"
+#include "studio/page_files.h"
+#include "studio/written_numbers.h"
+
+using namespace espalier::studio;
+
+TEST_CASE("only this machine under its own names is a host, whatever the port", "[studio]") {
+    for (const char* host : {"127.0.0.1:8700", "localhost:8700", "localhost", "127.0.0.1", "[::1]:80"}) {
+        INFO(host);
+        CHECK(is_own_host(host));
+    }
+    for (const char* host : {"", "evil.example:8700", "127.0.0.1.evil.example", "localhost.evil.example:8700",
+                             "localhost:87x", "localhost:", "127.0.0.2:8700", "user@localhost:8700"}) {
+        INFO(host);
+        CHECK_FALSE(is_own_host(host));
+    }
+}
+
+TEST_CASE("only pages of the studio may open its socket", "[studio]") {
+    CHECK(is_own_origin("http://localhost:8700", "localhost:8700"));
+    CHECK_FALSE(is_own_origin("", "localhost:8700"));
+    CHECK_FALSE(is_own_origin("null", "localhost:8700"));
+    CHECK_FALSE(is_own_origin("http://localhost:8701", "localhost:8700"));
+    CHECK_FALSE(is_own_origin("https://evil.example", "localhost:8700"));
+    CHECK_FALSE(is_own_origin("http://evil.example", "evil.example"));
+}
+
+TEST_CASE("tokens are long and never the same", "[studio]") {
+    const std::string token = new_token();
+    CHECK(token.size() == 32);
+    CHECK(token != new_token());
+    CHECK(is_token(token, token));
+    CHECK_FALSE(is_token("", token));
+    CHECK_FALSE(is_token(token.substr(1), token));
+}
+
+TEST_CASE("the numbers of a scene file are found where they are written", "[studio]") {
+    const std::string scene = R"(# two plants
+[simulation]
+steps = 20
+[environment.light]
+process = "voxel-shade"
+voxel = 0.5   # metres
+depth = -3
+on = true
+[[plant]]
+model = "a.l"
+position = [1, 2, 3]
+[[plant]]
+model = "b.l"
+define = { HEIGHT = 1e1 }
+)";
+    const std::vector<WrittenNumber> numbers = written_numbers("scene.toml", scene);
+    std::vector<std::string> names;
+    for (const WrittenNumber& number : numbers) {
+        names.push_back(number.name);
+        CHECK(scene.substr(number.offset, number.text.size()) == number.text);
+    }
+    REQUIRE(names == std::vector<std::string>{"simulation.steps", "environment.light.voxel", "environment.light.depth",
+                                              "environment.light.on", "plant.1.define.HEIGHT"});
+    CHECK(numbers[0].whole);
+    CHECK(numbers[1].label == "metres");
+    CHECK_FALSE(numbers[1].whole);
+    CHECK(numbers[2].value == -3);
+    CHECK(numbers[3].is_switch);
+    CHECK(numbers[4].value == 10);
+    CHECK(with_number(scene, numbers[1], "0.25").find("voxel = 0.25   # metres") != std::string::npos);
+}
+
+TEST_CASE("macros that are not plain numbers are no settings", "[studio]") {
+    const std::string model = R"(#define A 2  /* width; 1..3; m */
+#define B (A * 2)
+#define C -.5e1  // bend
+#define D 3 4
+#define SUM(x) x
+lsystem: 1
+derivation length: 1
+axiom: F(A + B + C)
+endlsystem
+)";
+    const std::vector<WrittenNumber> numbers = written_numbers("a.l", model);
+    REQUIRE(numbers.size() == 2);
+    CHECK(numbers[0].highest == 3);
+    CHECK(numbers[1].name == "C");
+    CHECK(numbers[1].value == -5);
+    CHECK(numbers[1].label == "bend");
+}
+
+TEST_CASE("the page is part of the program", "[studio]") {
+    REQUIRE(page_file("/"));
+    CHECK(page_file("/")->bytes.find("studio.js") != std::string_view::npos);
+    CHECK(page_file("/studio.js")->bytes.size() > 100000);
+    CHECK(page_file("/LICENSES.txt")->bytes.find("MIT") != std::string_view::npos);
+    CHECK_FALSE(page_file("/../etc/passwd"));
+}

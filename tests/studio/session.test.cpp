@@ -1,0 +1,270 @@
+// The requests of docs/studio-protocol.md as a page makes them.
+#include "session_fixture.h"
+
+using namespace studio_test;
+
+namespace {
+
+const char* const tree = R"(#define ANGLE 30  /* between branches; 0..90; degrees */
+#define LENGTH 2
+lsystem: 1
+derivation length: 4
+axiom: A(1)
+A(n) --> F(LENGTH) [ +(ANGLE) A(n+1) ] [ -(ANGLE) A(n+1) ]
+endlsystem
+)";
+
+const char* const random_tree = R"(lsystem: 1
+seed: 5
+derivation length: 3
+axiom: A
+A --> F(1) A : 0.5
+A --> F(2) A : 0.5
+endlsystem
+)";
+
+std::size_t internodes(const std::string& packet) {
+    return number_at<std::uint32_t>(packet, 16);
+}
+
+// The height of the box of all internodes.
+float height(const std::string& packet) {
+    return number_at<float>(packet, 48) - number_at<float>(packet, 36);
+}
+
+}  // namespace
+
+TEST_CASE("what is open grows at once, and its last step is sent", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["step"] == 4);
+    REQUIRE(!page.packets.empty());
+    CHECK(page.packets.back().substr(0, 4) == "ESP1");
+    CHECK(internodes(page.packets.back()) == 15);  // 2^4 - 1
+    CHECK(page.last("statistics")["columns"][0] == "step");
+}
+
+TEST_CASE("a page that says hello late is told everything", "[studio]") {
+    OpenStudio studio(tree);
+    studio.begin();
+    studio.wait_until_grown();
+    ListeningPage second;
+    studio.session->join(second);
+    studio.session->receive(second, R"({"do": "hello", "id": 1})");
+    CHECK(second.last("document")["name"] == "plant.l");
+    CHECK(second.last("growth")["state"] == "done");
+    CHECK(second.last("statistics")["rows"].size() == 5);
+    CHECK(second.packets.size() == 1);
+    studio.session->leave(second);
+}
+
+TEST_CASE("settings are the numbers of the text, and a slider changes the text", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const Json settings = page.last("document")["settings"];
+    REQUIRE(settings.size() == 2);
+    CHECK(settings[0]["name"] == "ANGLE");
+    CHECK(settings[0]["label"] == "between branches");
+    CHECK(settings[0]["highest"] == 90);
+    CHECK(settings[0]["unit"] == "degrees");
+    CHECK(settings[1]["name"] == "LENGTH");
+    CHECK(settings[1]["highest"].is_null());
+
+    const float before = height(page.packets.back());
+    CHECK_FALSE(studio.change({{"settings", {{"LENGTH", "4"}}}}).contains("error"));
+    studio.wait_until_grown();
+    CHECK(height(page.packets.back()) == Approx(2 * before));
+    const std::string text = page.last("document")["texts"][0]["content"];
+    CHECK(text.find("#define LENGTH 4\n") != std::string::npos);
+    CHECK(page.last("document")["settings"][1]["changed"] == true);
+    CHECK(text_of(studio.file) == tree);  // nothing is saved unasked
+
+    CHECK(studio.change({{"settings", {{"ANGLE", "100"}}}})["error"] == "ANGLE lies between 0 and 90");
+    studio.change({{"settings", {{"LENGTH", nullptr}}}});
+    CHECK(page.last("document")["texts"][0]["content"] == tree);
+}
+
+TEST_CASE("a mistake is told with its place, and the plant stays until it is mended", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const std::size_t packets = page.packets.size();
+    std::string broken = tree;
+    broken.replace(broken.find("+(ANGLE)"), 8, "+(ANGEL");
+    studio.change({{"texts", {{studio.file.string(), broken}}}});
+    studio.wait([&] { return !page.last("problems")["problems"].empty(); });
+    const Json problem = page.last("problems")["problems"][0];
+    CHECK(problem["severity"] == "error");
+    CHECK(problem["file"] == studio.file.string());
+    CHECK(problem["line"] == 6);
+    CHECK(page.packets.size() == packets);
+
+    studio.change({{"texts", {{studio.file.string(), tree}}}});
+    studio.wait_until_grown();
+    CHECK(page.last("problems")["problems"].empty());
+}
+
+TEST_CASE("undo takes back the seed, the steps and the text; drags are one change", "[studio]") {
+    OpenStudio studio(random_tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    studio.change({{"seed", 7}, {"label", "seed 7"}});
+    CHECK(page.last("document")["seed"] == 7);
+    CHECK(page.last("document")["undo"] == "seed 7");
+    for (const int steps : {4, 5, 6}) studio.change({{"steps", steps}, {"label", "steps"}}, true);
+    studio.change({{"steps", 8}, {"label", "steps 8"}});
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["step"] == 8);
+
+    studio.ask({{"do", "undo"}});
+    CHECK(page.last("document")["redo"] == "steps 8");
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["step"] == 3);
+    CHECK(page.last("document")["seed"] == 7);
+    studio.ask({{"do", "undo"}});
+    CHECK(page.last("document")["seed"] != 7);
+    studio.ask({{"do", "redo"}});
+    CHECK(page.last("document")["seed"] == 7);
+}
+
+TEST_CASE("a module tells who it is, who bore it and which production made it", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const Json growth = page.last("growth");
+    const std::string& packet = page.packets.back();
+    // The module of the last internode: behind 60 bytes of header and one plant, 24 bytes an internode.
+    const auto module = number_at<std::uint32_t>(packet, 60 + 4 + 24 * (internodes(packet) - 1) + 20);
+    const Json known = studio.ask({{"do", "pick"}, {"growth", growth["growth"]}, {"step", 4}, {"module", module}});
+    CHECK(known["text"] == "F(2)");
+    CHECK(known["born"] == 4);
+    CHECK(known["parent"]["text"] == "A(4)");
+    CHECK(known["parent"]["born"] == 3);
+    CHECK(known["history"]["steps"] == Json({4}));
+    REQUIRE(known["places"].size() == 1);
+    CHECK(known["places"][0]["line"] == 6);
+    CHECK(
+        studio.ask({{"do", "pick"}, {"growth", growth["growth"]}, {"step", 4}, {"module", 100000}}).contains("error"));
+}
+
+TEST_CASE("modules can be coloured by their age", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(page.last("columns")["columns"] == Json({"age", "plant", "symbol", "parameter 1"}));
+    studio.ask({{"do", "column"}, {"growth", page.last("growth")["growth"]}, {"step", 4}, {"name", "age"}});
+    const std::string& bytes = page.packets.back();
+    REQUIRE(bytes.substr(0, 4) == "ESC1");
+    const auto modules = number_at<std::uint32_t>(bytes, 12);
+    CHECK(modules == page.last("growth")["modules"]);
+    CHECK(number_at<float>(bytes, 16) == 0);
+    CHECK(number_at<float>(bytes, 20) == 4);  // the first apex keeps the identity of the axiom
+    CHECK(bytes.size() == 24 + 4 + 4 + 4 * modules);
+}
+
+TEST_CASE("the same step is shown again after an edit, and none is grown twice", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    studio.ask({{"do", "look"}, {"step", 2}});
+    CHECK(internodes(page.packets.back()) == 3);
+    const std::size_t packets = page.packets.size();
+    studio.ask({{"do", "look"}, {"step", 2}, {"held", page.last("growth")["growth"]}});
+    CHECK(page.packets.size() == packets);
+    studio.change({{"settings", {{"LENGTH", "3"}}}});
+    studio.wait_until_grown();
+    REQUIRE(page.packets.size() == packets + 1);
+    CHECK(internodes(page.packets.back()) == 3);
+}
+
+TEST_CASE("growth can be stopped, and goes on from the beginning to a later step", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    studio.ask({{"do", "grow"}, {"to", 200}});
+    studio.wait([&] { return page.last("growth")["step"] > 4; });
+    studio.ask({{"do", "stop"}});
+    studio.wait([&] { return page.last("growth")["state"] == "stopped" || page.last("growth")["state"] == "failed"; });
+    CHECK(page.last("growth")["step"] < 200);
+    CHECK(page.last("document")["undo"] == "grow to step 200");
+}
+
+TEST_CASE("nothing is written outside the opened folder", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    for (const char* path : {"../elsewhere.l", "/tmp/elsewhere.l", "a/../../elsewhere.l"}) {
+        INFO(path);
+        CHECK(studio.ask({{"do", "save"}, {"path", path}}).contains("error"));
+    }
+    CHECK(studio.ask({{"do", "open"}, {"path", "/etc/hostname"}}).contains("error"));
+    CHECK(studio.change({{"texts", {{"/etc/hostname", "x"}}}}).contains("error"));
+
+    studio.change({{"settings", {{"LENGTH", "4"}}}});
+    CHECK_FALSE(studio.ask({{"do", "save"}}).contains("error"));
+    CHECK(text_of(studio.file).find("#define LENGTH 4") != std::string::npos);
+    CHECK(page.last("document")["texts"][0]["changed"] == false);
+    CHECK_FALSE(studio.ask({{"do", "save"}, {"path", "copies/other.l"}}).contains("error"));
+    CHECK(text_of(studio.folder.path() / "copies/other.l") == text_of(studio.file));
+    CHECK(page.last("document")["name"] == "other.l");
+}
+
+TEST_CASE("unsaved work is there again after the program was killed", "[studio]") {
+    OpenStudio studio(tree);
+    studio.options.state = studio.scratch.path() / "state.json";
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    studio.change({{"settings", {{"LENGTH", "9"}}}, {"label", "LENGTH 9"}});
+    studio.session->tick();
+    const std::string kept = text_of(studio.options.state);
+    studio.session.reset();
+    studio.folder.write("state-of-the-killed", kept);
+
+    OpenStudio second(tree);
+    page.texts.clear();
+    studio.begin();
+    studio.wait_until_grown();
+    CHECK(page.last("document")["texts"][0]["changed"] == true);
+    CHECK(page.last("document")["undo"] == "LENGTH 9");
+    studio.ask({{"do", "undo"}});
+    CHECK(page.last("document")["texts"][0]["content"] == tree);
+
+    studio.session.reset();
+    studio.scratch.write("state.json", "{\"states\": [1]}");
+    page.texts.clear();
+    studio.begin();
+    CHECK(page.last("message")["severity"] == "warning");
+}
+
+TEST_CASE("malformed requests are answered, not obeyed", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    for (const char* text : {"", "{", "[]", "1", R"({"do": 1, "id": 2})", R"({"do": "look", "id": 2})",
+                             R"({"do": "nothing", "id": 2})", R"({"do": "frame", "growth": "x", "step": [], "id": 3})",
+                             R"({"do": "change", "texts": [], "steps": "x", "id": 4})",
+                             R"({"do": "pick", "growth": 1, "step": 1e99, "module": -1, "id": 5})"}) {
+        INFO(text);
+        const std::size_t before = page.texts.size();
+        studio.session->receive(page, text);
+        REQUIRE(page.texts.size() == before + 1);
+        CHECK(page.texts.back().contains("error"));
+    }
+}
+
+TEST_CASE("what is open is exported as `export` would do it", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(studio.ask({{"do", "export"}, {"format", "nothing"}}).contains("error"));
+    studio.ask({{"do", "export"}, {"format", "csv"}});
+    studio.wait([&] { return !page.last("exported").is_null(); });
+    const Json files = page.last("exported")["files"];
+    REQUIRE(!files.empty());
+    const auto file = studio.session->file(files[0]["number"].get<std::uint32_t>());
+    REQUIRE(file);
+    CHECK(std::filesystem::file_size(*file) == files[0]["bytes"]);
+    CHECK_FALSE(studio.session->file(99999));
+}
