@@ -31,6 +31,8 @@ configure_file(cmake/version.h.in ${CMAKE_CURRENT_BINARY_DIR}/version.h)
 install(DIRECTORY include/espalier TYPE INCLUDE)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
 install(DIRECTORY models environments DESTINATION ${ESPALIER_DATA_DIR})
+install(FILES docs/gallery.md DESTINATION ${ESPALIER_DATA_DIR}/docs)  # the studio shows its pictures
+install(DIRECTORY docs/pictures/gallery DESTINATION ${ESPALIER_DATA_DIR}/docs/pictures)
 
 configure_package_config_file(cmake/EspalierConfig.cmake.in EspalierConfig.cmake
   INSTALL_DESTINATION ${package} PATH_VARS ESPALIER_DATA_DIR)

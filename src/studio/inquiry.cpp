@@ -37,7 +37,8 @@ struct PlantString {
     std::string text(std::size_t module) const {
         std::string text = model.alphabet.name(string.letters[module]);
         const std::span<const double> values = parameters(module);
-        for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "(" : ",") + format_general(values[i]);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            text.append(i == 0 ? "(" : ",").append(format_general(values[i]));
         return values.empty() ? text : text + ")";
     }
     std::optional<std::size_t> find(Identity identity) const {

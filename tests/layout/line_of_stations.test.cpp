@@ -1,6 +1,6 @@
 // grow: base -> lsystem -> language -> geometry -> turtle -> environment -> timeline -> simulation
 // look: base -> geometry -> archive -> analysis | formats | picture -> view
-// The command line, app, stands above both.
+// studio stands behind both, and the command line, app, above all.
 #include "catch.h"
 #include "sources.h"
 
@@ -48,7 +48,7 @@ std::vector<std::string> violations_below(const fs::path& folder, std::size_t& f
 TEST_CASE("every file includes only what stands before it in its line", "[layout]") {
     std::vector<std::string> found;
     std::size_t files = 0;
-    for (const std::vector<std::string>& line : {growing, looking, {"app"}}) {
+    for (const std::vector<std::string>& line : {growing, looking, both, {"app"}}) {
         for (const std::string& station : line) {
             for (const fs::path& folder : {fs::path("include/espalier") / station, fs::path("src") / station}) {
                 for (std::string& violation : violations_below(folder, files)) found.push_back(std::move(violation));

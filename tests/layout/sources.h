@@ -16,18 +16,22 @@ inline const std::vector<std::string> growing{"base",   "lsystem",     "language
                                               "turtle", "environment", "timeline", "simulation"};
 inline const std::vector<std::string> looking{"base", "geometry", "archive", "analysis", "formats", "picture", "view"};
 
+/// Grows and looks: it stands behind both lines.
+inline const std::vector<std::string> both{"studio"};
+
 inline bool is_in(const std::vector<std::string>& line, const std::string& station) {
     return std::find(line.begin(), line.end(), station) != line.end();
 }
 
 inline bool is_station(const std::string& name) {
-    return is_in(growing, name) || is_in(looking, name) || name == "app";
+    return is_in(growing, name) || is_in(looking, name) || is_in(both, name) || name == "app";
 }
 
 /// True if a file of `station` may include headers of `other`: those that stand before it in its line. The stations
 /// analysis, formats and picture stand side by side.
 inline bool may_include(const std::string& station, const std::string& other) {
     if (station == other || station == "app") return true;
+    if (is_in(both, station)) return other != "app";
     const std::vector<std::string>& line = is_in(growing, station) ? growing : looking;
     const auto at = std::find(line.begin(), line.end(), station);
     if ((station == "formats" || station == "picture") && (other == "analysis" || other == "formats")) return false;

@@ -1,0 +1,171 @@
+// The studio over its sockets: who is let in, and that hostile visitors get nothing.
+#include "session_fixture.h"
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <future>
+#include <thread>
+
+using namespace studio_test;
+
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+
+const char* const stalk = "lsystem: 1\nderivation length: 3\naxiom: A\nA --> F(1)A\nendlsystem\n";
+
+/// serve() on a thread of its own.
+class Served {
+public:
+    Served() {
+        options_.folder = folder_.path();
+        options_.scratch = scratch_.path();
+        options_.opened.path = folder_.write("stalk.l", stalk);
+        options_.read = read_as_run;
+        options_.library = [] { return std::vector<espalier::studio::LibraryEntry>(); };
+        options_.interrupt = &interrupted_;
+        std::promise<std::string> address;
+        options_.ready = [&](const std::string& text) { address.set_value(text); };
+        thread_ = std::thread([this] { espalier::serve(options_); });
+        const std::string text = address.get_future().get();
+        const std::string before = "http://127.0.0.1:", between = "/#token=";
+        port = text.substr(before.size(), text.find(between) - before.size());
+        token = text.substr(text.find(between) + between.size());
+    }
+    ~Served() {
+        interrupted_ = true;
+        thread_.join();
+    }
+
+    std::string host() const { return "127.0.0.1:" + port; }
+    tcp::socket connect(asio::io_context& io) const {
+        tcp::socket socket(io);
+        socket.connect({asio::ip::make_address("127.0.0.1"), static_cast<unsigned short>(std::stoi(port))});
+        return socket;
+    }
+
+    std::string port, token;
+
+private:
+    TemporaryFolder folder_, scratch_;
+    espalier::StudioOptions options_;
+    std::atomic<bool> interrupted_ = false;
+    std::thread thread_;
+};
+
+http::response<http::string_body> get(const Served& studio, const std::string& target, const std::string& host,
+                                      const std::string& authorization = "", http::verb verb = http::verb::get) {
+    asio::io_context io;
+    tcp::socket socket = studio.connect(io);
+    http::request<http::empty_body> request(verb, target, 11);
+    request.set(http::field::host, host);
+    if (!authorization.empty()) request.set(http::field::authorization, authorization);
+    http::write(socket, request);
+    beast::flat_buffer buffer;
+    http::response<http::string_body> response;
+    http::read(socket, buffer, response);
+    return response;
+}
+
+/// A page that connects from `origin`; its error if it is not let in.
+struct Client {
+    asio::io_context io;
+    beast::websocket::stream<tcp::socket> socket;
+    beast::error_code error;
+
+    Client(const Served& studio, const std::string& origin, const std::string& host) : socket(studio.connect(io)) {
+        socket.set_option(beast::websocket::stream_base::decorator(
+            [&](beast::websocket::request_type& request) { request.set(http::field::origin, origin); }));
+        socket.handshake(host, "/socket", error);
+    }
+
+    /// The next text message; null if the connection ended.
+    Json read_text() {
+        while (true) {
+            beast::flat_buffer buffer;
+            socket.read(buffer, error);
+            if (error) return nullptr;
+            if (socket.got_text()) return Json::parse(beast::buffers_to_string(buffer.data()));
+        }
+    }
+    void write(const std::string& text) { socket.write(asio::buffer(text), error); }
+};
+
+}  // namespace
+
+TEST_CASE("the page is served with a policy that lets nothing else in", "[studio]") {
+    const Served studio;
+    const auto page = get(studio, "/", studio.host());
+    CHECK(page.result_int() == 200);
+    const std::string policy(page["Content-Security-Policy"].data(), page["Content-Security-Policy"].size());
+    CHECK(policy.find("default-src 'none'") != std::string::npos);
+    CHECK(policy.find("frame-ancestors 'none'") != std::string::npos);
+    CHECK(page.body().find(studio.token) == std::string::npos);
+    CHECK(get(studio, "/../../etc/passwd", studio.host()).result_int() == 404);
+    CHECK(get(studio, "/", studio.host(), "", http::verb::post).result_int() == 405);
+}
+
+TEST_CASE("a name that somebody else gave to this machine is refused", "[studio]") {
+    const Served studio;
+    CHECK(get(studio, "/", "evil.example:" + studio.port).result_int() == 403);
+    CHECK(get(studio, "/", "").result_int() == 403);
+}
+
+TEST_CASE("files need the token", "[studio]") {
+    const Served studio;
+    CHECK(get(studio, "/file/1", studio.host()).result_int() == 401);
+    CHECK(get(studio, "/file/1", studio.host(), "Bearer 00000000000000000000000000000000").result_int() == 401);
+    CHECK(get(studio, "/file/1", studio.host(), "Bearer " + studio.token).result_int() == 404);
+}
+
+TEST_CASE("a page of the studio with the token is told what grows", "[studio]") {
+    const Served studio;
+    Client page(studio, "http://" + studio.host(), studio.host());
+    REQUIRE(!page.error);
+    page.write(R"({"do": "hello", "id": 1, "token": ")" + studio.token + "\"}");
+    CHECK(page.read_text()["reply"] == 1);
+    CHECK(page.read_text()["say"] == "document");
+}
+
+TEST_CASE("pages of other origins, without the token or with too long a message are turned away", "[studio]") {
+    const Served studio;
+    Client foreign(studio, "http://evil.example", studio.host());
+    CHECK(foreign.error == beast::websocket::error::upgrade_declined);
+
+    Client ignorant(studio, "http://" + studio.host(), studio.host());
+    REQUIRE(!ignorant.error);
+    ignorant.write(R"({"do": "hello", "id": 1, "token": "guess"})");
+    CHECK(ignorant.read_text().is_null());
+
+    Client impolite(studio, "http://" + studio.host(), studio.host());
+    impolite.write(R"({"do": "library", "id": 1})");
+    CHECK(impolite.read_text().is_null());
+
+    Client verbose(studio, "http://" + studio.host(), studio.host());
+    verbose.write(std::string(9 << 20, ' '));
+    CHECK(verbose.read_text().is_null());
+}
+
+TEST_CASE("many visitors that say nothing do not keep a page out for ever", "[studio]") {
+    const Served studio;
+    {
+        asio::io_context io;
+        std::vector<tcp::socket> silent;
+        for (int i = 0; i < 80; ++i) silent.push_back(studio.connect(io));
+    }
+    for (int attempt = 0; attempt < 50; ++attempt) {
+        try {
+            if (get(studio, "/", studio.host()).result_int() == 200) return;
+        } catch (const boost::system::system_error&) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    }
+    FAIL("no page is served any more");
+}
