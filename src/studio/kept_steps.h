@@ -8,19 +8,26 @@
 #include "studio/spool.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace espalier::studio {
 
-/// Written by the thread that grows, read by the one that serves.
+/// Written by the thread that grows, read by the one that serves. The newest steps are kept in memory, older ones in a
+/// file.
 class KeptSteps {
 public:
-    KeptSteps(std::uint32_t growth, const std::filesystem::path& file) : writer_(growth), spool_(file) {}
+    static constexpr std::size_t most_memory = std::size_t(512) << 20;  ///< bytes
 
-    /// Returns the number of internodes.
+    KeptSteps(std::uint32_t growth, std::filesystem::path file, std::size_t memory = most_memory)
+        : writer_(growth), file_(std::move(file)), memory_(memory) {}
+
+    /// Returns the number of internodes. Throws RunError if the disk is full.
     std::size_t add(const timeline::Frame& frame);
 
     bool has(int step) const;
@@ -34,20 +41,29 @@ public:
     ModuleString string(int step, std::size_t plant) const;
 
 private:
-    struct KeptString {
+    /// A string in the file.
+    struct FiledString {
         Spool::Place letters, parameters, births;
         SiblingTable siblings;
     };
     struct Step {
-        Spool::Place packet;
-        std::vector<KeptString> strings;
+        std::shared_ptr<const std::string> packet;  ///< null: all of the step is in the file
+        std::vector<std::shared_ptr<const ModuleString>> strings;
+        Spool::Place filed_packet;
+        std::vector<FiledString> filed_strings;
+
+        std::size_t bytes() const;
     };
 
+    void file_oldest();
     Step step(int number) const;
-    ModuleString read(const KeptString& kept) const;
+    ModuleString read(const Step& step, std::size_t plant) const;
 
     PacketWriter writer_;
-    Spool spool_;
+    const std::filesystem::path file_;
+    const std::size_t memory_;
+    std::size_t in_memory_ = 0;  ///< bytes
+    std::unique_ptr<Spool> spool_;
     mutable std::mutex mutex_;
     std::map<int, Step> steps_;
     std::vector<std::string> shapes_;

@@ -82,7 +82,7 @@ struct Extent {
 
 private:
     static std::uint16_t part(double share) {
-        return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(share, 0.0, 1.0)));
+        return static_cast<std::uint16_t>(65535 * std::clamp(share, 0.0, 1.0) + 0.5);
     }
 };
 

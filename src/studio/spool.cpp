@@ -21,6 +21,10 @@ Spool::~Spool() {
 
 Spool::Place Spool::add(std::string_view bytes) {
     const std::lock_guard lock(mutex_);
+    if (size_ + bytes.size() > most_bytes) {
+        throw RunError(fmt::format(
+            "the steps take more than {} GiB: grow fewer of them, or record the growth with `run`", most_bytes >> 30));
+    }
     file_.seekp(static_cast<std::streamoff>(size_));
     file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!file_.flush()) {

@@ -15,6 +15,8 @@ namespace espalier::studio {
 /// Several threads may write and read. The file is gone with the spool.
 class Spool {
 public:
+    static constexpr std::uint64_t most_bytes = std::uint64_t(8) << 30;
+
     struct Place {
         std::uint64_t offset = 0, size = 0;
     };
@@ -25,7 +27,7 @@ public:
     Spool(const Spool&) = delete;
     Spool& operator=(const Spool&) = delete;
 
-    /// Throws RunError if the disk is full.
+    /// Throws RunError if the disk is full, or the file would be longer than `most_bytes`.
     Place add(std::string_view bytes);
     std::string text(Place place) const;
 

@@ -1,7 +1,11 @@
+#include "espalier/simulation/world.h"
+
 #include "catch.h"
 #include "studio/access.h"
+#include "studio/kept_steps.h"
 #include "studio/page_files.h"
 #include "studio/written_numbers.h"
+#include "temporary_folder.h"
 
 using namespace espalier::studio;
 
@@ -85,6 +89,32 @@ endlsystem
     CHECK(numbers[1].name == "C");
     CHECK(numbers[1].value == -5);
     CHECK(numbers[1].label == "bend");
+}
+
+TEST_CASE("steps that do not fit into memory are the same from a file", "[studio]") {
+    const TemporaryFolder folder;
+    espalier::Scene scene;
+    scene.plants.push_back(
+        espalier::plant_of_text("lsystem: 1\nderivation length: 6\naxiom: A\nA --> F(1)[+A]A\n"
+                                "endlsystem\n"));
+    espalier::World world(scene);
+    KeptSteps roomy(1, folder.path() / "a"), tight(1, folder.path() / "b", 500);
+    world.start();
+    for (int step = 0; step <= 6; ++step) {
+        roomy.add(world.frame());
+        tight.add(world.frame());
+        if (step < 6) world.step();
+    }
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "a"));
+    CHECK(std::filesystem::exists(folder.path() / "b"));
+    for (int step = 0; step <= 6; ++step) {
+        CHECK(roomy.packet(step) == tight.packet(step));
+        const espalier::ModuleString a = roomy.string(step, 0), b = tight.string(step, 0);
+        CHECK(a.letters == b.letters);
+        CHECK(a.parameters == b.parameters);
+        CHECK(a.identity(a.size() - 1) == b.identity(b.size() - 1));
+    }
+    CHECK_FALSE(tight.has(7));
 }
 
 TEST_CASE("the page is part of the program", "[studio]") {
