@@ -21,6 +21,7 @@ export class Film {
       this.studio.tell("error", errorText(error));
     }
     this.running = false;
+    this.scene.steady = false;
   }
 
   /** Shows each step for the time that playing gives it. */
@@ -28,6 +29,7 @@ export class Film {
     const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((name) => MediaRecorder.isTypeSupported(name));
     if (!kind) throw new Error("This browser cannot record films in the format WebM.");
     this.timeline.pause();
+    this.scene.steady = true;
     const { frames } = this.studio;
     const stream = this.scene.canvas.captureStream(30);
     const recorder = new MediaRecorder(stream, { mimeType: kind, videoBitsPerSecond: 8e6 });

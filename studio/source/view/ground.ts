@@ -29,10 +29,10 @@ out vec4 result;
 float shade() {
   vec3 at = (shadowMatrix * vec4(place, 1.0)).xyz;
   if (!shadowed || any(lessThan(at.xy, vec2(0.01))) || any(greaterThan(at.xy, vec2(0.99)))) return 0.0;
+  const vec2 around[5] = vec2[5](vec2(0.0), vec2(1.7, 0.6), vec2(-0.6, 1.7), vec2(-1.7, -0.6), vec2(0.6, -1.7));
   float sum = 0.0;
-  for (int i = -1; i <= 1; i++)
-    for (int j = -1; j <= 1; j++) sum += float(texture(shadowMap, at.xy + vec2(i, j) * 1.8 / 1024.0).r < at.z - 0.002);
-  return sum / 9.0;
+  for (int i = 0; i < 5; i++) sum += float(texture(shadowMap, at.xy + around[i] * (1.2 / 1024.0)).r < at.z - 0.002);
+  return sum / 5.0;
 }
 
 float grid(float size) {

@@ -1,36 +1,51 @@
 /**
- * Internodes as impostors: one call draws four vertices an internode, which face the eye; the vertex shader reads the records of
- * the packet from a texture, and the fragment shader shades them as tapered cylinders with round ends.
+ * Internodes as impostors. The vertex shader reads the records of the packet from a texture: no vertex is stored. What is wider
+ * than a line of the picture is drawn with four vertices that face the eye, and the fragment shader shades it as a tapered
+ * cylinder with round ends. The rest is drawn as lines: on a processor, a triangle costs far more than a line.
  */
-import { BufferAttribute, BufferGeometry, DataTexture, Mesh, RGIntegerFormat, UnsignedIntType, Vector3 } from "three";
+import { Box3, BufferAttribute, BufferGeometry, DataTexture, LineSegments, Mesh, RGIntegerFormat, UnsignedIntType, Vector3 } from "three";
 import type { Packet } from "./packets.js";
 import { plantMaterial, type Uniforms } from "./shading.js";
 
 const perRow = 680; // internodes; three texels each, below the 2048 that every card has
 
-const vertex = /* glsl */ `
+const records = /* glsl */ `
 uniform usampler2D records;
 uniform vec3 lower, size;
 uniform float thickest;
+
+struct Internode { vec3 base, tip; float baseRadius, tipRadius; uint tint, module; };
+
+Internode internodeOf(int number) {
+  ivec2 at = ivec2((number % ${perRow}) * 3, number / ${perRow});
+  uvec2 a = texelFetch(records, at, 0).xy;
+  uvec2 b = texelFetch(records, at + ivec2(1, 0), 0).xy;
+  uvec2 c = texelFetch(records, at + ivec2(2, 0), 0).xy;
+  return Internode(
+    lower + size * vec3(a.x & 65535u, a.x >> 16, a.y & 65535u) / 65535.0,
+    lower + size * vec3(a.y >> 16, b.x & 65535u, b.x >> 16) / 65535.0,
+    thickest * float(b.y & 65535u) / 65535.0, thickest * float(b.y >> 16) / 65535.0, c.x, c.y);
+}
+
+vec3 ownColour(Internode it) {
+  return colourOf(it.module, vec3(it.tint & 255u, (it.tint >> 8) & 255u, (it.tint >> 16) & 255u) / 255.0, float(it.tint >> 24));
+}
+`;
+
+const thickVertex = /* glsl */ `
 out vec3 across;
 flat out vec3 side, front, colour;
 out float light;
 
 void main() {
-  int number = gl_VertexID >> 2;
-  ivec2 at = ivec2((number % ${perRow}) * 3, number / ${perRow});
-  uvec2 a = texelFetch(records, at, 0).xy;
-  uvec2 b = texelFetch(records, at + ivec2(1, 0), 0).xy;
-  uvec2 c = texelFetch(records, at + ivec2(2, 0), 0).xy;
-  vec3 base = lower + size * vec3(a.x & 65535u, a.x >> 16, a.y & 65535u) / 65535.0;
-  vec3 tip = lower + size * vec3(a.y >> 16, b.x & 65535u, b.x >> 16) / 65535.0;
+  Internode it = internodeOf(gl_VertexID >> 2);
   bool atTip = (gl_VertexID & 2) != 0;
   float sign = (gl_VertexID & 1) != 0 ? 1.0 : -1.0;
-  vec3 centre = atTip ? tip : base;
-  float r = thickest * float(atTip ? b.y >> 16 : b.y & 65535u) / 65535.0;
+  vec3 centre = atTip ? it.tip : it.base;
+  float r = atTip ? it.tipRadius : it.baseRadius;
 
-  front = eye.w > 0.0 ? normalize(eye.xyz - base) : eye.xyz;
-  vec3 axis = tip - base;
+  front = eye.w > 0.0 ? normalize(eye.xyz - it.base) : eye.xyz;
+  vec3 axis = it.tip - it.base;
   side = cross(axis, front);
   float length2 = dot(side, side);
   side = length2 > 1e-20 ? side * inversesqrt(length2) : normalize(cross(front, vec3(0.31, 0.2, 0.93)));
@@ -48,14 +63,14 @@ void main() {
   vec4 surface = projectionMatrix * (viewMatrix * vec4(corner + front * r, 1.0));
   gl_Position.z = surface.z / surface.w * gl_Position.w;
 
-  identity = c.y;
+  identity = it.module;
   if (pass != 0) return;
-  colour = colourOf(c.y, vec3(c.x & 255u, (c.x >> 8) & 255u, (c.x >> 16) & 255u) / 255.0, float(c.x >> 24));
+  colour = ownColour(it);
   light = lit(centre + sun * r);
 }
 `;
 
-const fragment = /* glsl */ `
+const thickFragment = /* glsl */ `
 in vec3 across;
 flat in vec3 side, front, colour;
 in float light;
@@ -71,6 +86,31 @@ void main() {
   float end = across.y > across.z ? -beyond : beyond;
   vec3 normal = side * across.x + cross(front, side) * end + front * sqrt(rest);
   result = shade(colour, normal, light);
+}
+`;
+
+const thinVertex = /* glsl */ `
+flat out vec4 shaded;
+uniform vec3 sunColour, skyColour, soilColour;
+
+void main() {
+  Internode it = internodeOf(gl_VertexID >> 1);
+  vec3 centre = (gl_VertexID & 1) != 0 ? it.tip : it.base;
+  gl_Position = projectionMatrix * (viewMatrix * vec4(centre, 1.0));
+  identity = it.module;
+  if (pass != 0 || (gl_VertexID & 1) == 0) return;
+  // The mean over the side that faces the eye: its normals are those of a half cylinder.
+  vec3 front = normalize(eye.xyz - centre);
+  float direct = clamp(0.32 + 0.55 * dot(front, sun), 0.0, 1.0) * lit(centre);
+  vec3 ambient = mix(soilColour, skyColour, 0.5 + 0.35 * front.y);
+  shaded = vec4(sqrt(ownColour(it) * (ambient * 0.7 + sunColour * (0.75 * direct + 0.06))), 1.0);
+}
+`;
+
+const thinFragment = /* glsl */ `
+flat in vec4 shaded;
+void main() {
+  result = pass != 0 ? identityColour() : shaded;
 }
 `;
 
@@ -97,10 +137,48 @@ function corners(count: number): Uint32Array {
   return indices;
 }
 
+const buckets = 1024;
+
+/** Puts records in order of thickness, the thickest first. */
+class Order {
+  /** For each bucket of thickness, how many internodes are thicker than it. */
+  readonly thicker = new Uint32Array(buckets + 1);
+
+  /** Copies the records into `target`. */
+  sort(records: Uint32Array, count: number, target: Uint32Array): void {
+    const { thicker } = this;
+    thicker.fill(0);
+    const bucketOf = (i: number) => {
+      const radii = records[i * 6 + 3];
+      return buckets - 1 - (Math.max(radii & 65535, radii >>> 16) >> 6);
+    };
+    for (let i = 0; i < count; i++) thicker[bucketOf(i) + 1]++;
+    for (let bucket = 0; bucket < buckets; bucket++) thicker[bucket + 1] += thicker[bucket];
+    const next = thicker.slice();
+    for (let i = 0; i < count; i++) {
+      const at = next[bucketOf(i)]++ * 6;
+      for (let k = 0; k < 6; k++) target[at + k] = records[i * 6 + k];
+    }
+  }
+
+  /** How many internodes may be thicker than a part of the thickest. */
+  above(part: number): number {
+    if (part >= 1) return 0;
+    return this.thicker[buckets - (Math.floor(Math.max(0, part) * 65535) >> 6)];
+  }
+}
+
+function unbounded(object: Mesh | LineSegments): void {
+  object.frustumCulled = false;
+  object.visible = false;
+}
+
 export class Internodes {
-  readonly mesh: Mesh;
-  private readonly geometry = new BufferGeometry();
+  readonly thick: Mesh;
+  readonly thin: LineSegments;
   private readonly uniforms: Uniforms;
+  private readonly order = new Order();
+  private packet: Packet | null = null;
   private capacity = 0;
   private rows = 0;
 
@@ -112,23 +190,40 @@ export class Internodes {
       size: { value: new Vector3(1, 1, 1) },
       thickest: { value: 0 },
     };
-    this.mesh = new Mesh(this.geometry, plantMaterial({ uniforms: this.uniforms, vertex, fragment }));
-    this.mesh.frustumCulled = false;
-    this.mesh.visible = false;
+    const { uniforms } = this;
+    this.thick = new Mesh(new BufferGeometry(), plantMaterial({ uniforms, vertex: records + thickVertex, fragment: thickFragment }));
+    this.thin = new LineSegments(new BufferGeometry(), plantMaterial({ uniforms, vertex: records + thinVertex, fragment: thinFragment }));
+    unbounded(this.thick);
+    unbounded(this.thin);
   }
 
   show(packet: Packet): void {
+    this.packet = packet;
     this.reserve(packet.internodeCount);
-    this.geometry.setDrawRange(0, packet.internodeCount * 6);
-    this.mesh.visible = packet.internodeCount > 0;
     const texture = this.uniforms.records.value as DataTexture;
-    (texture.image.data as unknown as Uint32Array).set(packet.internodes);
+    this.order.sort(packet.internodes, packet.internodeCount, texture.image.data as unknown as Uint32Array);
     texture.needsUpdate = true;
     (this.uniforms.lower.value as Vector3).set(...packet.lower);
     (this.uniforms.size.value as Vector3).set(
       packet.upper[0] - packet.lower[0], packet.upper[1] - packet.lower[1], packet.upper[2] - packet.lower[2],
     );
     this.uniforms.thickest.value = packet.radius;
+  }
+
+  /** Decides what is drawn as lines: what is narrower than 1.5 pixels wherever it stands. `eye` is null for parallel rays. */
+  choose(eye: Vector3 | null, pixel: number): void {
+    const { packet } = this;
+    const count = packet?.internodeCount ?? 0;
+    if (!packet || count === 0) {
+      this.thick.visible = this.thin.visible = false;
+      return;
+    }
+    const away = eye ? new Box3(new Vector3(...packet.lower), new Vector3(...packet.upper)).distanceToPoint(eye) : 1;
+    const thick = this.order.above((0.75 * pixel * away) / Math.max(packet.radius, 1e-30));
+    this.thick.visible = thick > 0;
+    this.thin.visible = thick < count;
+    this.thick.geometry.setDrawRange(0, thick * 6);
+    this.thin.geometry.setDrawRange(thick * 2, (count - thick) * 2);
   }
 
   private reserve(count: number): void {
@@ -140,7 +235,7 @@ export class Internodes {
     }
     if (count <= this.capacity) return;
     this.capacity = Math.ceil(count * 1.3);
-    this.geometry.dispose();
-    this.geometry.setIndex(new BufferAttribute(corners(this.capacity), 1));
+    this.thick.geometry.dispose();
+    this.thick.geometry.setIndex(new BufferAttribute(corners(this.capacity), 1));
   }
 }

@@ -22,7 +22,8 @@ const nothing = 0xffffffff;
 function drawsInSoftware(): boolean {
   const gl = document.createElement("canvas").getContext("webgl2");
   if (!gl) return true;
-  const name = String(gl.getParameter(gl.RENDERER)) + String(gl.getParameter(37446));
+  const facts = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(facts ? facts.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
   gl.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|software/i.test(name);
 }
@@ -47,6 +48,9 @@ export class PlantScene {
   private bounds: { lower: Vector; upper: Vector } | null = null;
   private shadowStale = true;
   private requested = false;
+  private restTimer = 0;
+  /** A film needs a picture of one size. */
+  steady = false;
   private frame: { lower: Vector; upper: Vector } | null = null;
   private framedGrowth: number | null = null;
   private width = 1;
@@ -65,7 +69,7 @@ export class PlantScene {
     this.shapes = new Shapes(this.uniforms, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
     this.scene.matrixWorldAutoUpdate = false;
-    this.scene.add(this.backdrop.mesh, this.ground.mesh, this.internodes.mesh, this.triangles.mesh);
+    this.scene.add(this.backdrop.mesh, this.ground.mesh, this.internodes.thick, this.internodes.thin, this.triangles.mesh);
     this.theme = themes.light;
   }
 
@@ -178,9 +182,28 @@ export class PlantScene {
     this.requested = true;
     requestAnimationFrame(() => {
       this.requested = false;
-      this.draw();
+      if (this.software) this.drawFastThenFine();
+      else this.draw();
       this.drawn?.();
     });
+  }
+
+  /** Without a graphics card, smooth edges wait until the picture rests. */
+  private drawFastThenFine(): void {
+    this.setRatio(1);
+    this.draw();
+    clearTimeout(this.restTimer);
+    if (this.steady) return;
+    this.restTimer = window.setTimeout(() => {
+      this.setRatio(2);
+      this.draw();
+    }, 300);
+  }
+
+  private setRatio(ratio: number): void {
+    if (ratio === this.renderer.getPixelRatio()) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.width, this.height, false);
   }
 
   /** Draws now. */
@@ -204,12 +227,10 @@ export class PlantScene {
   /** The picture as a PNG, with `scale` times the pixels. */
   async snapshot(scale: number): Promise<Blob> {
     const ratio = this.renderer.getPixelRatio();
-    this.renderer.setPixelRatio(scale);
-    this.renderer.setSize(this.width, this.height, false);
+    this.setRatio(scale);
     this.draw();
     const blob = await new Promise<Blob | null>((done) => this.canvas.toBlob(done, "image/png"));
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(this.width, this.height, false);
+    this.setRatio(ratio);
     this.draw();
     if (!blob) throw new Error("The browser could not write the picture.");
     return blob;
@@ -282,6 +303,7 @@ export class PlantScene {
     const picture = pass === Pass.picture;
     this.uniforms.pass.value = pass;
     this.setEye(pass === Pass.shadow);
+    this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value as number);
     this.backdrop.mesh.visible = picture;
     this.ground.mesh.visible = picture && this.groundShown;
     this.renderer.setRenderTarget(target);
