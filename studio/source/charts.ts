@@ -7,6 +7,7 @@ import type { Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 
 const mostCharts = 6;
+const mostPlants = 6;
 
 export class ChartsPanel {
   readonly element = h("div", "charts");
@@ -41,7 +42,7 @@ export class ChartsPanel {
   }
 
   private offer(): void {
-    const columns = this.studio.statistics.columns.slice(1).filter((name) => name !== "plant");
+    const columns = this.studio.statistics.columns.slice(1).filter((name) => name !== "plant" && name !== "name");
     if (columns.join() === this.offered) return;
     this.offered = columns.join();
     const usual = columns.filter((name) => /^(modules|internodes|height|length|leaves)/.test(name)).slice(0, 3);
@@ -102,7 +103,7 @@ export class ChartsPanel {
 }
 
 function stepsOf({ rows }: Statistics): number[] {
-  return rows.map((row) => row[0]);
+  return rows.map((row) => Number(row[0]));
 }
 
 /** One curve, or one for each plant if the statistics tell plants apart. */
@@ -110,10 +111,12 @@ function curvesOf(statistics: Statistics, name: string, steps: number[], pinned:
   const at = statistics.columns.indexOf(name);
   if (at < 0) return [];
   const plant = statistics.columns.indexOf("plant");
-  const plants = plant < 0 ? [-1] : [...new Set(statistics.rows.map((row) => row[plant]))].slice(0, 6);
+  const names = statistics.columns.indexOf("name");
+  const plants = [...new Set(statistics.rows.map((row) => row[plant] ?? 0))].slice(0, mostPlants);
   return plants.map((which, index) => {
-    const values = new Map(statistics.rows.filter((row) => which < 0 || row[plant] === which).map((row) => [row[0], row[at]]));
-    const label = which < 0 ? name.replaceAll("_", " ") : (statistics.plants?.[which] ?? `plant ${which}`);
+    const rows = statistics.rows.filter((row) => (row[plant] ?? 0) === which);
+    const values = new Map(rows.map((row) => [Number(row[0]), typeof row[at] === "number" ? row[at] : null]));
+    const label = plants.length === 1 ? name.replaceAll("_", " ") : String(rows[0][names] ?? `plant ${which}`);
     return {
       name: pinned ? `${label}, pinned` : label, dashed: pinned, colour: pinned && plants.length === 1 ? 1 : index,
       values: steps.map((step) => values.get(step) ?? null),

@@ -68,17 +68,17 @@ export class Gallery {
     const entries = words.length > 0 ? [...all.models, ...all.scenes, ...all.files].filter(fits) : all[this.shelf];
     const folders = new Map<string, LibraryEntry[]>();
     for (const entry of entries) folders.set(entry.folder, [...(folders.get(entry.folder) ?? []), entry]);
-    this.list.replaceChildren(...[...folders].map(([folder, inside]) =>
-      h("section", "", {}, h("h2", "", {}, folder || "Folder"), h("div", "card-grid", {}, ...inside.map((entry) => this.card(entry))))));
+    const pictured = (list: LibraryEntry[]) => list.filter(({ picture }) => picture !== null);
+    const ordered = [...folders].sort(([, a], [, b]) => Number(pictured(b).length > 0) - Number(pictured(a).length > 0));
+    this.list.replaceChildren(...ordered.map(([folder, inside]) => h("section", "", {}, h("h2", "", {}, folder || "Folder"),
+      h("div", "card-grid", {}, ...pictured(inside).map((entry) => this.card(entry))),
+      h("div", "card-grid plain", {}, ...inside.filter(({ picture }) => picture === null).map((entry) => this.card(entry))))));
     if (entries.length === 0) this.list.append(h("p", "hint", {}, words.length > 0 ? "Nothing has these words." : "There is nothing here."));
   }
 
   private card(entry: LibraryEntry): HTMLElement {
-    const picture = h("div", "card-picture", {}, icon("layers"));
-    if (entry.picture !== null) {
-      picture.dataset.picture = String(entry.picture);
-      this.lazily.observe(picture);
-    }
+    const picture = entry.picture === null ? null : h("div", "card-picture", { "data-picture": entry.picture }, icon("layers"));
+    if (picture) this.lazily.observe(picture);
     return h("button", "card", { type: "button", title: entry.path, onclick: () => void this.open(entry) },
       picture, h("strong", "", {}, entry.name), h("span", "", {}, entry.summary));
   }

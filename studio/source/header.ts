@@ -1,7 +1,7 @@
 /** The bar above everything: document, undo, save, share, theme. */
 import { menuButton, openDialog } from "./dialog.js";
 import { h, icon, iconButton, setLabel } from "./elements.js";
-import { exportDialog } from "./exporting.js";
+import { Exporting } from "./exporting.js";
 import type { Editor } from "./editor/editor.js";
 import type { Changes } from "./changes.js";
 import type { Layout } from "./layout.js";
@@ -21,11 +21,13 @@ export interface HeaderParts {
 export class Header {
   readonly element: HTMLElement;
   private readonly name = h("span", "document-name");
+  private readonly exporting: Exporting;
   private readonly undoButton = iconButton("undo", "Undo", () => void this.step("undo"));
   private readonly redoButton = iconButton("redo", "Redo", () => void this.step("redo"));
 
   constructor(private readonly parts: HeaderParts) {
     const { layout, studio } = parts;
+    this.exporting = new Exporting(studio);
     const save = h("button", "button", { type: "button", title: "Save (Ctrl+S)", onclick: () => void this.save() }, icon("save"), "Save");
     const share = h("button", "button primary", { type: "button" }, icon("share"), "Share");
     this.element = h("header", "bar", {},
@@ -72,7 +74,7 @@ export class Header {
     const { studio, scene } = this.parts;
     return [
       { name: "Save as …", hint: "below the opened folder", run: () => this.saveAs() },
-      { name: "Export …", hint: "glTF, OBJ, Blender and more", run: () => exportDialog(studio) },
+      { name: "Export …", hint: "glTF, OBJ, Blender and more", run: () => this.exporting.open() },
       { name: "Share as HTML …", hint: "one file that shows the growth anywhere", run: () => shareHtmlDialog(studio, scene) },
       { name: "Share as a link …", hint: "for anyone who runs a studio", run: () => void shareLinkDialog(studio) },
     ];

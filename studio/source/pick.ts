@@ -40,8 +40,8 @@ export class PickPanel {
     const picked = await this.studio.ask("pick", { growth, step, module });
     if (!picked || this.studio.frames.shown !== shown) return;
     Object.assign(this, { picked, module, growth, step });
-    this.scene().mark(module, picked.siblings);
-    this.editor.mark(picked.places);
+    this.scene().mark(module, picked.siblings ?? []);
+    this.editor.mark(picked.places ?? []);
     this.opened();
     this.draw(picked);
   }
@@ -72,20 +72,19 @@ export class PickPanel {
 
   private facts(picked: Picked): HTMLElement {
     const rows: [string, Node | string][] = [
-      ["Symbol", picked.symbol], ["Plant", picked.plant], ["Identity", String(picked.identity)], ["Born in step", String(picked.born)],
+      ["Symbol", picked.symbol], ["Plant", picked.plant],
     ];
-    if (picked.order !== null && picked.order !== undefined) rows.push(["Order", String(picked.order)]);
+    if (picked.born !== undefined) rows.push(["Born in step", String(picked.born)]);
     if (picked.parent) rows.push(["Parent", this.relative(picked.parent)]);
-    const { children } = picked;
-    if (typeof children === "number") rows.push(["Children", String(children)]);
-    else if (children && children.length > 0) rows.push(["Children", h("span", "", {}, ...children.slice(0, 12).map((child) => this.relative(child)))]);
+    if (picked.children !== undefined) rows.push(["Children", String(picked.children)]);
+    if (picked.identity !== undefined) rows.push(["Identity", h("code", "", {}, picked.identity)]);
     return h("dl", "facts", {}, ...rows.flatMap(([name, value]) => [h("dt", "", {}, name), h("dd", "", {}, value)]));
   }
 
   private relative(parent: Parent): HTMLElement {
-    const text = `${parent.symbol} (${parent.identity}, step ${parent.born})`;
+    const text = parent.text ?? parent.symbol ?? parent.identity;
     const { module } = parent;
-    if (module === null || module === undefined) return h("span", "", {}, text);
+    if (module === undefined) return h("span", "", {}, text);
     return h("button", "link", { type: "button", onclick: () => void this.pick(module) }, text);
   }
 
@@ -113,16 +112,17 @@ export class PickPanel {
     return section;
   }
 
-  private places(places: Place[]): HTMLElement | null {
+  private places(places: Place[] = []): HTMLElement | null {
     if (places.length === 0) return null;
     return h("section", "", {}, h("h3", "", {}, places.length === 1 ? "Made by the production" : "Made by one of the productions"),
       ...places.map((place) => h("button", "place", {
         type: "button", onclick: () => this.editor.goTo(place.file, place.line, place.column),
-      }, h("small", "", {}, `${shortName(place.file)}, line ${place.line}`), h("code", "", {}, place.text))));
+      }, h("small", "", {}, `${shortName(place.file)}, line ${place.line}`), h("code", "", {}, this.editor.lineOf(place.file, place.line)))));
   }
 
   private kin(picked: Picked): HTMLElement | null {
-    if (picked.siblings.length === 0) return null;
-    return h("p", "hint", {}, `${whole(picked.siblings.length)} ${picked.siblings.length === 1 ? "sibling is" : "siblings are"} marked in the picture.`);
+    const count = picked.siblings?.length ?? 0;
+    if (count === 0) return null;
+    return h("p", "hint", {}, `${whole(count)} ${count === 1 ? "sibling is" : "siblings are"} marked in the picture.`);
   }
 }

@@ -11,7 +11,8 @@ export interface TextFile {
 export interface Setting {
   name: string;
   label: string;
-  value: number | null;
+  kind: "number" | "switch";
+  value: number;
   text: string;
   default: string;
   lowest: number | null;
@@ -20,7 +21,6 @@ export interface Setting {
   unit: string;
   group: string;
   changed: boolean;
-  choices: string[] | null;
 }
 
 export interface StudioDocument {
@@ -55,7 +55,9 @@ export interface Growth {
   modules: number;
   internodes: number;
   seconds: number;
-  reason: string | null;
+  reason: string;
+  /** Their names. */
+  plants: string[];
 }
 
 export interface FieldName {
@@ -86,7 +88,7 @@ export interface HelpEntry {
 
 export interface Help {
   symbols: HelpEntry[];
-  keywords: HelpEntry[];
+  keywords?: HelpEntry[];
   functions: HelpEntry[];
   processes: HelpEntry[];
   stages: HelpEntry[];
@@ -94,34 +96,35 @@ export interface Help {
   exporters: HelpEntry[];
 }
 
+/** What is missing is not known any more. */
 export interface Parent {
-  identity: number;
-  symbol: string;
-  born: number;
-  module?: number | null;
+  identity: string;
+  symbol?: string;
+  text?: string;
+  born?: number;
+  module?: number;
 }
 
 export interface Place {
   file: string;
   line: number;
   column: number;
-  text: string;
 }
 
+/** What is missing is not recorded for this plant. */
 export interface Picked {
   plant: string;
   symbol: string;
   text: string;
-  identity: number;
-  order: number | null;
-  born: number;
-  parent: Parent | null;
   names: string[];
   parameters: number[];
-  children: number | Parent[];
-  history: { steps: number[]; parameters: number[][] } | null;
-  places: Place[];
-  siblings: number[];
+  identity?: string;
+  born?: number;
+  parent?: Parent | null;
+  children?: number;
+  history?: { steps: number[]; parameters: number[][] };
+  places?: Place[];
+  siblings?: number[];
 }
 
 export interface ChangeRequest {
@@ -136,7 +139,6 @@ export interface ChangeRequest {
 export interface SharedModel {
   name: string;
   content: string;
-  settings: Record<string, string>;
   seed: number;
   steps: number;
 }
@@ -159,15 +161,22 @@ export interface Requests {
   pick: { send: { growth: number; step: number; module: number }; get: Picked };
   field: { send: { growth: number; name: string }; get: object };
   save: { send: { path?: string }; get: { path: string } };
-  export: { send: { format: string; options: Record<string, string> }; get: { file: { number: number; name: string; bytes: number } } };
+  export: { send: { format: string; step?: number; film?: boolean }; get: object };
   dismiss: { send: { message: number }; get: object };
 }
+
+export type Cell = number | string | null;
 
 export interface Statistics {
   growth: number;
   columns: string[];
-  rows: number[][];
-  plants?: string[];
+  rows: Cell[][];
+}
+
+export interface HandedFile {
+  number: number;
+  name: string;
+  bytes: number;
 }
 
 /** What the server says without being asked. */
@@ -179,4 +188,5 @@ export type Said =
   | { say: "columns"; growth: number; columns: string[] }
   | { say: "fields"; growth: number; fields: FieldName[] }
   | { say: "message"; number: number; severity: Problem["severity"]; text: string }
+  | { say: "exported"; files: HandedFile[] }
   | { say: "progress"; what: string; done: number };

@@ -13,7 +13,7 @@ interface Row {
 type Send = (text: string | null, lasting: boolean) => void;
 
 function isSwitch(setting: Setting): boolean {
-  return setting.whole && setting.lowest === 0 && setting.highest === 1 && (setting.value === 0 || setting.value === 1);
+  return setting.kind === "switch" || (setting.whole && setting.lowest === 0 && setting.highest === 1);
 }
 
 /** The ends of a slider: those of the setting, or a span around its default. */
@@ -33,7 +33,7 @@ function sliderRow(setting: Setting, send: Send): Row {
   const number = h("input", "number", { type: "text", inputmode: "decimal", "aria-label": `${setting.label}, as a number` });
   const show = (now: Setting) => {
     if (document.activeElement !== number) number.value = now.text;
-    if (!slider.matches(":active")) slider.value = String(now.value ?? 0);
+    if (!slider.matches(":active")) slider.value = String(now.value);
     slider.style.setProperty("--part", String((Number(slider.value) - lowest) / (highest - lowest)));
   };
   slider.addEventListener("input", () => {
@@ -49,33 +49,11 @@ function sliderRow(setting: Setting, send: Send): Row {
 
 function switchRow(setting: Setting, send: Send): Row {
   const box = h("input", "switch", { type: "checkbox", role: "switch", id: `setting-${setting.name}` });
-  box.addEventListener("change", () => send(box.checked ? "1" : "0", true));
-  const show = (now: Setting) => (box.checked = now.value === 1);
+  box.addEventListener("change", () => send(textOf(box.checked), true));
+  const textOf = (on: boolean) => (setting.kind === "switch" ? String(on) : on ? "1" : "0");
+  const show = (now: Setting) => (box.checked = now.text === textOf(true));
   show(setting);
   return { element: h("div", "control", {}, box), update: show };
-}
-
-function choiceRow(setting: Setting, send: Send): Row {
-  const select = h("select", "", { id: `setting-${setting.name}` });
-  const show = (now: Setting) => {
-    const choices = now.choices ?? [];
-    const all = choices.includes(now.text) ? choices : [now.text, ...choices];
-    select.replaceChildren(...all.map((choice) => h("option", "", { value: choice, selected: choice === now.text }, choice)));
-    select.value = now.text;
-  };
-  select.addEventListener("change", () => send(select.value, true));
-  show(setting);
-  return { element: h("div", "control", {}, select), update: show };
-}
-
-function textRow(setting: Setting, send: Send): Row {
-  const field = h("input", "wide", { type: "text", id: `setting-${setting.name}` });
-  field.addEventListener("change", () => send(field.value.trim() || null, true));
-  const show = (now: Setting) => {
-    if (document.activeElement !== field) field.value = now.text;
-  };
-  show(setting);
-  return { element: h("div", "control", {}, field, unitOf(setting)), update: show };
 }
 
 function unitOf(setting: Setting): HTMLElement {
@@ -83,10 +61,7 @@ function unitOf(setting: Setting): HTMLElement {
 }
 
 function controlOf(setting: Setting, send: Send): Row {
-  if (setting.choices && setting.choices.length > 0) return choiceRow(setting, send);
-  if (isSwitch(setting)) return switchRow(setting, send);
-  if (setting.value !== null) return sliderRow(setting, send);
-  return textRow(setting, send);
+  return isSwitch(setting) ? switchRow(setting, send) : sliderRow(setting, send);
 }
 
 export class SettingsPanel {
@@ -100,8 +75,8 @@ export class SettingsPanel {
   }
 
   private show(document: StudioDocument): void {
-    const layout = JSON.stringify([document.path, document.settings.map(({ name, label, lowest, highest, whole, unit, group, choices, value }) =>
-      [name, label, lowest, highest, whole, unit, group, choices, value === null])]);
+    const layout = JSON.stringify([document.path, document.settings.map(({ name, label, kind, lowest, highest, whole, unit, group }) =>
+      [name, label, kind, lowest, highest, whole, unit, group])]);
     if (layout !== this.layout) this.build(document);
     this.layout = layout;
     this.updateSimulation();

@@ -1,5 +1,6 @@
 /** Shares a growth as one HTML file that needs no server, and a model as a link. */
 import { openDialog } from "./dialog.js";
+import { shortName } from "./editor/editor.js";
 import { download, h, whole } from "./elements.js";
 import { compress, decompress, fromBase64, toBase64, urlSafe } from "./view/index.js";
 import type { SharedModel } from "./protocol.js";
@@ -101,10 +102,8 @@ async function linkOf(studio: Studio): Promise<string> {
   const { document } = studio;
   const main = document?.texts.find(({ role }) => role === "main") ?? document?.texts[0];
   if (!document || !main) throw new Error("There is nothing to share yet.");
-  const changed = document.settings.filter((setting) => setting.changed);
   const model: SharedModel = {
-    name: document.name, content: main.content, seed: document.seed, steps: document.steps,
-    settings: Object.fromEntries(changed.map(({ name, text }) => [name, text])),
+    name: shortName(main.path), content: main.content, seed: document.seed, steps: document.steps,
   };
   const packed = urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))));
   return `model=${packed}`;

@@ -3,7 +3,7 @@ import { Connection, RequestError, type ConnectionState } from "./connection.js"
 import { remember, remembered } from "./elements.js";
 import { Frames } from "./frames.js";
 import type {
-  FieldName, Growth, Help, Problem, Requests, Said, Statistics, StudioDocument,
+  Cell, FieldName, Growth, HandedFile, Help, Problem, Requests, Said, Statistics, StudioDocument,
 } from "./protocol.js";
 import type { BinaryMessage, Column, Field, Packet, Shapes } from "./view/index.js";
 
@@ -29,6 +29,7 @@ interface Events {
   column: Column;
   field: Field;
   shown: Packet;
+  exported: HandedFile[];
   theme: "light" | "dark";
 }
 
@@ -111,8 +112,7 @@ export class Studio {
   private hear(message: Said): void {
     switch (message.say) {
       case "document":
-        this.document = message;
-        return this.emit("document", message);
+        return this.hearDocument(message);
       case "problems":
         this.problems = message.problems;
         return this.emit("problems", message.problems);
@@ -129,9 +129,18 @@ export class Studio {
       case "message":
         this.messages = [...this.messages.filter(({ number }) => number !== message.number), message];
         return this.emit("messages", this.messages);
+      case "exported":
+        return this.emit("exported", message.files);
       case "progress":
         return this.emit("progress", message);
     }
+  }
+
+  /** Nothing is open while the path is empty. */
+  private hearDocument(document: StudioDocument): void {
+    if (document.path === "") return;
+    this.document = document;
+    this.emit("document", document);
   }
 
   private hearGrowth(growth: Growth): void {
@@ -164,10 +173,10 @@ export class Studio {
 }
 
 /** Rows of the same step replace earlier ones: a page that connects again hears all of them again. */
-function withRows(rows: number[][], more: number[][]): number[][] {
+function withRows(rows: Cell[][], more: Cell[][]): Cell[][] {
   if (more.length === 0) return rows;
-  const first = more[0][0];
-  return [...rows.filter((row) => row[0] < first), ...more];
+  const first = Number(more[0][0]);
+  return [...rows.filter((row) => Number(row[0]) < first), ...more];
 }
 
 export function errorText(error: unknown): string {

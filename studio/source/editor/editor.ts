@@ -103,6 +103,13 @@ export class Editor {
     return this.stateOf(path)?.doc.toString() ?? "";
   }
 
+  /** One line of a text, without its indentation. */
+  lineOf(file: string, line: number): string {
+    const key = this.keyOf(file);
+    const doc = key === null ? undefined : this.stateOf(key)?.doc;
+    return doc && line >= 1 && line <= doc.lines ? doc.line(line).text.trim() : "";
+  }
+
   /** Replaces a text from outside of the editor, as an editor of curves does. */
   replace(path: string, content: string, lasting: boolean): void {
     this.setContent(path, content);

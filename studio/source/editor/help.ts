@@ -8,7 +8,7 @@ type Language = "cpfg" | "toml";
 
 function listsOf(help: Help, language: Language): [Completion["type"], HelpEntry[]][] {
   if (language === "toml") return [["property", help.keys], ["class", help.processes], ["class", help.stages]];
-  return [["keyword", help.keywords], ["function", help.functions], ["class", help.symbols]];
+  return [["keyword", help.keywords ?? []], ["function", help.functions], ["class", help.symbols]];
 }
 
 function describe(entry: HelpEntry): HTMLElement {
