@@ -57,10 +57,9 @@ samples: 10
 const document = {
   say: "document", version: 1, path: "", name: "", kind: "model", folder: "/home/me", texts: [],
   settings: [
-    { name: "ANGLE", label: "angle of branches", value: 32, text: "32", default: "32", lowest: 5, highest: 80, whole: false, unit: "degrees", group: "Form", changed: false, choices: null },
-    { name: "RATIO", label: "ratio of lengths", value: 0.78, text: "0.78", default: "0.78", lowest: 0.5, highest: 0.95, whole: false, unit: "", group: "Form", changed: false, choices: null },
-    { name: "LEAVES", label: "leaves at the tips", value: 1, text: "1", default: "1", lowest: 0, highest: 1, whole: true, unit: "", group: "Organs", changed: false, choices: null },
-    { name: "MODE", label: "kind of growth", value: null, text: "monopodial", default: "monopodial", lowest: null, highest: null, whole: false, unit: "", group: "Organs", changed: false, choices: ["monopodial", "sympodial"] },
+    { kind: "number", name: "ANGLE", label: "angle of branches", value: 32, text: "32", default: "32", lowest: 5, highest: 80, whole: false, unit: "degrees", group: "Form", changed: false },
+    { kind: "number", name: "RATIO", label: "ratio of lengths", value: 0.78, text: "0.78", default: "0.78", lowest: 0.5, highest: 0.95, whole: false, unit: "", group: "Form", changed: false },
+    { kind: "number", name: "LEAVES", label: "leaves at the tips", value: 1, text: "1", default: "1", lowest: 0, highest: 1, whole: true, unit: "", group: "Organs", changed: false },
   ],
   seed: 1, steps: 8, undo: null, redo: null,
 };
@@ -224,7 +223,7 @@ function change(request) {
   for (const [name, value] of Object.entries(request.settings ?? {})) {
     const one = document.settings.find((setting) => setting.name === name);
     one.text = value ?? one.default;
-    one.value = one.choices ? null : Number(one.text);
+    one.value = Number(one.text);
     one.changed = one.text !== one.default;
   }
   if (request.seed !== undefined) document.seed = request.seed;

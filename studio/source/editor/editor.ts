@@ -13,7 +13,7 @@ import { classHighlighter } from "@lezer/highlight";
 import type { Changes } from "../changes.js";
 import { h, remember, remembered } from "../elements.js";
 import type { Problem, StudioDocument, TextFile } from "../protocol.js";
-import { sideEditor } from "../side/side.js";
+import { sideEditor, type SideEditor } from "../side/side.js";
 import type { Studio } from "../state.js";
 import { cpfg } from "./cpfg.js";
 import { completion, hoverHelp } from "./help.js";
@@ -55,6 +55,7 @@ export class Editor {
   private readonly view: EditorView;
   private readonly sideTools = h("div", "side-tools");
   private readonly texts = new Map<string, OpenText>();
+  private side: SideEditor | null = null;
   private shown: string | null = null;
   private documentPath = "";
   private soon = 0;
@@ -219,10 +220,12 @@ export class Editor {
     this.shown = path;
     this.view.setState(text.state);
     this.drawTabs();
-    this.sideTools.replaceChildren(...sideEditor(text.file, {
+    this.side = sideEditor({
+      path,
       content: () => this.contentOf(path),
       change: (content, lasting) => this.replace(path, content, lasting),
-    }));
+    });
+    this.sideTools.replaceChildren(...this.side.elements);
     this.underline(this.studio.problems);
   }
 
@@ -309,6 +312,7 @@ export class Editor {
       EditorView.updateListener.of((update) => {
         const own = update.transactions.some((one) => one.docChanged && !one.annotation(fromServer));
         if (update.docChanged && own) this.typed();
+        if (update.docChanged) this.side?.refresh();
       }),
     ];
   }

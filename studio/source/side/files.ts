@@ -1,0 +1,115 @@
+/** Reads the points of functions, contours and curves, and writes them back without touching the rest of the file. */
+import { clampedSpline, uniformSpline, type Place, type Point } from "./spline.js";
+
+export interface PointFile {
+  name: string;
+  /** Functions have x from 0 to 1, growing; the others a plane with equal scales. */
+  kind: "function" | "contour";
+  closed: boolean;
+  points: Point[];
+  curve: (points: readonly Point[]) => Place[];
+  /** The whole text with other points. */
+  write: (points: readonly Point[]) => string;
+}
+
+function numbersOf(line: string): number[] {
+  return line.trim().split(/\s+/).map(Number);
+}
+
+function valueOf(lines: readonly string[], from: number, key: string): { line: number; value: string } | null {
+  for (let i = from; i < lines.length; i++) {
+    if (!lines[i].startsWith(key)) continue;
+    return { line: i, value: lines[i].slice(key.length).trim() };
+  }
+  return null;
+}
+
+function decimals(value: number): string {
+  return value.toFixed(6).replace(/(\.\d*?[1-9])0+$|\.0+$/, "$1");
+}
+
+/** Everything of a file but the lines of its points. */
+interface Body {
+  lines: string[];
+  countLine: number;
+  first: number;
+  count: number;
+}
+
+function writer(body: Body, countText: (points: readonly Point[]) => string, lineOf: (point: Point) => string) {
+  return (points: readonly Point[]): string => {
+    const lines = [...body.lines];
+    lines[body.countLine] = countText(points);
+    lines.splice(body.first, body.count, ...points.map(lineOf));
+    return lines.join("\n");
+  };
+}
+
+function readFunction(lines: string[], from: number): PointFile | null {
+  const found = valueOf(lines, from, "points:");
+  if (!found) return null;
+  const count = Number(found.value);
+  const rows = lines.slice(found.line + 1, found.line + 1 + count).map(numbersOf);
+  if (rows.length < count || rows.some((row) => row.length < 2 || row.some(Number.isNaN))) return null;
+  const body = { lines, countLine: found.line, first: found.line + 1, count };
+  const withTimes = rows.some((row) => row.length > 2);
+  return {
+    name: valueOf(lines, from, "name:")?.value || "function", kind: "function", closed: false,
+    points: rows.map(([x, y, times]) => ({ x, y, z: 0, times: times ?? 1 })),
+    curve: (points) => clampedSpline(points),
+    write: writer(body, (points) => `points: ${points.length}`, ({ x, y, times }) =>
+      `${decimals(x)} ${decimals(y)}${withTimes || times > 1 ? ` ${times}` : ""}`),
+  };
+}
+
+function readContour(lines: string[]): PointFile | null {
+  const found = valueOf(lines, 0, "points:");
+  const type = valueOf(lines, 0, "type:");
+  if (!found || !type) return null;
+  const count = numbersOf(found.value)[0];
+  let first = type.line + 1;
+  while (first < lines.length && !/^\s*[-+.\d]/.test(lines[first])) first++;
+  const rows = lines.slice(first, first + count).map(numbersOf);
+  if (rows.length < count || rows.some((row) => row.length < 3 || row.some(Number.isNaN))) return null;
+  const closed = type.value.startsWith("c");
+  const total = (points: readonly Point[]) => points.reduce((sum, { times }) => sum + times, 0);
+  return {
+    name: valueOf(lines, 0, "name:")?.value || "contour", kind: "contour", closed,
+    points: rows.map(([x, y, z, times]) => ({ x, y, z, times: times ?? 1 })),
+    curve: (points) => uniformSpline(points, closed),
+    write: writer({ lines, countLine: found.line, first, count }, (points) => `points: ${points.length} ${total(points)}`,
+      ({ x, y, z, times }) => `${decimals(x)} ${decimals(y)} ${decimals(z)} ${times}`),
+  };
+}
+
+function readCurve(lines: string[]): PointFile | null {
+  const found = valueOf(lines, 0, "points:");
+  const type = valueOf(lines, 0, "type:");
+  if (!found || !type) return null;
+  const dimension = Number((valueOf(lines, 0, "dimension:") ?? valueOf(lines, 0, "dim:"))?.value ?? 2);
+  const count = Number(found.value);
+  let first = type.line + 1;
+  while (first < lines.length && !/^\s*[-+.\d]/.test(lines[first])) first++;
+  const rows = lines.slice(first, first + count).map(numbersOf);
+  if (rows.length < count || rows.some((row) => row.length !== dimension || row.some(Number.isNaN))) return null;
+  const closed = type.value === "bspline-closed";
+  return {
+    name: "curve", kind: "contour", closed,
+    points: rows.map(([x, y, z, times]) => ({ x, y, z: z ?? 0, times: times ?? 1 })),
+    curve: (points) => (type.value === "bspline-endpoint" ? clampedSpline(points) : uniformSpline(points, closed)),
+    write: writer({ lines, countLine: found.line, first, count }, (points) => `points: ${points.length}`,
+      ({ x, y, z, times }) => [x, y, z, times].slice(0, dimension).map(decimals).join(" ")),
+  };
+}
+
+/** The functions, the contour or the curve of a file; none if it is something else or has a mistake. */
+export function readPoints(path: string, content: string): PointFile[] {
+  const lines = content.split(/\r?\n/);
+  const found: (PointFile | null)[] = [];
+  if (/\.(func|fset)$/.test(path)) {
+    const starts = lines.flatMap((line, index) => (line.startsWith("fver") ? [index] : []));
+    for (const start of starts.length > 0 ? starts : [0]) found.push(readFunction(lines, start));
+  } else if (lines[0]?.startsWith("cver")) found.push(readContour(lines));
+  else if (path.endsWith(".con") || path.endsWith(".crv")) found.push(readCurve(lines));
+  return found.filter((file) => file !== null);
+}
