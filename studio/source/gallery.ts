@@ -53,6 +53,7 @@ export class Gallery {
 
   private choose(shelf: Shelf): void {
     this.shelf = shelf;
+    this.search.value = "";
     this.draw();
   }
 
