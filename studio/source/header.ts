@@ -51,7 +51,14 @@ export class Header {
     await this.parts.studio.ask(which, {});
   }
 
+  /** A model of the library is saved under a name of one's own. */
   async save(path?: string): Promise<void> {
+    const { document } = this.parts.studio;
+    if (!document) return;
+    if (!path && !document.path.startsWith(`${document.folder}/`)) {
+      this.saveAs();
+      return;
+    }
     this.parts.editor.sendLasting();
     await this.parts.changes.settle();
     const saved = await this.parts.studio.ask("save", path ? { path } : {});
@@ -80,8 +87,15 @@ export class Header {
     ];
   }
 
+  private suggestedPath(): string {
+    const { document } = this.parts.studio;
+    if (!document) return "";
+    const inside = document.path.startsWith(`${document.folder}/`);
+    return inside ? document.path.slice(document.folder.length + 1) : document.name;
+  }
+
   private saveAs(): void {
-    const field = h("input", "wide", { type: "text", id: "save-path", value: this.parts.studio.document?.path ?? "" });
+    const field = h("input", "wide", { type: "text", id: "save-path", value: this.suggestedPath() });
     const form = h("form", "form", {
       onsubmit: (event) => {
         event.preventDefault();

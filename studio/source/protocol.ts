@@ -5,7 +5,7 @@ export interface TextFile {
   role: "main" | "model" | "view" | "side";
   content: string;
   changed: boolean;
-  language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "plain";
+  language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "map" | "plain";
 }
 
 export interface Setting {

@@ -53,6 +53,7 @@ export class Editor {
   readonly element: HTMLElement;
   private readonly tabs = h("div", "tabs", { role: "tablist", "aria-label": "Texts of the document" });
   private readonly view: EditorView;
+  private readonly place = h("div", "editor-text");
   private readonly sideTools = h("div", "side-tools");
   private readonly texts = new Map<string, OpenText>();
   private side: SideEditor | null = null;
@@ -62,7 +63,7 @@ export class Editor {
   private later = 0;
 
   constructor(private readonly studio: Studio, private readonly changes: Changes) {
-    const place = h("div", "editor-text");
+    const { place } = this;
     this.view = new EditorView({ parent: place, state: EditorState.create({}) });
     this.element = h("div", "editor", {}, this.tabs, this.sideTools, place);
     this.view.contentDOM.addEventListener("blur", () => this.sendLasting());
@@ -226,6 +227,8 @@ export class Editor {
       change: (content, lasting) => this.replace(path, content, lasting),
     });
     this.sideTools.replaceChildren(...this.side.elements);
+    // The bytes of a colour map are no text for people.
+    this.place.hidden = text.file.language === "map";
     this.underline(this.studio.problems);
   }
 
@@ -308,6 +311,7 @@ export class Editor {
       keymap.of([
         ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, indentWithTab,
       ]),
+      EditorView.lineWrapping,
       EditorView.contentAttributes.of({ "aria-label": "Text of the model" }),
       EditorView.updateListener.of((update) => {
         const own = update.transactions.some((one) => one.docChanged && !one.annotation(fromServer));

@@ -1,6 +1,7 @@
 /** Editors that drag points, for the side files that have one. */
 import { h } from "../elements.js";
 import { readPoints } from "./files.js";
+import { MapEditor } from "./map.js";
 import { PointPlane } from "./plane.js";
 import { SurfaceEditor } from "./surface.js";
 
@@ -44,6 +45,7 @@ function planeEditor(text: SideText): SideEditor {
 }
 
 export function sideEditor(text: SideText): SideEditor {
+  if (text.path.endsWith(".map")) return new MapEditor(text);
   if (text.path.endsWith(".s")) return new SurfaceEditor(text);
   return planeEditor(text);
 }
