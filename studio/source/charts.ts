@@ -45,7 +45,7 @@ export class ChartsPanel {
     const columns = this.studio.statistics.columns.slice(1).filter((name) => name !== "plant" && name !== "name");
     if (columns.join() === this.offered) return;
     this.offered = columns.join();
-    const usual = columns.filter((name) => /^(modules|internodes|height|length|leaves)/.test(name)).slice(0, 3);
+    const usual = ["height", "internodes", "length"].filter((name) => columns.includes(name));
     const known = this.chosen.filter((name) => columns.includes(name));
     this.chosen = known.length > 0 ? known : usual.length > 0 ? usual : columns.slice(0, 2);
     this.choice.replaceChildren(...columns.map((name) => {

@@ -24,6 +24,7 @@ function stepMark(step: () => number): uPlot.Plugin {
         if (!Number.isFinite(x) || x < bbox.left || x > bbox.left + bbox.width) return;
         ctx.save();
         ctx.strokeStyle = themeColour("--accent");
+        ctx.setLineDash([]);
         ctx.lineWidth = 1.5 * devicePixelRatio;
         ctx.beginPath();
         ctx.moveTo(x, bbox.top);

@@ -66,7 +66,7 @@ export class StatusLine {
     for (const { count } of packet.groups) organs += count;
     const parts = [`${whole(growth?.modules ?? 0)} modules`, `${whole(packet.internodeCount)} internodes`];
     if (organs > 0) parts.push(`${whole(organs)} organs`);
-    parts.push(`${whole(packet.positions.length / 3)} vertices`, `${whole(triangles)} triangles`);
+    if (triangles > 0) parts.push(`${whole(packet.positions.length / 3)} vertices`, `${whole(triangles)} triangles`);
     this.counts.textContent = parts.join("  ·  ");
   }
 }

@@ -52,7 +52,7 @@ export class Timeline {
     this.playing = true;
     setIcon(this.play, "pause", "Pause (P)");
     if (this.step >= this.last && this.studio.growth?.state !== "growing") this.studio.frames.look(0);
-    this.due = performance.now();
+    this.due = performance.now() + this.interval;
     requestAnimationFrame((now) => this.advance(now));
   }
 

@@ -9,7 +9,7 @@ export const tree = `/* A tree for tests
 
    Try: espalier studio tree.l */
 
-#define ANGLE 32      /* angle of branches; 5..80 degrees */
+#define ANGLE 32      /* angle of branches; 5..80; degrees */
 #define RATIO 0.8     /* of lengths; 0.5..0.95 */
 #define CURLY 0       /* whether branches curl; 0..1 whole */
 

@@ -116,7 +116,7 @@ test("the timeline shows every step, and again without asking for it twice", asy
 });
 
 test("the plant plays from its first step to its last", async () => {
-  await page.selectOption("[aria-label='Steps a second']", "30");
+  await page.selectOption("[aria-label='Steps a second']", "4");
   await page.getByRole("button", { name: "Play (P)" }).click();
   await shows(0);
   await shows(8);

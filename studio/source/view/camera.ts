@@ -56,9 +56,10 @@ export class OrbitCamera {
     this.update();
   }
 
-  home(lower: Vector, upper: Vector): void {
-    this.azimuth = 0.5;
-    this.elevation = 0.16;
+  /** From the front, if all lies in the plane x y. */
+  home(lower: Vector, upper: Vector, flat: boolean): void {
+    this.azimuth = flat ? 0 : 0.5;
+    this.elevation = flat ? 0 : 0.16;
     this.fit(lower, upper);
   }
 

@@ -1,5 +1,5 @@
 /** The ground: a plane that fades into the background, with the shadow of the plant and a grid that tells its scale. */
-import { Color, DoubleSide, GLSL3, Mesh, NormalBlending, PlaneGeometry, RawShaderMaterial, Vector3 } from "three";
+import { Color, CustomBlending, DoubleSide, GLSL3, Mesh, PlaneGeometry, RawShaderMaterial, Vector3, type Blending } from "three";
 import type { Theme } from "./colours.js";
 import type { Uniforms } from "./shading.js";
 
@@ -21,7 +21,7 @@ precision highp float;
 uniform highp sampler2D shadowMap;
 uniform mat4 shadowMatrix;
 uniform vec3 colour, centre;
-uniform float extent, cell;
+uniform float extent, cell, opacity;
 uniform bool shadowed;
 in vec3 place;
 out vec4 result;
@@ -47,7 +47,7 @@ void main() {
   float fade = 1.0 - smoothstep(0.12, 0.5, away);
   float lines = grid(cell) * 0.10 + grid(cell * 0.2) * 0.04;
   float dark = 1.0 - 0.42 * shade();
-  result = vec4(colour * dark * (1.0 - lines), fade);
+  result = vec4(colour * dark * (1.0 - lines), fade * opacity);
 }
 `;
 
@@ -59,7 +59,10 @@ export function niceLength(length: number): number {
 }
 
 export class Ground {
+  /** Drawn before the plant, so that roots are seen through it. */
   readonly mesh: Mesh;
+  /** Drawn after the plant: a thin veil over what is below. */
+  readonly veil: Mesh;
   private readonly uniforms: Uniforms;
 
   constructor(shared: Uniforms) {
@@ -70,13 +73,20 @@ export class Ground {
       extent: { value: 10 },
       cell: { value: 1 },
     };
-    const material = new RawShaderMaterial({
-      glslVersion: GLSL3, uniforms: this.uniforms, vertexShader: vertex, fragmentShader: fragment,
-      transparent: true, depthWrite: false, blending: NormalBlending, side: DoubleSide,
-    });
-    this.mesh = new Mesh(new PlaneGeometry(2, 2), material);
-    this.mesh.frustumCulled = false;
+    this.mesh = this.plane(1, { blending: CustomBlending });
     this.mesh.renderOrder = -1;
+    this.veil = this.plane(0.3, { transparent: true });
+    this.veil.renderOrder = 1;
+  }
+
+  private plane(opacity: number, how: { blending?: Blending; transparent?: boolean }): Mesh {
+    const material = new RawShaderMaterial({
+      glslVersion: GLSL3, uniforms: { ...this.uniforms, opacity: { value: opacity } }, vertexShader: vertex, fragmentShader: fragment,
+      depthWrite: false, side: DoubleSide, ...how,
+    });
+    const mesh = new Mesh(new PlaneGeometry(2, 2), material);
+    mesh.frustumCulled = false;
+    return mesh;
   }
 
   /** The side of a square of the grid in metres. */

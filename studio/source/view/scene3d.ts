@@ -69,7 +69,7 @@ export class PlantScene {
     this.shapes = new Shapes(this.uniforms, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
     this.scene.matrixWorldAutoUpdate = false;
-    this.scene.add(this.backdrop.mesh, this.ground.mesh, this.internodes.thick, this.internodes.thin, this.triangles.mesh);
+    this.scene.add(this.backdrop.mesh, this.ground.mesh, this.ground.veil, this.internodes.thick, this.internodes.thin, this.triangles.mesh);
     this.theme = themes.light;
   }
 
@@ -117,7 +117,7 @@ export class PlantScene {
   }
 
   home(): void {
-    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper);
+    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper, this.isFlat());
   }
 
   /** Colours modules by a column, by the order of branching, or as the model does. */
@@ -242,6 +242,18 @@ export class PlantScene {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
+  /** A drawing in the plane x y: it is looked at from the front and stands on no ground. */
+  private isFlat(): boolean {
+    if (!this.bounds) return false;
+    const size = this.bounds.upper.map((value, k) => value - (this.bounds?.lower[k] ?? 0));
+    return size[2] < 0.01 * Math.max(size[0], size[1]) && size[0] > 0.05 * size[1];
+  }
+
+  private reachesBelow(): boolean {
+    if (!this.bounds) return false;
+    return this.bounds.lower[1] < -0.01 * (this.bounds.upper[1] - this.bounds.lower[1]);
+  }
+
   /** The first growth of a document stays whole in the picture while it grows; later ones leave the camera alone. */
   private followGrowth(packet: Packet): void {
     if (!this.bounds) return;
@@ -254,7 +266,7 @@ export class PlantScene {
     const most = (k: number) => Math.max(upper[k], this.frame?.upper[k] ?? -Infinity);
     const first = this.frame === null;
     this.frame = { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
-    if (first) this.orbit.home(this.frame.lower, this.frame.upper);
+    if (first) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat());
     else this.orbit.fit(this.frame.lower, this.frame.upper);
   }
 
@@ -305,7 +317,8 @@ export class PlantScene {
     this.setEye(pass === Pass.shadow);
     this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value as number);
     this.backdrop.mesh.visible = picture;
-    this.ground.mesh.visible = picture && this.groundShown;
+    this.ground.mesh.visible = picture && this.groundShown && !this.isFlat();
+    this.ground.veil.visible = this.ground.mesh.visible && this.reachesBelow();
     this.renderer.setRenderTarget(target);
     this.renderer.setClearColor(0xffffff, 1);
     this.renderer.clear();
