@@ -13,6 +13,8 @@ export class Frames {
   private cache = new Map<number, Packet>();
   private bytes = 0;
   private growth = -1;
+  /** The last step of this growth whose packet came; the counts of the growth may come later. */
+  private newest = 0;
   private readonly onTheWay = new Set<number>();
   private queue: number[] = [];
   private looking = false;
@@ -30,7 +32,7 @@ export class Frames {
 
   /** The last step that has grown. */
   get lastStep(): number {
-    return Math.max(0, this.studio.growth?.step ?? 0);
+    return Math.max(0, this.studio.growth?.step ?? 0, this.newest);
   }
 
   /** The step of the wanted picture. */
@@ -49,6 +51,7 @@ export class Frames {
     if (growth.growth === this.growth) return;
     this.growth = growth.growth;
     this.cache = new Map();
+    this.newest = 0;
     this.bytes = 0;
     this.onTheWay.clear();
     this.queue = [];
@@ -57,7 +60,10 @@ export class Frames {
   arrived(packet: Packet): void {
     this.onTheWay.delete(packet.step);
     if (packet.growth < this.growth) return;
-    if (packet.growth === this.growth) this.keep(packet);
+    if (packet.growth === this.growth) {
+      this.newest = Math.max(this.newest, packet.step);
+      this.keep(packet);
+    }
     const isWanted = this.wanted === "last" ? packet.growth > (this.shown?.growth ?? -1) || packet.step >= this.shownStep() : packet.step === this.wanted;
     const first = packet.growth !== this.shown?.growth && !this.isOnlyFetched(packet.step);
     if (isWanted || first) this.show(packet);

@@ -66,7 +66,7 @@ export class Timeline {
   }
 
   get last(): number {
-    return this.studio.growth ? Math.max(this.studio.growth.step, 0) : 0;
+    return this.studio.frames.lastStep;
   }
 
   /** Milliseconds that a step shows while playing. */

@@ -27,7 +27,8 @@ export class Viewport {
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
     const film = new Film(this.studio, this.scene, timeline);
     this.buildFieldTools();
-    this.element = h("div", "viewport", {}, this.canvas, this.toolbar(film), this.legend, this.scale);
+    this.element = h("div", "viewport", {}, this.canvas, this.toolbar(film),
+      h("div", "picture-left", {}, this.fieldTools, this.legend), this.scale);
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
     this.colourSelect.addEventListener("change", () => this.colourBy(this.colourSelect.value));
     this.fieldSelect.addEventListener("change", () => this.chooseField(this.fieldSelect.value));
@@ -79,7 +80,7 @@ export class Viewport {
     ]);
     return h("div", "picture-tools", { role: "toolbar", "aria-label": "Picture" },
       h("label", "", {}, h("span", "", {}, "Colour"), this.colourSelect),
-      h("label", "field-choice", {}, h("span", "", {}, "Field"), this.fieldSelect), this.fieldTools,
+      h("label", "field-choice", {}, h("span", "", {}, "Field"), this.fieldSelect),
       h("span", "spread"),
       iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
       iconButton("home", "First view (Home)", () => this.scene.home()), look, pictures);

@@ -57,7 +57,7 @@ void main() {
   gl_Position = value < 0.02 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * (viewMatrix * vec4(place, 1.0));
   vec3 voxel = (upper - lower) / vec3(size);
   gl_PointSize = clamp(0.9 * min(voxel.x, min(voxel.y, voxel.z)) / (pixel * max(gl_Position.w, 1e-6)), 1.0, 24.0);
-  colour = vec4(paint(value).rgb, 0.04 + 0.4 * value * value);
+  colour = vec4(paint(value).rgb, 0.015 + 0.13 * value * value);
 }
 `;
 
