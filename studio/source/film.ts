@@ -21,7 +21,7 @@ export class Film {
       this.studio.tell("error", errorText(error));
     }
     this.running = false;
-    this.scene.steady = false;
+    this.scene.keepSize(false);
   }
 
   /** Shows each step for the time that playing gives it. */
@@ -29,7 +29,7 @@ export class Film {
     const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((name) => MediaRecorder.isTypeSupported(name));
     if (!kind) throw new Error("This browser cannot record films in the format WebM.");
     this.timeline.pause();
-    this.scene.steady = true;
+    this.scene.keepSize(true);
     const { frames } = this.studio;
     const stream = this.scene.canvas.captureStream(30);
     const recorder = new MediaRecorder(stream, { mimeType: kind, videoBitsPerSecond: 8e6 });

@@ -83,7 +83,7 @@ function measure(count) {
     lines: () => { renderer.render(bare, scene.orbit.camera); finish(renderer.getContext()); },
   };
   const shortest = { internodes: Infinity, lines: Infinity };
-  for (let i = 0; i < 25; i++) {
+  for (let i = 0; i < 50; i++) {
     scene.orbit.turn(0.05, 0);
     for (const [name, draw] of Object.entries(draws)) {
       const start = performance.now();

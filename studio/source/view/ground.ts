@@ -1,5 +1,8 @@
 /** The ground: a plane that fades into the background, with the shadow of the plant and a grid that tells its scale. */
-import { Color, CustomBlending, DoubleSide, GLSL3, Mesh, PlaneGeometry, RawShaderMaterial, Vector3, type Blending } from "three";
+import {
+  Color, CustomBlending, DoubleSide, GLSL3, Mesh, NoBlending, OneFactor, OneMinusSrcAlphaFactor, PlaneGeometry, RawShaderMaterial, Scene, Vector3, WebGLRenderTarget,
+  type Camera, type ShaderMaterialParameters, type WebGLRenderer,
+} from "three";
 import type { Theme } from "./colours.js";
 import type { Uniforms } from "./shading.js";
 
@@ -16,9 +19,30 @@ void main() {
 }
 `;
 
-const fragment = /* glsl */ `
+/** How much of the sun each place of the ground is denied, with soft edges; drawn from the sun, once for each packet. */
+const shadeFragment = /* glsl */ `
 precision highp float;
 uniform highp sampler2D shadowMap;
+uniform mat4 shadowMatrix;
+in vec3 place;
+out vec4 result;
+
+void main() {
+  vec3 at = (shadowMatrix * vec4(place, 1.0)).xyz;
+  float sum = 0.0, weights = 0.0;
+  for (int i = -2; i <= 2; i++)
+    for (int j = -2; j <= 2; j++) {
+      float weight = exp(-0.35 * float(i * i + j * j));
+      sum += weight * float(texture(shadowMap, at.xy + vec2(i, j) * (1.3 / 1024.0)).r < at.z - 0.002);
+      weights += weight;
+    }
+  result = vec4(sum / weights);
+}
+`;
+
+const fragment = /* glsl */ `
+precision highp float;
+uniform sampler2D shade;
 uniform mat4 shadowMatrix;
 uniform vec3 colour, centre;
 uniform float extent, cell, opacity;
@@ -26,28 +50,23 @@ uniform bool shadowed;
 in vec3 place;
 out vec4 result;
 
-float shade() {
-  vec3 at = (shadowMatrix * vec4(place, 1.0)).xyz;
-  if (!shadowed || any(lessThan(at.xy, vec2(0.01))) || any(greaterThan(at.xy, vec2(0.99)))) return 0.0;
-  const vec2 around[5] = vec2[5](vec2(0.0), vec2(1.7, 0.6), vec2(-0.6, 1.7), vec2(-1.7, -0.6), vec2(0.6, -1.7));
-  float sum = 0.0;
-  for (int i = 0; i < 5; i++) sum += float(texture(shadowMap, at.xy + around[i] * (1.2 / 1024.0)).r < at.z - 0.002);
-  return sum / 5.0;
-}
-
-float grid(float size) {
-  vec2 at = place.xz / size;
+/** Lines of the grid, and finer ones between them where they can be told apart. */
+float grid() {
+  vec2 at = place.xz / cell;
   vec2 width = fwidth(at);
-  vec2 line = smoothstep(width * 1.5, vec2(0.0), abs(fract(at - 0.5) - 0.5));
-  return max(line.x, line.y) * (1.0 - smoothstep(0.15, 0.4, max(width.x, width.y)));
+  float coarse = max(width.x, width.y);
+  vec2 line = max(vec2(0.0), 1.0 - abs(fract(at - 0.5) - 0.5) / (width * 1.5));
+  vec2 fine = max(vec2(0.0), 1.0 - abs(fract(at * 5.0 - 0.5) - 0.5) / (width * 7.5));
+  return max(line.x, line.y) * 0.10 * clamp(1.6 - coarse * 4.0, 0.0, 1.0)
+       + max(fine.x, fine.y) * 0.04 * clamp(1.6 - coarse * 20.0, 0.0, 1.0);
 }
 
 void main() {
   float away = length(place.xz - centre.xz) / extent;
   float fade = 1.0 - smoothstep(0.12, 0.5, away);
-  float lines = grid(cell) * 0.10 + grid(cell * 0.2) * 0.04;
-  float dark = 1.0 - 0.42 * shade();
-  result = vec4(colour * dark * (1.0 - lines), fade * opacity);
+  vec2 at = (shadowMatrix * vec4(place, 1.0)).xy;
+  float dark = shadowed ? texture(shade, at).r : 0.0;
+  result = vec4(colour * (1.0 - 0.42 * dark) * (1.0 - grid()), fade * opacity);
 }
 `;
 
@@ -63,25 +82,42 @@ export class Ground {
   readonly mesh: Mesh;
   /** Drawn after the plant: a thin veil over what is below. */
   readonly veil: Mesh;
+  private readonly shadeTarget = new WebGLRenderTarget(512, 512, { depthBuffer: false });
+  private readonly shadeScene = new Scene();
   private readonly uniforms: Uniforms;
 
   constructor(shared: Uniforms) {
     this.uniforms = {
       shadowMap: shared.shadowMap, shadowMatrix: shared.shadowMatrix, shadowed: shared.shadowed,
+      shade: { value: null },
       colour: { value: new Color() },
       centre: { value: new Vector3() },
       extent: { value: 10 },
       cell: { value: 1 },
     };
-    this.mesh = this.plane(1, { blending: CustomBlending });
+    this.shadeScene.add(this.plane(1, shadeFragment, { blending: NoBlending, depthTest: false }));
+    this.mesh = this.plane(1, fragment, {
+      blending: CustomBlending, blendSrcAlpha: OneFactor, blendDstAlpha: OneMinusSrcAlphaFactor,
+    });
     this.mesh.renderOrder = -1;
-    this.veil = this.plane(0.3, { transparent: true });
+    this.veil = this.plane(0.3, fragment, { transparent: true });
     this.veil.renderOrder = 1;
   }
 
-  private plane(opacity: number, how: { blending?: Blending; transparent?: boolean }): Mesh {
+  /** Draws the soft shadow; the shadow map of the plant has been drawn before. */
+  drawShade(renderer: WebGLRenderer, sun: Camera): void {
+    this.uniforms.shade.value = null;
+    renderer.setRenderTarget(this.shadeTarget);
+    renderer.setClearColor(0x000000, 1);
+    renderer.clear();
+    renderer.render(this.shadeScene, sun);
+    renderer.setRenderTarget(null);
+    this.uniforms.shade.value = this.shadeTarget.texture;
+  }
+
+  private plane(opacity: number, fragmentShader: string, how: Partial<ShaderMaterialParameters>): Mesh {
     const material = new RawShaderMaterial({
-      glslVersion: GLSL3, uniforms: { ...this.uniforms, opacity: { value: opacity } }, vertexShader: vertex, fragmentShader: fragment,
+      glslVersion: GLSL3, uniforms: { ...this.uniforms, opacity: { value: opacity } }, vertexShader: vertex, fragmentShader,
       depthWrite: false, side: DoubleSide, ...how,
     });
     const mesh = new Mesh(new PlaneGeometry(2, 2), material);

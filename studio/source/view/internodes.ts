@@ -101,7 +101,7 @@ void main() {
   if (pass != 0 || (gl_VertexID & 1) == 0) return;
   // The mean over the side that faces the eye: its normals are those of a half cylinder.
   vec3 front = normalize(eye.xyz - centre);
-  float direct = clamp(0.32 + 0.55 * dot(front, sun), 0.0, 1.0) * lit(centre);
+  float direct = clamp(0.32 + 0.55 * dot(front, sun), 0.0, 1.0) * litOnce(centre);
   vec3 ambient = mix(soilColour, skyColour, 0.5 + 0.35 * front.y);
   shaded = vec4(sqrt(ownColour(it) * (ambient * 0.7 + sunColour * (0.75 * direct + 0.06))), 1.0);
 }
@@ -210,7 +210,7 @@ export class Internodes {
     this.uniforms.thickest.value = packet.radius;
   }
 
-  /** Decides what is drawn as lines: what is narrower than 1.5 pixels wherever it stands. `eye` is null for parallel rays. */
+  /** Decides what is drawn as lines: what is narrower than about 1.5 pixels. `eye` is null for parallel rays. */
   choose(eye: Vector3 | null, pixel: number): void {
     const { packet } = this;
     const count = packet?.internodeCount ?? 0;
@@ -218,7 +218,11 @@ export class Internodes {
       this.thick.visible = this.thin.visible = false;
       return;
     }
-    const away = eye ? new Box3(new Vector3(...packet.lower), new Vector3(...packet.upper)).distanceToPoint(eye) : 1;
+    const box = new Box3(new Vector3(...packet.lower), new Vector3(...packet.upper));
+    const centre = box.getCenter(new Vector3());
+    // Between the nearest point and the middle: inside the box nothing is a line.
+    const near = eye ? box.distanceToPoint(eye) : 1;
+    const away = eye && near > 0 ? (near + eye.distanceTo(centre)) / 2 : near;
     const thick = this.order.above((0.75 * pixel * away) / Math.max(packet.radius, 1e-30));
     this.thick.visible = thick > 0;
     this.thin.visible = thick < count;

@@ -49,8 +49,7 @@ export class PlantScene {
   private shadowStale = true;
   private requested = false;
   private restTimer = 0;
-  /** A film needs a picture of one size. */
-  steady = false;
+  private steady = false;
   private frame: { lower: Vector; upper: Vector } | null = null;
   private framedGrowth: number | null = null;
   private width = 1;
@@ -174,6 +173,14 @@ export class PlantScene {
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(this.width, this.height, false);
     this.orbit.resize(this.width, this.height);
+    this.request();
+  }
+
+  /** A film needs a picture of one size. */
+  keepSize(steady: boolean): void {
+    this.steady = steady;
+    clearTimeout(this.restTimer);
+    if (this.software) this.setRatio(1);
     this.request();
   }
 
@@ -308,6 +315,7 @@ export class PlantScene {
     this.uniforms.shadowMap.value = null;
     if (shadowed) this.drawPass(Pass.shadow, this.shadowCamera, this.shadowTarget);
     this.uniforms.shadowMap.value = this.shadowTarget.depthTexture;
+    if (shadowed) this.ground.drawShade(this.renderer, this.shadowCamera);
     this.uniforms.shadowed.value = shadowed;
   }
 

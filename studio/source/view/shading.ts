@@ -132,6 +132,13 @@ vec3 colourOf(uint module, vec3 own, float order) {
   return result;
 }
 
+/** Light with a hard edge, for what is too thin to show a soft one. */
+float litOnce(vec3 point) {
+  if (!shadowed) return 1.0;
+  vec3 at = (shadowMatrix * vec4(point, 1.0)).xyz;
+  return float(texture(shadowMap, at.xy).r > at.z - shadowBias);
+}
+
 float lit(vec3 point) {
   if (!shadowed) return 1.0;
   vec3 at = (shadowMatrix * vec4(point, 1.0)).xyz;
