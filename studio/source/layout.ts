@@ -107,6 +107,13 @@ export class Tabs {
     remember(this.key, chosen);
   }
 
+  /** Shows or hides a tab whose panel may have nothing to show. */
+  offer(name: string, offered: boolean): void {
+    const index = this.tabs.findIndex((tab) => tab.name === name);
+    this.buttons[index].hidden = !offered;
+    if (!offered && this.buttons[index].getAttribute("aria-selected") === "true") this.show(this.tabs[0].name);
+  }
+
   private step(event: KeyboardEvent): void {
     const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     if (by === 0) return;

@@ -3,6 +3,7 @@ import { Changes } from "./changes.js";
 import { ChartsPanel } from "./charts.js";
 import { Editor } from "./editor/editor.js";
 import { Gallery } from "./gallery.js";
+import { GraphPanel } from "./graph.js";
 import { Header } from "./header.js";
 import { Layout, Tabs } from "./layout.js";
 import { Messages } from "./messages.js";
@@ -73,11 +74,14 @@ function start(): void {
   const charts = new ChartsPanel(studio, timeline);
   const settings = new SettingsPanel(studio, changes);
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
+  const graph: GraphPanel = new GraphPanel(studio, changes, editor, (offered) => tabs.offer("Graph", offered));
   const tabs = new Tabs("Measures", [
     { name: "Settings", content: settings.element },
+    { name: "Graph", content: graph.element },
     { name: "Organ", content: picked.element },
     { name: "Charts", content: charts.element },
   ], "right-tab");
+  tabs.offer("Graph", false);
   const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show() });
   layout.left.append(editor.element);
   layout.right.append(tabs.element);

@@ -31,6 +31,7 @@ export interface StudioDocument {
   folder: string;
   texts: TextFile[];
   settings: Setting[];
+  graphs?: ComponentGraph[];
   seed: number;
   steps: number;
   undo: string | null;
@@ -94,7 +95,53 @@ export interface Help {
   stages: HelpEntry[];
   keys: HelpEntry[];
   exporters: HelpEntry[];
+  components?: ComponentType[];
 }
+
+/** A value of a component of a graph. */
+export interface ComponentKey {
+  name: string;
+  summary: string;
+  unit: string;
+  lowest: number | null;
+  highest: number | null;
+  standard: string | number | null;
+  kind: "number" | "whole" | "list" | "word";
+}
+
+export interface ComponentType {
+  name: string;
+  summary: string;
+  keys: ComponentKey[];
+}
+
+export interface GraphComponent {
+  name: string;
+  type: string;
+  line: number;
+  values: Record<string, string>;
+}
+
+export interface GraphLink {
+  from: string;
+  to: string;
+  kind: "child" | "branch" | "leaf";
+}
+
+/** A graph of components: a text of the language pgraph that could be read. */
+export interface ComponentGraph {
+  path: string;
+  components: GraphComponent[];
+  links: GraphLink[];
+}
+
+export type GraphEdit =
+  | { edit: "set"; component: string; key: string; text: string | null }
+  | { edit: "add"; type: string; name: string; from: string }
+  | { edit: "remove"; component: string }
+  | ({ edit: "link" | "unlink" } & GraphLink);
+
+export type GraphRequest = GraphEdit & { path: string; label?: string; transient?: boolean };
 
 /** What is missing is not known any more. */
 export interface Parent {
@@ -151,6 +198,7 @@ export interface Requests {
   open: { send: { path: string }; get: object };
   "open-text": { send: SharedModel; get: object };
   change: { send: ChangeRequest; get: { version: number } };
+  graph: { send: GraphRequest; get: { version: number } };
   undo: { send: object; get: { version: number } };
   redo: { send: object; get: { version: number } };
   grow: { send: { to: number }; get: object };
@@ -188,5 +236,6 @@ export type Said =
   | { say: "columns"; growth: number; columns: string[] }
   | { say: "fields"; growth: number; fields: FieldName[] }
   | { say: "message"; number: number; severity: Problem["severity"]; text: string }
+  | { say: "textures"; growth: number; files: number[] }
   | { say: "exported"; files: HandedFile[] }
   | { say: "progress"; what: string; done: number };

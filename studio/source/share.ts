@@ -33,8 +33,9 @@ async function recordingOf(studio: Studio, scene: PlantScene, steps: number[], p
     progress((index + 1) / steps.length);
   }
   const shapes = await Promise.all(studio.shapeMessages.map(async (message) => toBase64(await compress(message))));
+  const images = await Promise.all(studio.images.map(async (blob) => toBase64(new Uint8Array(await (await blob).arrayBuffer()))));
   const { document } = studio;
-  return { title: document?.name ?? "Plant", theme: studio.theme, steps, packets, shapes, camera: scene.orbit.state };
+  return { title: document?.name ?? "Plant", theme: studio.theme, steps, packets, shapes, images, camera: scene.orbit.state };
 }
 
 async function htmlOf(recording: Recording): Promise<string> {

@@ -26,6 +26,7 @@ interface Events {
   progress: { what: string; done: number };
   packet: Packet;
   shapes: Shapes;
+  images: Promise<Blob>[];
   column: Column;
   field: Field;
   shown: Packet;
@@ -47,6 +48,9 @@ export class Studio {
   help: Help | null = null;
   /** The shapes of the present growth, as they came. */
   shapeMessages: ArrayBuffer[] = [];
+  /** The images of its shapes. */
+  images: Promise<Blob>[] = [];
+  private readonly handed = new Map<number, Promise<Blob>>();
   messages: Message[] = [];
   theme: "light" | "dark";
   private ownMessages = 0;
@@ -129,6 +133,8 @@ export class Studio {
       case "message":
         this.messages = [...this.messages.filter(({ number }) => number !== message.number), message];
         return this.emit("messages", this.messages);
+      case "textures":
+        return this.fetchImages(message.files);
       case "exported":
         return this.emit("exported", message.files);
       case "progress":
@@ -164,6 +170,16 @@ export class Studio {
     } else if (message.kind === "shapes") this.learn(message);
     else if (message.kind === "column") this.emit("column", message);
     else this.emit("field", message);
+  }
+
+  /** A file is fetched once, however many growths use it. */
+  private fetchImages(files: number[]): void {
+    this.images = files.map((number) => {
+      const blob = this.handed.get(number) ?? this.connection.file(number);
+      this.handed.set(number, blob);
+      return blob;
+    });
+    this.emit("images", this.images);
   }
 
   private learn(shapes: Shapes): void {

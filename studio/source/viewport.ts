@@ -40,6 +40,7 @@ export class Viewport {
   private listen(): void {
     const { studio } = this;
     studio.on("theme", (theme) => (this.scene.theme = themes[theme]));
+    studio.on("images", (images) => this.scene.setImages(images));
     studio.on("shapes", ({ shapes }) => this.scene.learn(shapes));
     studio.on("shown", (packet) => this.show(packet));
     studio.on("columns", () => this.fillColours());

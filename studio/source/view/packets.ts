@@ -35,6 +35,8 @@ export interface Packet {
 
 export interface Shape {
   shape: number;
+  /** 0 is none; others count the images of the growth from 1. */
+  image: number;
   positions: Float32Array;
   normals: Float32Array;
   texture: Float32Array;
@@ -167,10 +169,12 @@ function readShapes(reader: Reader, message: ArrayBuffer): Shapes {
   const shapes: Shape[] = [];
   for (let i = 0; i < count; i++) {
     const shape = reader.u32();
+    const image = reader.u32();
     const vertices = reader.u32();
     const indices = reader.u32();
     shapes.push({
       shape,
+      image,
       positions: reader.floats(vertices * 3),
       normals: reader.floats(vertices * 3),
       texture: reader.floats(vertices * 2),

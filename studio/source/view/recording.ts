@@ -13,6 +13,7 @@ export interface Recording {
   /** Compressed binary messages of the protocol, in base64. */
   packets: string[];
   shapes: string[];
+  images: string[];
   camera: CameraState;
 }
 
@@ -43,6 +44,7 @@ class Player {
   }
 
   async start(): Promise<void> {
+    this.scene.setImages(this.recording.images.map((text) => Promise.resolve(new Blob([fromBase64(text) as Uint8Array<ArrayBuffer>]))));
     for (const text of this.recording.shapes) {
       const message = readMessage(await unpack(text));
       if (message.kind === "shapes") this.scene.learn(message.shapes);

@@ -87,6 +87,14 @@ export class PlantScene {
     this.shapes.learn(shapes);
   }
 
+  /** The images of the shapes of a growth. */
+  setImages(blobs: Promise<Blob>[]): void {
+    this.shapes.setImages(blobs, () => {
+      this.shadowStale = true;
+      this.request();
+    });
+  }
+
   /** Draws a packet from now on. The camera stays, except for the first one. */
   show(packet: Packet): void {
     this.packet = packet;

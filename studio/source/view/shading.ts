@@ -199,14 +199,19 @@ export function plantMaterial(parts: ShaderParts): RawShaderMaterial {
   });
 }
 
-/** Shades a surface from both sides. */
-export const surfaceFragment = /* glsl */ `
+/** Shades a surface from both sides; `image` is GLSL for the colour of its image there, as a vec4. */
+export function surfaceFragment(head: string, image: string): string {
+  return /* glsl */ `
+${head}
 in vec3 turned, towards;
 in vec4 mixed;
 in float light;
 
 void main() {
+  vec4 painted = ${image};
+  if (painted.a < 0.5) discard;
   thin(mixed.a);
+  vec3 albedo = mixed.rgb * painted.rgb * painted.rgb;
   if (pass != 0) {
     result = identityColour();
     return;
@@ -214,7 +219,8 @@ void main() {
   vec3 normal = normalize(dot(turned, towards) < 0.0 ? -turned : turned);
   // A thin leaf lets some light through: its shaded side is never quite dark.
   float through = 0.35 * max(dot(-normal, sun), 0.0) * light;
-  result = shade(mixed.rgb, normal, light);
-  result.rgb = sqrt(result.rgb * result.rgb + mixed.rgb * through);
+  result = shade(albedo, normal, light);
+  result.rgb = sqrt(result.rgb * result.rgb + albedo * through);
 }
 `;
+}

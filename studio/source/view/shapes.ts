@@ -1,6 +1,7 @@
 /** Shapes that occur many times, such as leaves: each group is one call that reads the shape and its places from textures. */
 import {
-  BufferGeometry, DataTexture, FloatType, Mesh, RGBAFormat, RGIntegerFormat, UnsignedIntType, type Scene,
+  BufferGeometry, DataTexture, FloatType, LinearMipmapLinearFilter, Mesh, RepeatWrapping, RGBAFormat, RGIntegerFormat, Texture,
+  UnsignedIntType, type IUniform, type Scene,
 } from "three";
 import type { Packet, Shape, ShapeGroup } from "./packets.js";
 import { plantMaterial, surfaceFragment, type Uniforms } from "./shading.js";
@@ -15,13 +16,16 @@ uniform int cornersEach;
 out vec3 turned, towards;
 out vec4 mixed;
 out float light;
+out vec2 onImage;
 
 void main() {
   int number = gl_VertexID / cornersEach;
   int corner = gl_VertexID - number * cornersEach;
   ivec2 at = ivec2((corner % ${perRow}) * 2, corner / ${perRow});
-  vec4 point = vec4(texelFetch(corners, at, 0).xyz, 1.0);
-  vec3 normal = texelFetch(corners, at + ivec2(1, 0), 0).xyz;
+  vec4 point = texelFetch(corners, at, 0);
+  vec4 normal = texelFetch(corners, at + ivec2(1, 0), 0);
+  onImage = vec2(point.w, normal.w);
+  point.w = 1.0;
   ivec2 row = ivec2((number % ${perRow}) * 3, number / ${perRow});
   vec4 x = texelFetch(rows, row, 0), y = texelFetch(rows, row + ivec2(1, 0), 0), z = texelFetch(rows, row + ivec2(2, 0), 0);
   vec3 position = vec3(dot(x, point), dot(y, point), dot(z, point));
@@ -41,6 +45,8 @@ void main() {
 }
 `;
 
+const fragment = surfaceFragment("in vec2 onImage; uniform sampler2D image;", "texture(image, onImage)");
+
 function floatTexture(values: Float32Array, texels: number, width: number): DataTexture {
   const rows = Math.max(1, Math.ceil(texels / width));
   const padded = new Float32Array(rows * width * 4);
@@ -50,8 +56,26 @@ function floatTexture(values: Float32Array, texels: number, width: number): Data
   return texture;
 }
 
+function whiteTexture(): Texture {
+  const texture = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1, RGBAFormat);
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** The bottom row of the image has the texture coordinate 0. */
+async function imageTexture(blob: Blob): Promise<Texture> {
+  const texture = new Texture(await createImageBitmap(blob, { imageOrientation: "flipY", premultiplyAlpha: "none" }));
+  texture.flipY = false;
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.generateMipmaps = true;
+  texture.needsUpdate = true;
+  return texture;
+}
+
 interface Corners {
   count: number;
+  image: number;
   texture: DataTexture;
 }
 
@@ -63,8 +87,10 @@ function cornersOf(shape: Shape): Corners {
     const at = shape.indices[i] * 3;
     values.set(shape.positions.subarray(at, at + 3), i * 8);
     values.set(shape.normals.subarray(at, at + 3), i * 8 + 4);
+    values[i * 8 + 3] = shape.texture[shape.indices[i] * 2] ?? 0;
+    values[i * 8 + 7] = shape.texture[shape.indices[i] * 2 + 1] ?? 0;
   }
-  return { count, texture: floatTexture(values, count * 2, perRow * 2) };
+  return { count, image: shape.image, texture: floatTexture(values, count * 2, perRow * 2) };
 }
 
 function disc(inner: number): Shape {
@@ -87,7 +113,7 @@ function disc(inner: number): Shape {
 
 function shapeOf(shape: number, positions: number[], normals: number[], indices: number[]): Shape {
   return {
-    shape, positions: new Float32Array(positions), normals: new Float32Array(normals), texture: new Float32Array(0),
+    shape, image: 0, positions: new Float32Array(positions), normals: new Float32Array(normals), texture: new Float32Array(0),
     indices: new Uint32Array(indices),
   };
 }
@@ -115,7 +141,7 @@ class GroupMesh {
   readonly mesh: Mesh;
   private readonly uniforms: Uniforms;
 
-  constructor(shared: Uniforms, group: ShapeGroup, corners: Corners) {
+  constructor(shared: Uniforms, group: ShapeGroup, corners: Corners, image: IUniform<Texture>) {
     const facts = new Uint32Array(Math.ceil(group.count / perRow) * perRow * 2);
     const tints = new DataView(group.colours.buffer, group.colours.byteOffset, group.colours.byteLength);
     for (let i = 0; i < group.count; i++) {
@@ -128,13 +154,14 @@ class GroupMesh {
     this.uniforms = {
       ...shared,
       corners: { value: corners.texture },
+      image,
       rows: { value: floatTexture(group.matrices, group.count * 3, perRow * 3) },
       facts: { value: factTexture },
       cornersEach: { value: corners.count },
     };
     const geometry = new BufferGeometry();
     geometry.setDrawRange(0, group.count * corners.count);
-    this.mesh = new Mesh(geometry, plantMaterial({ uniforms: this.uniforms, vertex, fragment: surfaceFragment }));
+    this.mesh = new Mesh(geometry, plantMaterial({ uniforms: this.uniforms, vertex, fragment }));
     this.mesh.frustumCulled = false;
   }
 
@@ -148,10 +175,29 @@ class GroupMesh {
 
 export class Shapes {
   private readonly known = new Map<number, Corners>();
+  /** White until an image has been read. */
+  private images: IUniform<Texture>[] = [];
+  private sources: Promise<Blob>[] = [];
+  private readonly white = whiteTexture();
   private groups: GroupMesh[] = [];
 
   constructor(private readonly shared: Uniforms, private readonly scene: Scene) {
     for (const shape of [disc(0), sphere(), disc(0.47)]) this.known.set(shape.shape, cornersOf(shape));
+  }
+
+  /** The images that shapes refer to, from 1 on. `changed` is called when one has been read. */
+  setImages(blobs: Promise<Blob>[], changed: () => void): void {
+    if (blobs.length === this.sources.length && blobs.every((blob, i) => blob === this.sources[i])) return;
+    this.sources = blobs;
+    for (const { value } of this.images) if (value !== this.white) value.dispose();
+    this.images = blobs.map((blob) => {
+      const uniform: IUniform<Texture> = { value: this.white };
+      blob.then(imageTexture).then((texture) => {
+        uniform.value = texture;
+        changed();
+      }, () => undefined);
+      return uniform;
+    });
   }
 
   /** Shapes from 3 on belong to a growth. */
@@ -171,7 +217,7 @@ export class Shapes {
     for (const group of packet.groups) {
       const corners = this.known.get(group.shape);
       if (!corners || group.count === 0 || corners.count === 0) continue;
-      const drawn = new GroupMesh(this.shared, group, corners);
+      const drawn = new GroupMesh(this.shared, group, corners, this.images[corners.image - 1] ?? { value: this.white });
       this.groups.push(drawn);
       this.scene.add(drawn.mesh);
     }

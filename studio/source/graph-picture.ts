@@ -1,0 +1,98 @@
+/** The picture of a graph of components: boxes in layers, from the camera downwards, joined by arrows. */
+import type { ComponentGraph, GraphLink } from "./protocol.js";
+
+const space = "http://www.w3.org/2000/svg";
+const box = { width: 112, height: 36, across: 14, down: 34 };
+
+interface Spot {
+  x: number;
+  y: number;
+}
+
+/** Each component stands one layer below the lowest of those that link to it; loops are cut where they close. */
+function layersOf(graph: ComponentGraph): string[][] {
+  const depth = new Map<string, number>();
+  const visit = (name: string, at: number, path: ReadonlySet<string>) => {
+    if (path.has(name) || (depth.get(name) ?? -1) >= at) return;
+    depth.set(name, at);
+    for (const { from, to } of graph.links) if (from === name) visit(to, at + 1, new Set([...path, name]));
+  };
+  const reached = new Set(graph.links.map(({ to }) => to));
+  const roots = graph.components.filter(({ name }) => !reached.has(name));
+  const camera = graph.components.find(({ name, type }) => name === "camera" || type === "camera");
+  for (const { name } of camera ? [camera, ...roots] : roots) visit(name, 0, new Set());
+  const layers: string[][] = [];
+  for (const { name } of graph.components) (layers[depth.get(name) ?? 0] ??= []).push(name);
+  return Array.from(layers, (layer) => layer ?? []);
+}
+
+function spotsOf(layers: readonly string[][], width: number): Map<string, Spot> {
+  const spots = new Map<string, Spot>();
+  layers.forEach((layer, row) => {
+    const span = layer.length * (box.width + box.across) - box.across;
+    layer.forEach((name, i) => spots.set(name, {
+      x: (width - span) / 2 + i * (box.width + box.across), y: 6 + row * (box.height + box.down),
+    }));
+  });
+  return spots;
+}
+
+function element<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Record<string, string | number>, ...children: Node[]) {
+  const made = document.createElementNS(space, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...children);
+  return made;
+}
+
+function text(content: string, attributes: Record<string, string | number>): SVGElement {
+  return element("text", attributes, document.createTextNode(content));
+}
+
+function arrow(link: GraphLink, spots: ReadonlyMap<string, Spot>): SVGElement | null {
+  const [from, to] = [spots.get(link.from), spots.get(link.to)];
+  if (!from || !to) return null;
+  const [x1, y1, x2, y2] = [from.x + box.width / 2, from.y + box.height, to.x + box.width / 2, to.y];
+  const loop = link.from === link.to || y2 <= y1;
+  const d = loop
+    ? `M${from.x + box.width} ${from.y + box.height / 2}C${from.x + box.width + 26} ${from.y},${to.x + box.width + 26} ${to.y + box.height},${to.x + box.width + 2} ${to.y + box.height / 2}`
+    : `M${x1} ${y1}C${x1} ${y1 + 18},${x2} ${y2 - 18},${x2} ${y2 - 3}`;
+  return element("path", { d, class: `graph-link ${link.kind}`, "marker-end": "url(#graph-arrow)" },
+    element("title", {}, document.createTextNode(`${link.from} – ${link.kind} → ${link.to}`)));
+}
+
+function arrowHead(): SVGElement {
+  const marker = element("marker", {
+    id: "graph-arrow", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto-start-reverse",
+  }, element("path", { d: "M0 0L8 4L0 8z", class: "graph-head" }));
+  return element("defs", {}, marker);
+}
+
+export function graphPicture(graph: ComponentGraph, chosen: string | null, choose: (name: string) => void): SVGSVGElement {
+  const layers = layersOf(graph);
+  const width = Math.max(300, ...layers.map((layer) => layer.length * (box.width + box.across) + 40));
+  const height = layers.length * (box.height + box.down) - box.down + 14;
+  const spots = spotsOf(layers, width);
+  const picture = element("svg", { viewBox: `0 0 ${width} ${height}`, class: "graph-picture", role: "group", "aria-label": "Graph of components" }, arrowHead());
+  picture.style.minWidth = `${Math.min(width, 900) * 0.8}px`;
+  for (const link of graph.links) {
+    const drawn = arrow(link, spots);
+    if (drawn) picture.append(drawn);
+  }
+  for (const { name, type } of graph.components) {
+    const spot = spots.get(name);
+    if (!spot) continue;
+    const group = element("g", {
+      class: `graph-box${name === chosen ? " chosen" : ""}`, transform: `translate(${spot.x} ${spot.y})`, tabindex: 0, role: "button",
+      "aria-label": `${name}, ${type}`, "aria-pressed": String(name === chosen),
+    }, element("rect", { width: box.width, height: box.height, rx: 7 }),
+      text(name.length > 15 ? `${name.slice(0, 14)}…` : name, { x: 9, y: 15, class: "graph-name" }), text(type, { x: 9, y: 29, class: "graph-type" }));
+    group.addEventListener("click", () => choose(name));
+    group.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      choose(name);
+    });
+    picture.append(group);
+  }
+  return picture;
+}
