@@ -83,6 +83,12 @@ export function setLabel(button: HTMLElement, label: string): void {
   button.setAttribute("aria-label", label);
 }
 
+/** Colours the track of a slider up to its thumb. */
+export function fillSlider(slider: HTMLInputElement): void {
+  const [least, most] = [Number(slider.min), Number(slider.max)];
+  slider.style.setProperty("--part", String((Number(slider.value) - least) / Math.max(most - least, 1e-30)));
+}
+
 const numberFormat = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
 /** 12,345 */

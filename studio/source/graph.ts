@@ -1,7 +1,7 @@
 /** The panel of graphs of components: the graph, and a form of the chosen component. */
 import type { Changes } from "./changes.js";
 import type { Editor } from "./editor/editor.js";
-import { h, iconButton } from "./elements.js";
+import { fillSlider, h, iconButton } from "./elements.js";
 import { graphPicture } from "./graph-picture.js";
 import type { ComponentGraph, ComponentKey, ComponentType, GraphComponent, GraphEdit, GraphLink } from "./protocol.js";
 import type { Studio } from "./state.js";
@@ -89,10 +89,14 @@ export class GraphPanel {
     const values = graph.components.find(({ name }) => name === this.chosen)?.values ?? {};
     for (const input of this.form.querySelectorAll<HTMLInputElement>("input[data-key]")) {
       const key = input.dataset.key ?? "";
-      input.closest(".setting")?.classList.toggle("changed", key in values);
+      const row = input.closest(".setting");
+      row?.classList.toggle("changed", key in values);
+      row?.querySelector(".icon-button")?.toggleAttribute("hidden", !(key in values));
       if (input === document.activeElement || input.matches(":active")) continue;
-      if (input.type === "range") input.value = values[key] ?? input.dataset.standard ?? "0";
-      else input.value = values[key] ?? "";
+      if (input.type === "range") {
+        input.value = values[key] ?? input.dataset.standard ?? "0";
+        fillSlider(input);
+      } else input.value = values[key] ?? "";
     }
   }
 
@@ -112,6 +116,7 @@ export class GraphPanel {
     const control = h("div", "control slider", {}, field, h("span", "unit", {}, key.unit));
     if (plain && (value === undefined || Number.isFinite(Number(value)))) control.prepend(this.slider(key, value ?? standard, field, send));
     const reset = iconButton("reset", `Back to ${standard || "the usual value"}`, () => send(null, true));
+    reset.hidden = value === undefined;
     return h("div", `setting${value === undefined ? "" : " changed"}`, {}, h("div", "setting-head", {},
       h("label", "", { for: id, title: key.summary }, key.name, h("small", "", {}, ` ${key.summary}`)), reset), control);
   }
@@ -126,7 +131,9 @@ export class GraphPanel {
       "data-standard": String(key.standard ?? 0),
     });
     const text = () => String(Number(Number(slider.value).toPrecision(8)));
+    fillSlider(slider);
     slider.addEventListener("input", () => {
+      fillSlider(slider);
       field.value = text();
       send(text(), false);
     });

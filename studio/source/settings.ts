@@ -1,6 +1,6 @@
 /** The settings of the document: sliders, switches, choices and numbers, in groups. */
 import type { Changes } from "./changes.js";
-import { h, icon, iconButton, short } from "./elements.js";
+import { fillSlider, h, icon, iconButton, short } from "./elements.js";
 import type { Setting, StudioDocument } from "./protocol.js";
 import type { Studio } from "./state.js";
 
@@ -34,11 +34,11 @@ function sliderRow(setting: Setting, send: Send): Row {
   const show = (now: Setting) => {
     if (document.activeElement !== number) number.value = now.text;
     if (!slider.matches(":active")) slider.value = String(now.value);
-    slider.style.setProperty("--part", String((Number(slider.value) - lowest) / (highest - lowest)));
+    fillSlider(slider);
   };
   slider.addEventListener("input", () => {
     number.value = String(Number(Number(slider.value).toPrecision(8)));
-    slider.style.setProperty("--part", String((Number(slider.value) - lowest) / (highest - lowest)));
+    fillSlider(slider);
     send(number.value, false);
   });
   slider.addEventListener("change", () => send(String(Number(Number(slider.value).toPrecision(8))), true));

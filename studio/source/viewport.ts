@@ -1,5 +1,5 @@
 /** The picture with what belongs to it: colours and their legend, fields, ground, pictures and films. */
-import { download, h, iconButton, remember, remembered, short, whole } from "./elements.js";
+import { download, fillSlider, h, iconButton, remember, remembered, short, whole } from "./elements.js";
 import { mapGradient, PlantScene, steer, themes, triangleCount, type Column, type Field, type FieldLook, type Packet } from "./view/index.js";
 import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
@@ -105,7 +105,7 @@ export class Viewport {
   private fillColours(): void {
     const { columns } = this.studio;
     const names = columns.includes("order") ? columns : ["order", ...columns];
-    this.colourSelect.replaceChildren(h("option", "", { value: "" }, "as in the model"),
+    this.colourSelect.replaceChildren(h("option", "", { value: "" }, "as modelled"),
       ...names.map((name) => h("option", "", { value: name }, name)));
     if (!["", ...names].includes(this.colouring)) this.colourBy("");
     this.colourSelect.value = this.colouring;
@@ -187,11 +187,13 @@ export class Viewport {
       ...["slice across y", "slice across x", "slice across z", "cloud"].map((name) => h("option", "", {}, name)));
     const place = h("input", "", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, "aria-label": "Place of the slice" });
     const update = () => {
+      fillSlider(place);
       const axis = [1, 0, 2, 0][mode.selectedIndex];
       this.fieldLook = { mode: mode.selectedIndex === 3 ? "cloud" : "slice", axis, at: Number(place.value) };
       place.hidden = this.fieldLook.mode === "cloud";
       this.scene.lookAtField(this.fieldLook);
     };
+    fillSlider(place);
     mode.addEventListener("change", update);
     place.addEventListener("input", update);
     this.fieldTools.append(mode, place);

@@ -61,6 +61,10 @@ const document = {
     { kind: "number", name: "RATIO", label: "ratio of lengths", value: 0.78, text: "0.78", default: "0.78", lowest: 0.5, highest: 0.95, whole: false, unit: "", group: "Form", changed: false },
     { kind: "number", name: "LEAVES", label: "leaves at the tips", value: 1, text: "1", default: "1", lowest: 0, highest: 1, whole: true, unit: "", group: "Organs", changed: false },
   ],
+  graphs: [{ path: "tree.l", components: [
+    { name: "camera", type: "camera", line: 1, values: {} }, { name: "trunk", type: "tree", line: 5, values: { length: "3.5", curve: "0 0.5 1" } },
+    { name: "branches", type: "phiball", line: 6, values: {} }, { name: "twig", type: "tree", line: 7, values: {} }, { name: "leaf", type: "leaf", line: 8, values: {} }, { name: "flower", type: "leaf", line: 9, values: {} }],
+    links: [{ from: "camera", to: "trunk", kind: "child" }, { from: "trunk", to: "branches", kind: "branch" }, { from: "branches", to: "twig", kind: "child" }, { from: "twig", to: "twig", kind: "branch" }, { from: "twig", to: "leaf", kind: "leaf" }, { from: "branches", to: "flower", kind: "leaf" }] }],
   seed: 1, steps: 8, undo: null, redo: null,
 };
 
@@ -145,11 +149,11 @@ function packet(growth, step) {
 function shapes(growth) {
   const points = [[0, 0, 0], [-0.25, 0.4, 0.08], [0, 0.45, 0], [0.25, 0.4, 0.08], [0, 1, 0]];
   const triangles = [0, 2, 1, 0, 3, 2, 1, 2, 4, 2, 3, 4];
-  const buffer = Buffer.alloc(12 + 12 + points.length * 32 + triangles.length * 4);
+  const buffer = Buffer.alloc(12 + 16 + points.length * 32 + triangles.length * 4);
   let at = buffer.write("ESS1", 0, "latin1");
   const u32 = (value) => (at = buffer.writeUInt32LE(value, at));
   const f32 = (value) => (at = buffer.writeFloatLE(value, at));
-  [growth, 1, 3, points.length, triangles.length].forEach(u32);
+  [growth, 1, 3, 0, points.length, triangles.length].forEach(u32);
   points.flat().forEach(f32);
   points.forEach(() => [0, 0, 1].forEach(f32));
   points.forEach(([x, y]) => [x + 0.5, y].forEach(f32));
@@ -259,7 +263,16 @@ const help = {
   exporters: [{ name: "gltf", summary: "glTF 2.0, for viewers and Blender", help: "Options: step" }, { name: "obj", summary: "Wavefront OBJ", help: "" }],
 };
 
+help.components = [{ name: "tree", summary: "an axis with branches", keys: [
+  { name: "length", summary: "of the axis", unit: "m", lowest: 0, highest: 20, standard: 1, kind: "number" }, { name: "segments", summary: "", unit: "", lowest: 1, highest: 50, standard: 8, kind: "whole" },
+  { name: "curve", summary: "bending along the axis", unit: "", lowest: null, highest: null, standard: "0", kind: "list" }] }, { name: "leaf", summary: "a leaf", keys: [] }, { name: "phiball", summary: "leaves on a ball", keys: [] }, { name: "camera", summary: "where one looks from", keys: [] }];
 const answers = {
+  graph: ({ component, key, text }) => {
+    const one = document.graphs[0].components.find(({ name }) => name === component);
+    if (text === null) delete one.values[key]; else one.values[key] = text;
+    say(document);
+    return { version: 1 };
+  },
   hello: (_, page) => {
     setTimeout(() => {
       page.send(JSON.stringify(document));

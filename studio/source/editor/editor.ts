@@ -17,6 +17,7 @@ import { sideEditor, type SideEditor } from "../side/side.js";
 import type { Studio } from "../state.js";
 import { cpfg } from "./cpfg.js";
 import { completion, hoverHelp } from "./help.js";
+import { notation } from "./notation.js";
 import { Agreement } from "./texts.js";
 import { toml } from "./toml.js";
 
@@ -300,7 +301,7 @@ export class Editor {
       return [cpfg(), autocompletion({ override: [completion("cpfg", help)] }), hoverHelp("cpfg", help)];
     if (file.language === "toml" || file.language === "species")
       return [toml(), autocompletion({ override: [completion("toml", help)] }), hoverHelp("toml", help)];
-    return [];
+    return file.language === "pgraph" || file.language === "sdl" ? [notation()] : [];
   }
 
   private extensions(): Extension {
