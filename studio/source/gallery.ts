@@ -1,7 +1,8 @@
 /** The gallery: models and scenes of the library with pictures, one's own files, and a search. */
 import { h, icon, iconButton } from "./elements.js";
 import type { Library, LibraryEntry } from "./protocol.js";
-import type { Studio } from "./state.js";
+import { modelOfLink } from "./share.js";
+import { errorText, type Studio } from "./state.js";
 
 type Shelf = keyof Library;
 const shelves: { key: Shelf; name: string }[] = [
@@ -12,7 +13,7 @@ const shelves: { key: Shelf; name: string }[] = [
 
 export class Gallery {
   readonly element = h("section", "gallery", { "aria-label": "Gallery", hidden: true });
-  private readonly search = h("input", "search", { type: "search", placeholder: "Search: tree, light, fern …", "aria-label": "Search the gallery" });
+  private readonly search = h("input", "search", { type: "search", placeholder: "Search, or paste a link", "aria-label": "Search the gallery" });
   private readonly list = h("div", "cards");
   private readonly close: HTMLButtonElement;
   private library: Library | null = null;
@@ -30,7 +31,10 @@ export class Gallery {
         h("p", "", {}, "Open a model or a scene: it grows at once, and you can change everything in it.")), this.close),
       h("div", "gallery-bar", {}, h("div", "tabs", {}, ...this.buttons.values()), h("label", "search-box", {}, icon("search"), this.search)),
       this.list);
-    this.search.addEventListener("input", () => this.draw());
+    this.search.addEventListener("input", () => {
+      if (this.search.value.includes("#model=")) void this.openLink(this.search.value);
+      else this.draw();
+    });
     this.element.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.studio.document) this.hide();
     });
@@ -98,10 +102,23 @@ export class Gallery {
     }
   }
 
-  private async open(entry: LibraryEntry): Promise<void> {
-    const opened = await this.studio.ask("open", { path: entry.path });
-    if (!opened) return;
+  private async openLink(link: string): Promise<void> {
+    this.search.value = "";
+    try {
+      const model = await modelOfLink(link.slice(link.indexOf("#")));
+      if (model && (await this.studio.ask("open-text", model))) this.leave();
+    } catch (error) {
+      this.studio.tell("error", `The link could not be read: ${errorText(error)}`);
+    }
+  }
+
+  private leave(): void {
     this.opened();
     this.hide();
+  }
+
+  private async open(entry: LibraryEntry): Promise<void> {
+    const opened = await this.studio.ask("open", { path: entry.path });
+    if (opened) this.leave();
   }
 }

@@ -134,7 +134,7 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
     }, "Copy");
     const files = (studio.document?.texts.length ?? 1) - 1;
     openDialog("Share as a link",
-      h("p", "", {}, "The link holds the text of the model, its settings, the seed and the steps. Whoever runs a studio can open it: the gallery has a field for links."),
+      h("p", "", {}, "The link holds the text of the model, its settings, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery."),
       files > 0 ? h("p", "hint", {}, "Only the main text is in the link, not its side files.") : h("span", ""), field, h("div", "form-end", {}, copy));
   } catch (error) {
     studio.tell("error", errorText(error));

@@ -14,6 +14,8 @@ export interface Message {
   text: string;
 }
 
+const noteTime = 8000; // milliseconds
+
 interface Events {
   connection: ConnectionState;
   document: StudioDocument;
@@ -89,8 +91,11 @@ export class Studio {
 
   tell(severity: Problem["severity"], text: string): void {
     if (this.messages.some((message) => message.text === text)) return;
-    this.messages = [...this.messages, { number: --this.ownMessages, severity, text }];
+    const number = --this.ownMessages;
+    this.messages = [...this.messages, { number, severity, text }];
     this.emit("messages", this.messages);
+    // What only confirms goes by itself.
+    if (severity === "note") setTimeout(() => this.dismiss(number), noteTime);
   }
 
   dismiss(number: number): void {

@@ -205,10 +205,8 @@ test("a link opens the same model in a studio", async () => {
   const link = await page.getByRole("textbox", { name: "Link" }).inputValue();
   assert.ok(link.length < 8000 && link.includes("#model="));
   await page.keyboard.press("Escape");
-  await page.evaluate((address) => {
-    location.hash = new URL(address).hash;
-    location.reload();
-  }, link);
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  await page.locator(".gallery .search").fill(link);
   await page.waitForFunction(() => /tree-2/.test(document.title));
   await grown();
   assert.match(await page.locator(".cm-content").textContent(), /A tree for tests/);

@@ -299,9 +299,9 @@ export class Editor {
     const help = () => this.studio.help;
     if (file.language === "cpfg")
       return [cpfg(), autocompletion({ override: [completion("cpfg", help)] }), hoverHelp("cpfg", help)];
-    if (file.language === "toml" || file.language === "species")
+    if (file.language === "toml")
       return [toml(), autocompletion({ override: [completion("toml", help)] }), hoverHelp("toml", help)];
-    return file.language === "pgraph" || file.language === "sdl" ? [notation()] : [];
+    return ["pgraph", "sdl", "species"].includes(file.language) ? [notation()] : [];
   }
 
   private extensions(): Extension {
