@@ -44,7 +44,8 @@ export class Frames {
   connected(): void {
     this.onTheWay.clear();
     this.looking = false;
-    this.tellServer();
+    // The server shows the last step to whoever has not asked for another.
+    if (this.wanted !== "last") this.tellServer();
   }
 
   grown(growth: Growth): void {
@@ -72,11 +73,12 @@ export class Frames {
 
   /** Looks at a step: at once if its packet is at hand. */
   look(step: number | "last"): void {
+    const known = step === "last" && this.wanted === "last";
     this.wanted = step;
     const at = step === "last" ? this.lastStep : step;
     const packet = this.cache.get(at);
     if (packet) this.show(packet);
-    this.tellServer();
+    if (!known) this.tellServer();
   }
 
   /** Fetches steps before they are looked at. */
