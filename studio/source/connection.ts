@@ -15,6 +15,8 @@ export interface ConnectionEvents {
   state: (state: ConnectionState, tryAgainIn: number) => void;
   said: (message: Said) => void;
   binary: (message: BinaryMessage) => void;
+  /** A binary message that cannot be understood. */
+  broken: (why: string) => void;
 }
 
 const longestPause = 8; // seconds between two tries
@@ -87,12 +89,20 @@ export class Connection {
 
   private receive(data: string | ArrayBuffer): void {
     if (typeof data !== "string") {
-      this.events.binary(readMessage(data));
+      this.receiveBytes(data);
       return;
     }
     const message = JSON.parse(data) as Said | ({ reply: number; error?: string });
     if ("say" in message) this.events.said(message);
     else this.answer(message);
+  }
+
+  private receiveBytes(data: ArrayBuffer): void {
+    try {
+      this.events.binary(readMessage(data));
+    } catch (error) {
+      this.events.broken(error instanceof Error ? error.message : String(error));
+    }
   }
 
   private answer(message: { reply: number; error?: string }): void {

@@ -64,6 +64,7 @@ export class Studio {
       state: (state) => this.connected(state),
       said: (message) => this.hear(message),
       binary: (message) => this.take(message),
+      broken: (why) => this.tell("error", `${why} Page and program are of different versions: load the page again.`),
     });
     this.frames = new Frames(this);
   }
