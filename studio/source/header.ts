@@ -110,12 +110,13 @@ export class Header {
 
 const keys: [string, string][] = [
   ["Arrows", "turn the plant"], ["+ and -", "nearer and farther"], ["Space, Shift", "raise and lower"], ["F", "show the whole plant"],
-  ["Home", "first view"], ["Click", "an organ tells about itself"], ["Shift and drag, right button", "move the picture"],
+  ["Home", "first view"], ["Click, Escape", "an organ tells about itself; forget it"], ["Shift and drag, right button", "move the picture"],
   ["P", "play or pause"], [", and .", "one step back, one step on"], ["Ctrl+Z, Ctrl+Y", "undo and redo; in a text: of what was typed there"],
   ["Ctrl+S", "save"], ["Ctrl+Space", "complete a name in the text"], ["Ctrl+F", "search in the text"], ["Tab, then Escape", "leave the text"],
 ];
 
 function keysDialog(): void {
   openDialog("Keys", h("p", "", {}, "Keys of the picture work when it has the focus: click it, or reach it with Tab. Rest the pointer on a word of a text to read what it means."),
-    h("dl", "facts keys", {}, ...keys.flatMap(([name, what]) => [h("dt", "", {}, h("kbd", "", {}, name)), h("dd", "", {}, what)])));
+    h("dl", "facts keys", {}, ...keys.flatMap(([name, what]) => [h("dt", "", {}, h("kbd", "", {}, name)), h("dd", "", {}, what)])),
+    h("p", "hint", {}, "This page contains free software of others: ", h("a", "", { href: "LICENSES.txt", target: "_blank" }, "licences"), "."));
 }

@@ -28,7 +28,7 @@ function useTheme(studio: Studio): void {
   studio.on("theme", apply);
 }
 
-function keysOfThePage(header: Header, timeline: Timeline): void {
+function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): void {
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
     const command = event.ctrlKey || event.metaKey;
@@ -41,7 +41,7 @@ function keysOfThePage(header: Header, timeline: Timeline): void {
     if (target.closest(".cm-editor, textarea, input[type=text], input[type=number], input[type=search], select, dialog")) return;
     const actions: Record<string, () => void> = command
       ? { z: () => void header.step(event.shiftKey ? "redo" : "undo"), y: () => void header.step("redo") }
-      : { p: () => timeline.toggle(), ",": () => timeline.goTo(timeline.step - 1), ".": () => timeline.goTo(timeline.step + 1) };
+      : { p: () => timeline.toggle(), escape: forget, ",": () => timeline.goTo(timeline.step - 1), ".": () => timeline.goTo(timeline.step + 1) };
     const action = actions[key];
     if (!action) return;
     event.preventDefault();
@@ -87,7 +87,7 @@ function start(): void {
   layout.right.append(tabs.element);
   layout.centre.append(viewport.element);
   document.body.append(header.element, messages.banner, layout.element, timeline.element, new StatusLine(studio).element, messages.element, gallery.element);
-  keysOfThePage(header, timeline);
+  keysOfThePage(header, timeline, () => void picked.pick(null));
   let first = true;
   studio.on("connection", (state) => {
     if (state !== "open" || !first) return;

@@ -28,7 +28,7 @@ export class Viewport {
     const film = new Film(this.studio, this.scene, timeline);
     this.buildFieldTools();
     this.element = h("div", "viewport", {}, this.canvas, this.toolbar(film),
-      h("div", "picture-left", {}, this.fieldTools, this.legend), this.scale);
+      h("div", "picture-left", {}, this.fieldTools, this.legend), this.scale, this.hint());
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
     this.colourSelect.addEventListener("change", () => this.colourBy(this.colourSelect.value));
     this.fieldSelect.addEventListener("change", () => this.chooseField(this.fieldSelect.value));
@@ -85,6 +85,17 @@ export class Viewport {
       h("span", "spread"),
       iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
       iconButton("home", "First view (Home)", () => this.scene.home()), look, pictures);
+  }
+
+  /** What one can do here, until it has been done once. */
+  private hint(): HTMLElement {
+    const hint = h("p", "picture-hint", { hidden: remembered("hinted", false) },
+      "Drag to turn, scroll to zoom, click an organ to ask it. Move a slider on the right and watch.");
+    this.canvas.addEventListener("pointerdown", () => {
+      hint.hidden = true;
+      remember("hinted", true);
+    }, { once: true });
+    return hint;
   }
 
   private flip(key: string, apply: (on: boolean) => void): void {
