@@ -2,6 +2,8 @@
 
 #include "espalier/base/file.h"
 
+#include "base/base64.h"
+
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataCompressor.h>
@@ -20,39 +22,6 @@ namespace {
 
 constexpr std::size_t most_ratio = 1100;   // zlib packs 1032 bytes into one at most
 constexpr std::uint64_t header_words = 3;  // number of blocks, size of a block, size of the last if it is a smaller one
-
-std::array<std::int8_t, 256> base64_values() {
-    std::array<std::int8_t, 256> values;
-    values.fill(-1);
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < alphabet.size(); ++i) {
-        values[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
-    }
-    return values;
-}
-
-/// Returns false if `text` is not base64, whole quadruples with padding at the end only.
-bool decode_base64(std::string_view text, std::vector<char>& bytes) {
-    static const std::array<std::int8_t, 256> value_of = base64_values();
-    if (text.size() % 4 != 0) return false;
-    const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with("=") ? 1 : 0;
-    bytes.clear();
-    bytes.reserve(text.size() / 4 * 3);
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const int value = i >= text.size() - padding ? 0 : value_of[static_cast<unsigned char>(text[i])];
-        if (value < 0) return false;
-        bits = bits << 6 | static_cast<std::uint32_t>(value);
-        if (i % 4 != 3) continue;
-        for (const int shift : {16, 8, 0}) bytes.push_back(static_cast<char>(bits >> shift & 0xff));
-    }
-    bytes.resize(bytes.size() - padding);
-    return true;
-}
-
-std::size_t base64_length(std::uint64_t bytes) {
-    return (bytes + 2) / 3 * 4;
-}
 
 std::vector<std::uint64_t> words(const std::vector<char>& bytes) {
     std::vector<std::uint64_t> result(bytes.size() / sizeof(std::uint64_t));

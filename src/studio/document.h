@@ -33,6 +33,8 @@ public:
     /// What undo and redo would take back and bring back; none if there is nothing.
     std::optional<std::string> undo_label() const;
     std::optional<std::string> redo_label() const;
+    /// The next change replaces the last one.
+    bool is_transient() const { return is_transient_; }
     bool is_open() const { return !now().opened.path.empty(); }
 
     /// The states, to be kept from one run of the program to the next.

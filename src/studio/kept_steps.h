@@ -35,6 +35,8 @@ public:
     std::string packet(int step) const;
     /// The messages with all surfaces that packets have used so far, in the order in which they came.
     std::vector<std::string> shapes() const;
+    /// The pictures that these surfaces wear.
+    std::vector<std::filesystem::path> textures() const;
     /// The strings of the plants at a step that there is.
     std::vector<ModuleString> strings(int step) const;
     /// The string of one plant.
@@ -67,6 +69,7 @@ private:
     mutable std::mutex mutex_;
     std::map<int, Step> steps_;
     std::vector<std::string> shapes_;
+    std::vector<std::filesystem::path> textures_;
 };
 
 }  // namespace espalier::studio

@@ -249,11 +249,13 @@ private:
                 break;
         }
         if (!shapes || !shapes->surfaces.contains(organ.surface)) return std::nullopt;
-        const auto [place, is_new] = writer_.shapes_.try_emplace({shapes.get(), organ.surface});
+        const Surface& surface = shapes->surfaces.at(organ.surface);
+        const auto texture = static_cast<std::uint32_t>(surface.texture.value_or(organ.look.texture));
+        const auto [place, is_new] = writer_.shapes_.try_emplace({shapes.get(), organ.surface, texture});
         if (is_new) {
             place->second = first_surface + static_cast<std::uint32_t>(writer_.shapes_.size()) - 1;
             writer_.kept_.push_back(shapes);
-            new_shapes_.emplace_back(place->second, &shapes->surfaces.at(organ.surface));
+            new_shapes_.push_back({place->second, writer_.texture_of(*shapes, texture), &surface});
         }
         return place->second;
     }
@@ -262,11 +264,17 @@ private:
         if (new_shapes_.empty()) return "";
         MessageBytes out("ESS1");
         out.put(writer_.growth_, static_cast<std::uint32_t>(new_shapes_.size()));
-        for (const auto& [number, surface] : new_shapes_) put_shape(number, mesh_of(*surface), out);
+        for (const NewShape& shape : new_shapes_) put_shape(shape, out);
         return out.take();
     }
 
-    static void put_shape(std::uint32_t number, const SurfaceMesh& mesh, MessageBytes& out) {
+    struct NewShape {
+        std::uint32_t number, texture;
+        const Surface* surface;
+    };
+
+    static void put_shape(const NewShape& shape, MessageBytes& out) {
+        const SurfaceMesh mesh = mesh_of(*shape.surface);
         std::vector<std::uint32_t> triangles;
         std::uint32_t at = 0;
         for (const std::uint32_t corners : mesh.faces) {
@@ -275,7 +283,8 @@ private:
             }
             at += corners;
         }
-        out.put(number, static_cast<std::uint32_t>(mesh.vertices.size()), static_cast<std::uint32_t>(triangles.size()));
+        out.put(shape.number, shape.texture, static_cast<std::uint32_t>(mesh.vertices.size()),
+                static_cast<std::uint32_t>(triangles.size()));
         for (const SurfaceVertex& vertex : mesh.vertices) out.put(point_of(vertex.position));
         for (const SurfaceVertex& vertex : mesh.vertices) out.put(point_of(vertex.normal));
         for (const SurfaceVertex& vertex : mesh.vertices) {
@@ -313,8 +322,20 @@ private:
     std::vector<InternodeBytes> internodes_;
     Triangles triangles_;
     std::map<std::uint32_t, Group> groups_;
-    std::vector<std::pair<std::uint32_t, const Surface*>> new_shapes_;
+    std::vector<NewShape> new_shapes_;
 };
+
+// 0 for none, and for pictures that browsers do not show.
+std::uint32_t PacketWriter::texture_of(const Shapes& shapes, std::uint32_t texture) {
+    if (texture == 0 || texture > shapes.textures.size()) return 0;
+    const std::filesystem::path& file = shapes.textures[texture - 1].file;
+    const std::string extension = file.extension().string();
+    if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") return 0;
+    const auto known = std::find(textures_.begin(), textures_.end(), file);
+    const auto number = static_cast<std::uint32_t>(known - textures_.begin()) + 1;
+    if (known == textures_.end()) textures_.push_back(file);
+    return number;
+}
 
 Packet PacketWriter::write(const timeline::Frame& frame) {
     return Scribe(*this, frame).write();

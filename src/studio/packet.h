@@ -4,6 +4,7 @@
 #include "espalier/timeline/frame.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -28,18 +29,24 @@ public:
     explicit PacketWriter(std::uint32_t growth) : growth_(growth) {}
 
     Packet write(const timeline::Frame& frame);
+    /// The pictures that shapes of the packets so far wear; texture 1 is the first.
+    const std::vector<std::filesystem::path>& textures() const { return textures_; }
 
 private:
     /// Of an organ with a surface: what stands for it in groups.
     struct ShapeKey {
         const Shapes* shapes;
         std::uint32_t surface;
+        std::uint32_t texture;
         auto operator<=>(const ShapeKey&) const = default;
     };
 
     class Scribe;
 
+    std::uint32_t texture_of(const Shapes& shapes, std::uint32_t texture);
+
     std::uint32_t growth_;
+    std::vector<std::filesystem::path> textures_;
     std::map<ShapeKey, std::uint32_t> shapes_;
     std::vector<std::shared_ptr<const Shapes>> kept_;  ///< so that no other has the address of one
 };

@@ -7,9 +7,11 @@
 #include "espalier/timeline/recorder.h"
 #include "espalier/turtle/symbol.h"
 
+#include "base/base64.h"
 #include "base/text.h"
 #include "language/parser/functions.h"
 #include "studio/field_bytes.h"
+#include "studio/graph_text.h"
 #include "studio/inquiry.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
@@ -59,7 +61,20 @@ bool is_text(std::string_view bytes) {
                Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+bool is_map(const fs::path& file) {
+    return file.extension() == ".map";
+}
+
+/// The bytes of a file that a page may edit, from what it sends.
+std::string bytes_of(const fs::path& file, const std::string& content) {
+    std::vector<char> bytes;
+    if (!is_map(file)) return content;
+    if (!decode_base64(content, bytes)) throw UserError(fmt::format("{} is not in base64", file.string()));
+    return {bytes.begin(), bytes.end()};
+}
+
 std::string language_of(const fs::path& file) {
+    if (is_map(file)) return "map";
     if (const NotationType* notation = notation_of(file)) return notation->name;
     const std::string extension = file.extension().string();
     return extension == ".l" || extension == ".h" ? "cpfg" : extension == ".toml" ? "toml" : "plain";
@@ -111,12 +126,13 @@ Json bound(double value) {
 
 Session::Request Session::request_named(const std::string& name) {
     static const std::map<std::string, Request> requests{
-        {"hello", &Session::hello},   {"library", &Session::library},     {"help", &Session::help},
-        {"open", &Session::open},     {"open-text", &Session::open_text}, {"change", &Session::change},
-        {"undo", &Session::undo},     {"redo", &Session::redo},           {"grow", &Session::grow},
-        {"stop", &Session::stop},     {"look", &Session::look},           {"frame", &Session::frame},
-        {"column", &Session::column}, {"pick", &Session::pick},           {"field", &Session::field},
-        {"save", &Session::save},     {"export", &Session::export_run},   {"dismiss", &Session::dismiss},
+        {"hello", &Session::hello},     {"library", &Session::library},     {"help", &Session::help},
+        {"open", &Session::open},       {"open-text", &Session::open_text}, {"change", &Session::change},
+        {"undo", &Session::undo},       {"redo", &Session::redo},           {"grow", &Session::grow},
+        {"stop", &Session::stop},       {"look", &Session::look},           {"frame", &Session::frame},
+        {"column", &Session::column},   {"pick", &Session::pick},           {"field", &Session::field},
+        {"graph", &Session::graph},     {"save", &Session::save},           {"export", &Session::export_run},
+        {"dismiss", &Session::dismiss},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));
@@ -151,6 +167,7 @@ Json Session::help(Viewer&, const Json&) {
             {"stages", parts<GeometryStageType>()},
             {"recorders", parts<RecorderType>()},
             {"notations", parts<NotationType>()},
+            {"components", component_types_json()},
             {"exporters", parts<ExporterType>()},
             {"keys",
              Json::array({{{"name", "scene"}, {"summary", "the tables of a scene file"}, {"help", scene_help()}}})}};
@@ -192,7 +209,7 @@ Json Session::change(Viewer&, const Json& request) {
         for (const auto& [path, text] : request["texts"].items()) {
             if (!known.contains(path)) throw UserError(fmt::format("{} is not a text of this document", path));
             if (text.get_ref<const std::string&>().size() > most_text) throw UserError("the text is too long");
-            state.unsaved[path] = text.get<std::string>();
+            state.unsaved[path] = bytes_of(path, text.get<std::string>());
         }
     }
     if (request.contains("settings")) set_numbers(request["settings"], state);
@@ -206,6 +223,15 @@ Json Session::change(Viewer&, const Json& request) {
                                  : std::optional(std::clamp(request["steps"].get<int>(), 0, most_steps));
     }
     apply(std::move(state), request.value("label", "change"), request.value("transient", false));
+    return {{"version", document_.version()}};
+}
+
+Json Session::graph(Viewer&, const Json& request) {
+    const fs::path file = request.at("path").get<std::string>();
+    if (!texts().contains(file)) throw UserError(fmt::format("{} is not a text of this document", file.string()));
+    DocumentState state = document_.now();
+    state.unsaved[file] = edited_graph(file, text_of(file, state), request);
+    apply(std::move(state), request.value("label", "graph"), request.value("transient", false));
     return {{"version", document_.version()}};
 }
 
@@ -381,7 +407,7 @@ fs::path Session::below_folder(const fs::path& path) const {
 std::set<fs::path> Session::texts() const {
     std::set<fs::path> texts;
     for (const auto& [path, file] : read_) {
-        if (file.kept && is_text(file.bytes)) texts.insert(path);
+        if (file.kept && (is_map(path) || is_text(file.bytes))) texts.insert(path);
     }
     for (const auto& [path, text] : document_.now().unsaved) texts.insert(path);
     if (document_.is_open() && !fs::is_directory(document_.now().opened.path)) {
@@ -437,9 +463,20 @@ Json Session::document_json() const {
     json["kind"] = kind_of(opened.path);
     json["texts"] = texts_json();
     json["settings"] = settings_json();
+    json["graphs"] = graphs_json();
     json["seed"] = opened.seed.value_or(own_seed_);
     json["steps"] = opened.steps.value_or(own_steps_);
     return json;
+}
+
+Json Session::graphs_json() const {
+    Json graphs = Json::array();
+    for (const fs::path& file : texts()) {
+        if (language_of(file) != "pgraph") continue;
+        Json graph = graph_json(file, text_of(file, document_.now()));
+        if (!graph.is_null()) graphs.push_back(std::move(graph));
+    }
+    return graphs;
 }
 
 Json Session::texts_json() const {
@@ -449,7 +486,7 @@ Json Session::texts_json() const {
         Json text = {{"path", file.string()},
                      {"role", role_of(file, now.opened.path)},
                      {"language", language_of(file)},
-                     {"content", text_of(file, now)},
+                     {"content", is_map(file) ? base64(text_of(file, now)) : text_of(file, now)},
                      {"changed", now.unsaved.contains(file) && text_on_disk(file) != now.unsaved.at(file)}};
         const bool is_main = text["role"] == "main";
         list.insert(is_main ? list.begin() : list.end(), std::move(text));

@@ -145,7 +145,7 @@ void Session::restore() {
             say("warning", fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
         }
     }
-    if (options_.opened.path.empty()) return;
+    if (options_.opened.path.empty() || (!options_.is_named && document_.is_open())) return;
     Opened opened = options_.opened;
     opened.path = fs::absolute(opened.path).lexically_normal();
     if (document_.now().opened.path == opened.path) return;
@@ -161,8 +161,9 @@ void Session::begin_growth() {
 
 void Session::begin_next_growth() {
     if (!waits_ || !document_.is_open()) return;
+    // A drag shows what it passes, even if it changes faster than the plant grows.
     const std::unique_ptr<Growth>& latest = next_ ? next_ : growth_;
-    if (latest && latest->version() > 0 && is_busy_ && latest->seconds() < least_growth) return;
+    if (document_.is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
     waits_ = false;
     is_busy_ = true;
     if (next_) retire(std::move(next_));
@@ -279,6 +280,7 @@ void Session::send_packet(Viewer& viewer, int step) {
     const std::vector<std::string> shapes = growth_->steps().shapes();
     if (viewer.growth != growth_->number()) viewer.shapes = 0;
     viewer.growth = growth_->number();
+    if (viewer.shapes < shapes.size()) viewer.page.send_text(textures_json().dump());
     for (; viewer.shapes < shapes.size(); ++viewer.shapes) viewer.page.send_bytes(shapes[viewer.shapes]);
     viewer.page.send_bytes(growth_->steps().packet(step));
 }
@@ -342,6 +344,12 @@ Json Session::fields_json() const {
         fields.push_back({{"name", field.name}, {"unit", field.unit}, {"meaning", field.meaning}});
     }
     return {{"say", "fields"}, {"growth", growth_->number()}, {"fields", fields}};
+}
+
+Json Session::textures_json() {
+    Json files = Json::array();
+    for (const fs::path& file : growth_->steps().textures()) files.push_back(files_.number(file));
+    return {{"say", "textures"}, {"growth", growth_->number()}, {"files", files}};
 }
 
 Json Session::statistics_json(std::size_t first) const {

@@ -62,6 +62,7 @@ private:
     Json open(Viewer& viewer, const Json& request);
     Json open_text(Viewer& viewer, const Json& request);
     Json change(Viewer& viewer, const Json& request);
+    Json graph(Viewer& viewer, const Json& request);
     Json undo(Viewer& viewer, const Json& request);
     Json redo(Viewer& viewer, const Json& request);
     Json grow(Viewer& viewer, const Json& request);
@@ -108,10 +109,12 @@ private:
     Json document_json() const;
     Json texts_json() const;
     Json settings_json() const;
+    Json graphs_json() const;
     Json problems_json() const;
     Json growth_json() const;
     Json columns_json() const;
     Json fields_json() const;
+    Json textures_json();
     Json statistics_json(std::size_t first) const;
     void show(Viewer& viewer);
     void send_packet(Viewer& viewer, int step);

@@ -1,5 +1,7 @@
 #include "timeline/inline_data.h"
 
+#include "base/base64.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -11,41 +13,6 @@ namespace {
 
 /// Blocks stay in the cache.
 constexpr std::size_t block_bytes = std::size_t{1} << 18;
-
-constexpr std::size_t base64_length(std::size_t bytes) {
-    return (bytes + 2) / 3 * 4;
-}
-
-// The two characters of every twelve bits.
-constexpr std::array<char, 8192> base64_pairs = [] {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::array<char, 8192> pairs{};
-    for (std::size_t i = 0; i < 4096; ++i) {
-        pairs[2 * i] = digits[i >> 6];
-        pairs[2 * i + 1] = digits[i & 63];
-    }
-    return pairs;
-}();
-
-// Whole triplets.
-char* write_base64(const unsigned char* bytes, std::size_t count, char* out) {
-    for (std::size_t i = 0; i < count; i += 3, out += 4) {
-        const std::uint32_t bits =
-            std::uint32_t{bytes[i]} << 16 | std::uint32_t{bytes[i + 1]} << 8 | std::uint32_t{bytes[i + 2]};
-        std::memcpy(out, &base64_pairs[2 * std::size_t{bits >> 12}], 2);
-        std::memcpy(out + 2, &base64_pairs[2 * std::size_t{bits & 4095}], 2);
-    }
-    return out;
-}
-
-// The last one or two bytes, if any.
-char* write_base64_end(const unsigned char* bytes, std::size_t count, char* out) {
-    if (count == 0) return out;
-    const unsigned char triplet[3] = {bytes[0], count > 1 ? bytes[1] : static_cast<unsigned char>(0), 0};
-    out = write_base64(triplet, 3, out);
-    std::fill(out - (count > 1 ? 1 : 2), out, '=');
-    return out;
-}
 
 /// The blocks of an array one after the other, compressed.
 class Blocks {

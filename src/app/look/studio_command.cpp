@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <random>
 #include <regex>
 #include <system_error>
 
@@ -135,7 +136,7 @@ class Studio final : public Command {
 public:
     explicit Studio(CLI::App& program)
         : Command(program, "studio", "edit, grow, watch and measure plants in the browser") {
-        app().add_option("what", what_, "a model, a scene, or the folder of an object; default: the library");
+        app().add_option("what", what_, "a model, a scene, or the folder of an object; default: a random tree");
         app().add_option("--folder", folder_,
                          "files are read and written below it; default: this folder, or the one of a file outside it");
         app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
@@ -144,7 +145,7 @@ public:
             R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
 holds a key: whoever has it can edit and grow, below the folder only. Unsaved work is there again next time.
 Examples:
-  espalier studio                                    the library
+  espalier studio                                    a random tree, and the library in the page's gallery
   espalier studio models/trees/honda.l
   espalier studio environments/two-trees.toml
   espalier studio --no-browser --port 8700           for a tunnel: ssh -L 8700:127.0.0.1:8700 HOST)");
@@ -154,7 +155,8 @@ Examples:
         const EndSignals signals([](int) { ended = true; }, /*only_once=*/true);
         const TemporaryFolder scratch("studio");
         studio::StudioOptions options;
-        options.opened.path = what_.empty() ? fs::path() : fs::absolute(here_or_with_program(what_)).lexically_normal();
+        options.opened = opened();
+        options.is_named = !what_.empty();
         if (!what_.empty() && !fs::exists(options.opened.path)) {
             throw UserError(
                 fmt::format("{} does not exist; `espalier studio` alone opens the library", what_.string()));
@@ -180,6 +182,14 @@ private:
         fs::path folder = fs::absolute(folder_.empty() ? default_folder() : folder_).lexically_normal();
         if (!fs::is_directory(folder)) throw UserError(fmt::format("the folder {} does not exist", folder.string()));
         return folder.has_filename() ? folder : folder.parent_path();
+    }
+
+    // Nobody begins with an empty page: a random tree grows if nothing is named.
+    Opened opened() const {
+        if (!what_.empty()) return {fs::absolute(here_or_with_program(what_)).lexically_normal(), {}, {}};
+        const fs::path tree = model_library({}).parent_path() / "environments/tree.toml";
+        if (!fs::exists(tree)) return {};
+        return {fs::absolute(tree).lexically_normal(), {}, std::random_device{}() % 1000};
     }
 
     // A file that lies elsewhere is edited where it lies, unless it came with the program.
