@@ -112,6 +112,7 @@ void Growth::grow(const Scene& scene, GrowthStart start) {
         note(world, folder / "statistics.csv");
         answer(world);
     }
+    if (!world.at_end() && !cancelled_) listener_.stopped(number());
     answer_to_the_end(world);
 }
 

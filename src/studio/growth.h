@@ -59,6 +59,8 @@ public:
     virtual ~GrowthListener() = default;
     virtual void started(std::uint32_t growth, GrowthStart start) = 0;
     virtual void grown(std::uint32_t growth, GrownStep step) = 0;
+    /// It was told to stop before its end, and no more steps come.
+    virtual void stopped(std::uint32_t growth) = 0;
     /// It could not be read, or did not go on. A growth that is told to end says nothing.
     virtual void failed(std::uint32_t growth, std::vector<Diagnostic> why) = 0;
 };
@@ -85,7 +87,6 @@ public:
     bool has_ended() const { return ended_; }
     /// No more steps, but it still answers questions.
     void stop() { stopped_ = true; }
-    bool is_stopped() const { return stopped_; }
 
     /// Called with the world on the thread of the growth: between two steps, or after the last.
     void ask(std::function<void(const World&)> question);

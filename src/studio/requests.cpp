@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <tuple>
@@ -116,6 +117,16 @@ void require_value(const WrittenNumber& number, const std::string& text) {
 
 Json optional_json(const std::optional<std::string>& text) {
     return text ? Json(*text) : Json();
+}
+
+// "crown width: of the ellipsoid of points" for CROWN_WIDTH; a summary that repeats the name is enough.
+std::string label_of(const WrittenNumber& number) {
+    const std::string last = number.name.substr(number.name.rfind('.') + 1);
+    std::string words;
+    for (const char c : last) words += c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const bool has_summary = number.label != last && number.label != number.name;
+    if (!has_summary) return last;
+    return number.label.starts_with(words) ? number.label : words + ": " + number.label;
 }
 
 Json bound(double value) {
@@ -521,7 +532,7 @@ Json Session::settings_json() const {
                                   : number.group.empty() ? row.file->filename().string()
                                                          : row.file->filename().string() + ", " + number.group;
         list.push_back({{"name", row.name},
-                        {"label", number.label},
+                        {"label", label_of(number)},
                         {"kind", number.is_switch ? "switch" : "number"},
                         {"value", number.value},
                         {"text", number.text},

@@ -182,6 +182,10 @@ void Session::grown(std::uint32_t growth, GrownStep step) {
     post_([this, growth, step = std::move(step)] { note_grown(growth, step); });
 }
 
+void Session::stopped(std::uint32_t growth) {
+    post_([this, growth] { note_stopped(growth); });
+}
+
 void Session::failed(std::uint32_t growth, std::vector<Diagnostic> why) {
     post_([this, growth, why = std::move(why)] { note_failed(growth, why); });
 }
@@ -220,8 +224,8 @@ void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
     newest_ = step;
     newest_.statistics.clear();
     add_statistics(step.statistics);
-    if (step.is_end || growth_->is_stopped()) {
-        state_ = step.is_end ? "done" : "stopped";
+    if (step.is_end) {
+        state_ = "done";
         is_busy_ = false;
     }
     const bool is_over = state_ != "growing";
@@ -238,6 +242,17 @@ void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
                                          : is_over || (follows && !viewer->page.is_behind());
         if (wanted) send_packet(*viewer, step.step);
     }
+    begin_next_growth();
+}
+
+// Pages that wait for a later step get the last there is.
+void Session::note_stopped(std::uint32_t growth) {
+    if (!growth_ || growth_->number() != growth) return;
+    state_ = "stopped";
+    is_busy_ = false;
+    tell(growth_json());
+    tell(statistics_json(std::exchange(untold_rows_, rows_.size())));
+    for (const auto& viewer : viewers_) show(*viewer);
     begin_next_growth();
 }
 

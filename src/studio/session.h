@@ -99,9 +99,11 @@ private:
     void begin_next_growth();
     void started(std::uint32_t growth, GrowthStart start) override;
     void grown(std::uint32_t growth, GrownStep step) override;
+    void stopped(std::uint32_t growth) override;
     void failed(std::uint32_t growth, std::vector<Diagnostic> why) override;
     void note_started(std::uint32_t growth, GrowthStart start);
     void note_grown(std::uint32_t growth, const GrownStep& step);
+    void note_stopped(std::uint32_t growth);
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why);
     void add_statistics(const std::string& rows);
     void retire(std::unique_ptr<Growth> growth);

@@ -66,7 +66,7 @@ TEST_CASE("settings are the numbers of the text, and a slider changes the text",
     const Json settings = page.last("document")["settings"];
     REQUIRE(settings.size() == 2);
     CHECK(settings[0]["name"] == "ANGLE");
-    CHECK(settings[0]["label"] == "between branches");
+    CHECK(settings[0]["label"] == "angle: between branches");
     CHECK(settings[0]["highest"] == 90);
     CHECK(settings[0]["unit"] == "degrees");
     CHECK(settings[1]["name"] == "LENGTH");
@@ -267,4 +267,44 @@ TEST_CASE("what is open is exported as `export` would do it", "[studio]") {
     REQUIRE(file);
     CHECK(std::filesystem::file_size(*file) == files[0]["bytes"]);
     CHECK_FALSE(studio.session->file(99999));
+}
+
+TEST_CASE("a thousand changes in a row cancel a thousand growths", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    for (int change = 1; change <= 1000; ++change) {
+        const std::string value = std::to_string(change);
+        REQUIRE_FALSE(studio.change({{"settings", {{"LENGTH", value}}}}, change % 3 == 0).contains("error"));
+        studio.mailbox.work_once(std::chrono::milliseconds(change % 7 == 0 ? 5 : 0));
+        if (change % 50 == 0) page.texts.clear();
+        studio.session->tick();
+    }
+    studio.wait_until_grown();
+    const std::string text = page.last("document")["texts"][0]["content"];
+    CHECK(text.find("#define LENGTH 1000\n") != std::string::npos);
+    CHECK(page.last("growth")["step"] == 4);
+}
+
+TEST_CASE("another growth of twenty thousand nodes begins before the first has ended", "[studio]") {
+    const std::string large = R"(#define STEPS 100000
+lsystem: 1
+derivation length: STEPS
+axiom: A(0)
+A(n) : n < 14 --> F(0.01) [ +(30) A(n+1) ] A(n+1)
+F(x) --> F(x * 1.0001)
+endlsystem
+)";
+    OpenStudio studio(large);
+    ListeningPage& page = studio.begin();
+    studio.wait([&] { return !page.last("growth").is_null() && page.last("growth")["step"] > 16; });
+    CHECK(page.last("growth")["internodes"] == 16383);
+    for (int change = 0; change < 5; ++change) {
+        studio.change({{"settings", {{"STEPS", std::to_string(50000 + change)}}}});
+        const Json version = page.last("document")["version"];
+        studio.wait([&] { return page.last("growth")["version"] == version; });
+        CHECK(page.last("growth")["step"] < 50000);
+    }
+    studio.change({{"settings", {{"STEPS", "15"}}}});
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["step"] == 15);
 }
