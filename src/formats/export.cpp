@@ -1,6 +1,7 @@
 #include "espalier/base/error.h"
 #include "espalier/formats/exporter.h"
 
+#include "archive/meshes/axis_lines.h"
 #include "base/folder.h"
 #include "base/text.h"
 
@@ -34,6 +35,12 @@ std::filesystem::path file_of(const ExportJob& job, std::string stem, const std:
 }
 
 }  // namespace
+
+RecordedGeometry ExportJob::geometry(const RecordedFrame& frame) const {
+    RecordedGeometry geometry = run.geometry(frame);
+    if (!bark.empty()) dress_axes(geometry, bark);
+    return geometry;
+}
 
 std::filesystem::path ExportJob::path(const std::string& extension, const MeshName& mesh) const {
     return file_of(*this, name.empty() ? file_name(run) : name, extension, mesh);

@@ -60,12 +60,12 @@ std::size_t Glb::add_accessor(const T* values, std::size_t count, int component_
     return accessors_.size() - 1;
 }
 
-std::optional<std::size_t> Glb::texture(const std::string& file) {
-    const auto [at, is_new] = texture_number_.emplace(file, std::nullopt);
+std::optional<std::size_t> Glb::texture(const std::string& file, TextureMap map) {
+    const auto [at, is_new] = texture_number_.emplace(std::pair(file, map), std::nullopt);
     if (!is_new || file.empty()) return at->second;
-    const std::string png = png_of(run_.folder(), file);
+    const std::string png = png_of(run_.folder(), file, map);
     if (png.empty()) {
-        missing_.push_back(file);
+        if (map == TextureMap::colours) missing_.push_back(file);
         return at->second;
     }
     images_.push_back({{"bufferView", add_view(png.data(), png.size(), 0)},
@@ -92,10 +92,11 @@ std::size_t Glb::material(const MeshMaterial& look) {
     Json material = {{"name", material_name(look)}, {"doubleSided", true}};
     if (light != glm::vec3(0)) material["emissiveFactor"] = {light.x, light.y, light.z};
     if (recorded.opacity < 1) material["alphaMode"] = "BLEND";
-    if (const auto number = texture(look.texture)) {
+    if (const auto number = texture(look.texture, TextureMap::colours)) {
         surface["baseColorTexture"] = {{"index", *number}};
         if (cut_out_.contains(*number) && recorded.opacity == 1) material["alphaMode"] = "MASK";
     }
+    if (const auto number = texture(look.texture, TextureMap::normals)) material["normalTexture"] = {{"index", *number}};
     material["pbrMetallicRoughness"] = std::move(surface);
     materials_.push_back(std::move(material));
     return material_number_[look] = materials_.size() - 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "archive/meshes/surface_mesh.h"
+#include "formats/textures.h"
 
 #include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace espalier::formats {
@@ -50,7 +52,7 @@ private:
     std::size_t add_view(const void* bytes, std::size_t size, int target);
     std::size_t material(const MeshMaterial& look);
     /// Embedded as PNG; nothing if it is no picture.
-    std::optional<std::size_t> texture(const std::string& file);
+    std::optional<std::size_t> texture(const std::string& file, TextureMap map);
     std::size_t times_accessor(const std::vector<float>& times);
 
     Json accessors_ = Json::array(), views_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array(),
@@ -58,7 +60,7 @@ private:
     Json images_ = Json::array(), textures_ = Json::array();
     const RecordedRun& run_;
     std::map<MeshMaterial, std::size_t> material_number_;
-    std::map<std::string, std::optional<std::size_t>> texture_number_;
+    std::map<std::pair<std::string, TextureMap>, std::optional<std::size_t>> texture_number_;
     std::vector<std::string> missing_;  ///< textures
     std::set<std::size_t> cut_out_;     ///< textures whose pictures are partly transparent
     std::map<std::vector<float>, std::size_t> times_;

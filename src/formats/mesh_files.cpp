@@ -53,7 +53,7 @@ void refuse_triangles_and_split(const ExportJob& job, const std::string& why) {
 void write_meshes(const ExportJob& job, const std::string& extension, bool shares_vertices,
                   const std::function<std::string(const FrameMesh&)>& bytes_of) {
     for (const RecordedFrame* frame : job.frames) {
-        const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
+        const FrameMesh mesh = mesh_of(job.geometry(*frame), job.options);
         const std::string hint = hint_of_triangles(job, mesh.triangles.size());
         if (job.most_vertices == 0) {
             write_mesh(job, *frame, extension, shares_vertices, mesh, 0, bytes_of(mesh), hint);

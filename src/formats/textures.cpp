@@ -25,10 +25,20 @@ std::string plain(std::string name) {
     return name;
 }
 
+vtkSmartPointer<vtkImageData> image_of(const std::filesystem::path& run, const std::string& file, TextureMap map) {
+    if (map == TextureMap::colours) return texture_image(run, file);
+    const ReliefImages relief = relief_images(run, file);
+    return map == TextureMap::normals ? relief.normals : relief.heights;
+}
+
+const char* suffix_of(TextureMap map) {
+    return map == TextureMap::colours ? "" : map == TextureMap::normals ? "-normal" : "-height";
+}
+
 }  // namespace
 
-std::string png_of(const std::filesystem::path& run, const std::string& file) {
-    const auto image = texture_image(run, file);
+std::string png_of(const std::filesystem::path& run, const std::string& file, TextureMap map) {
+    const auto image = image_of(run, file, map);
     const int type = image ? image->GetScalarType() : VTK_VOID;
     if (type != VTK_UNSIGNED_CHAR && type != VTK_UNSIGNED_SHORT) return "";
     vtkNew<vtkPNGWriter> writer;
@@ -69,21 +79,20 @@ std::string joined_hints(const std::vector<std::string>& hints) {
     return text;
 }
 
-const TextureCopy& TextureCopies::copy(const std::string& file) {
-    const auto [at, is_new] = copies_.emplace(file, TextureCopy());
+const TextureCopy& TextureCopies::copy(const std::string& file, TextureMap map) {
+    const auto [at, is_new] = copies_.emplace(std::pair(file, map), TextureCopy());
     if (!is_new || file.empty()) return at->second;
-    const std::string png = png_of(job_.run.folder(), file);
+    const std::string png = png_of(job_.run.folder(), file, map);
     if (png.empty()) {
-        missing_.push_back(file);
+        if (map == TextureMap::colours) missing_.push_back(file);
         return at->second;
     }
-    const std::string name = free_name(file, png);
+    const std::string name = free_name(std::filesystem::path(file).stem().string() + suffix_of(map), png);
     write_text(job_.folder / name, png);
     return at->second = {name, is_transparent(png)};
 }
 
-std::string TextureCopies::free_name(const std::string& file, const std::string& png) const {
-    const std::string stem = plain(std::filesystem::path(file).stem().string());
+std::string TextureCopies::free_name(const std::string& stem, const std::string& png) const {
     const auto is_taken = [&](const std::string& name) {
         const bool is_ours =
             std::any_of(copies_.begin(), copies_.end(), [&](const auto& known) { return known.second.name == name; });

@@ -8,12 +8,17 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace espalier::formats {
 
-/// The file's picture as the bytes of a .png; "" if it is gone or no picture: what wears it then has its own colour.
-std::string png_of(const std::filesystem::path& run, const std::string& file);
+/// What a texture says of a surface.
+enum class TextureMap { colours, normals, heights };
+
+/// The picture of a texture's file as the bytes of a .png; "" if it is gone or no picture, or has no relief: what wears
+/// it then has its own colour, or is flat. Normals are those of tangent space.
+std::string png_of(const std::filesystem::path& run, const std::string& file, TextureMap map = TextureMap::colours);
 
 /// What a material looks like, as a name: "rgb_7a5c3e", with the name of its texture's file behind it.
 std::string material_name(const MeshMaterial& material);
@@ -28,7 +33,7 @@ std::string hint_of_missing(const std::vector<std::string>& textures);
 std::string joined_hints(const std::vector<std::string>& hints);
 
 struct TextureCopy {
-    std::string name{};  ///< "SCENE-NAME.png"; "" for no texture and for one that is no picture
+    std::string name{};  ///< "SCENE-NAME.png", with "-normal" or "-height"; "" where `png_of` gives nothing
     bool is_transparent = false;
 };
 
@@ -38,15 +43,15 @@ public:
     explicit TextureCopies(const ExportJob& job) : job_(job) {}
 
     /// Throws RunError.
-    const TextureCopy& copy(const std::string& file);
+    const TextureCopy& copy(const std::string& file, TextureMap map = TextureMap::colours);
     /// Of those that were asked for and are missing.
     std::string hint() const { return hint_of_missing(missing_); }
 
 private:
-    std::string free_name(const std::string& file, const std::string& png) const;
+    std::string free_name(const std::string& stem, const std::string& png) const;
 
     const ExportJob& job_;
-    std::map<std::string, TextureCopy> copies_;
+    std::map<std::pair<std::string, TextureMap>, TextureCopy> copies_;
     std::vector<std::string> missing_;
 };
 

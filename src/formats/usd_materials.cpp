@@ -14,7 +14,7 @@ const std::string& UsdMaterials::name(const MeshMaterial& look) {
     const std::string& copy = copies_.copy(look.texture).name;
     if (copy.empty() && run_.material(look.rgb).is_plain()) return at->second;
     at->second = fmt::format("{}_{}", copy.empty() ? "material" : "texture", looks_.size());
-    looks_.emplace_back(&at->first, copy);
+    looks_.push_back({&at->first, copy, copies_.copy(look.texture, TextureMap::normals).name});
     return at->second;
 }
 
@@ -34,6 +34,25 @@ std::string UsdMaterials::surface(const MeshMaterial& look, bool has_picture) co
     }
     if (emitted != glm::vec3(0)) add("emissiveColor", emitted);
     return text;
+}
+
+/// Reads the picture of normals, whose channels run from -1 to 1.
+std::string UsdMaterials::relief(const std::string& name, const std::string& normals) {
+    if (normals.empty()) return "";
+    return fmt::format(R"(            def Shader "relief"
+            {{
+                uniform token info:id = "UsdUVTexture"
+                asset inputs:file = @./{1}@
+                float4 inputs:scale = (2, 2, 2, 1)
+                float4 inputs:bias = (-1, -1, -1, 0)
+                token inputs:sourceColorSpace = "raw"
+                float2 inputs:st.connect = </world/materials/{0}/st.outputs:result>
+                token inputs:wrapS = "repeat"
+                token inputs:wrapT = "repeat"
+                float3 outputs:rgb
+            }}
+)",
+                       name, normals);
 }
 
 void UsdMaterials::append_to(std::string& text) const {
@@ -58,7 +77,7 @@ void UsdMaterials::append_to(std::string& text) const {
         }}
 )",
                    of_colours);
-    for (const auto& [look, copy] : looks_) {
+    for (const auto& [look, copy, normals] : looks_) {
         if (copy.empty()) {
             fmt::format_to(std::back_inserter(text), R"(        def Material "{0}"
         {{
@@ -85,10 +104,10 @@ void UsdMaterials::append_to(std::string& text) const {
                 color3f inputs:diffuseColor.connect = </world/materials/{0}/picture.outputs:rgb>
                 float inputs:opacity.connect = </world/materials/{0}/picture.outputs:a>
                 float inputs:opacityThreshold = 0.5
-{5}                float inputs:roughness = 0.9
+{5}{6}                float inputs:roughness = 0.9
                 token outputs:surface
             }}
-            def Shader "picture"
+{7}            def Shader "picture"
             {{
                 uniform token info:id = "UsdUVTexture"
                 asset inputs:file = @./{1}@
@@ -107,7 +126,12 @@ void UsdMaterials::append_to(std::string& text) const {
             }}
         }}
 )",
-                       names_.at(*look), copy, colour.x, colour.y, colour.z, surface(*look, true));
+                       names_.at(*look), copy, colour.x, colour.y, colour.z, surface(*look, true),
+                       normals.empty() ? ""
+                                       : fmt::format("                normal3f inputs:normal.connect = "
+                                                     "</world/materials/{}/relief.outputs:rgb>\n",
+                                                     names_.at(*look)),
+                       relief(names_.at(*look), normals));
     }
     text += "    }\n";
 }

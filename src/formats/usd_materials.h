@@ -31,11 +31,16 @@ public:
 
 private:
     std::string surface(const MeshMaterial& look, bool has_picture) const;
+    static std::string relief(const std::string& name, const std::string& normals);
 
     const RecordedRun& run_;
     TextureCopies copies_;
     std::map<MeshMaterial, std::string> names_;
-    std::vector<std::pair<const MeshMaterial*, std::string>> looks_;  ///< by number; with the copied picture, or ""
+    struct Look {
+        const MeshMaterial* look;
+        std::string picture, normals;  ///< copies, or ""
+    };
+    std::vector<Look> looks_;  ///< by number
 };
 
 }  // namespace espalier::formats

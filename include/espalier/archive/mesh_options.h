@@ -6,6 +6,13 @@
 
 namespace espalier::archive {
 
+/// How thick axes join: as tubes that run into each other, or as one smooth surface.
+struct AxisSkin {
+    bool smooth = false;
+    double blend = 1;  ///< radius of the fillet between two axes, in radii of the thinner; 0: sharp joints
+    double voxel = 0;  ///< metres between vertices; 0: chosen. Axes thinner than 1.5 voxels stay tubes
+};
+
 struct MeshOptions {
     int sides = 8;        ///< of tubes; 3 at least
     double simplify = 0;  ///< metres that a tube's middle line and radius may stray; 0: every node stays
@@ -13,12 +20,14 @@ struct MeshOptions {
         std::nullopt;                                   ///< of tubes and surfaces together; fewer are left as they are
     char up = 'y';                                      ///< or 'z'
     std::optional<std::uint32_t> plant = std::nullopt;  ///< its number; none: all plants
+    AxisSkin skin = {};
 };
 
 }  // namespace espalier::archive
 
 namespace espalier {
 
+using archive::AxisSkin;
 using archive::MeshOptions;
 
 }  // namespace espalier

@@ -43,11 +43,15 @@ struct ExportJob {
     bool grouped = false;           ///< growth: organs that are born and die together are one object
     bool instances = false;         ///< organs that look alike are one shape in many places
     bool mesh_axes = false;         ///< axes are meshes where the format has curves
+    std::string bark{};             ///< the texture of axes that wear none: a file
     std::size_t most_vertices = 0;  ///< of a mesh, which is otherwise cut into pieces; 0: any number
 
     // Of names.
     bool counts = false;  ///< names say the numbers of vertices and triangles
     bool keep = false;    ///< a file that is there stays, and the new one has a number behind its name
+
+    /// A frame's plants with their bark.
+    RecordedGeometry geometry(const RecordedFrame& frame) const;
 
     /// A file of the whole job, or of a frame.
     std::filesystem::path path(const std::string& extension, const MeshName& mesh = {}) const;

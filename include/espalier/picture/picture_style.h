@@ -1,6 +1,8 @@
 // How a frame of a run is drawn: colours, fields, ground, light and background.
 #pragma once
 
+#include "espalier/archive/mesh_options.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -41,6 +43,8 @@ struct PictureStyle {
     bool ground = false;  ///< a disc at height 0
     bool shading = true;  ///< shadows and what hides in corners; false: lit surfaces only
     bool textures = true;
+    std::string bark;        ///< the texture of axes that wear none: a file; "": none
+    archive::AxisSkin skin;  ///< of axes
     bool legend = true;  ///< colour bars of arrays and fields
     bool scale_bar = false;
     bool time_label = false;

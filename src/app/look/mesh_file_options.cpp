@@ -1,5 +1,7 @@
 #include "mesh_file_options.h"
 
+#include "espalier/base/error.h"
+
 #include <fmt/format.h>
 
 namespace espalier::app {
@@ -30,8 +32,10 @@ MeshFileOptions::MeshFileOptions(CLI::App& command, const std::string& sides_nam
         ->capture_default_str();
     command.add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
     command.add_flag("--mesh-axes", mesh_axes_,
-                     fmt::format("usd: axes as meshes, with {} and textures, and not as curves", sides_name));
+                     fmt::format("usd: axes as meshes, with {} and textures, and not as curves; "
+                                 "--bark and --skin smooth imply it", sides_name));
     command.add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
+    axes_.emplace(command);
     command.option_defaults()->group(before);
 }
 
@@ -42,7 +46,12 @@ void MeshFileOptions::put_into(ExportJob& job) const {
     job.options.up = up_[0];
     job.most_vertices = most_vertices_;
     job.instances = instances_;
-    job.mesh_axes = mesh_axes_;
+    job.bark = axes_->bark();
+    job.options.skin = axes_->skin();
+    if (job.options.skin.smooth && triangles_) {
+        throw UserError("--triangles makes tubes coarser; with --skin smooth a larger --voxel gives fewer triangles");
+    }
+    job.mesh_axes = mesh_axes_ || job.options.skin.smooth || !job.bark.empty();
     job.counts = counts_;
 }
 

@@ -3,8 +3,11 @@
 
 #include "espalier/formats/exporter.h"
 
+#include "axis_surface_options.h"
+
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 
 namespace espalier::app {
@@ -15,7 +18,7 @@ public:
     /// of all in the command's help.
     MeshFileOptions(CLI::App& command, const std::string& sides_name, int sides, const std::string& group = "Options");
 
-    /// What was said of the meshes; files are none's yet.
+    /// What was said of the meshes; files are none's yet. Throws UserError for what does not go together.
     void put_into(ExportJob& job) const;
 
 private:
@@ -25,6 +28,7 @@ private:
     std::size_t most_vertices_ = 0;
     std::string up_ = "y";
     bool instances_ = false, mesh_axes_ = false, counts_ = false;
+    std::optional<AxisSurfaceOptions> axes_;
 };
 
 }  // namespace espalier::app

@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_command.h"
+#include "axis_surface_options.h"
 #include "base/text.h"
 #include "frame_option.h"
 #include "picture_options.h"
@@ -165,6 +166,7 @@ private:
             "colours are hardly seen on white");
         ground_option_ = app().add_flag("--ground,!--no-ground", ground_,
                                         "with or without a ground; default: with, if nothing grows below it");
+        axes_.emplace(app());
         app().add_flag("--no-shade", no_shade_, "draw no shadows; faster");
         app().add_flag("--no-legend", no_legend_, "draw no colour bars");
         app().add_flag("--scale-bar", scale_bar_, "draw a scale bar");
@@ -197,6 +199,7 @@ private:
         (void)range();
         if (!background_.empty()) (void)picture_background(background_);
         if (!step_.empty()) require_frame_option(step_);
+        (void)axes_->bark();
         if (!sheet_.empty()) (void)sheet_cells();
         if (!output_.empty()) {
             sheet_.empty() && is_film(output_) ? require_film_writer(output_) : require_png(output_);
@@ -260,6 +263,8 @@ private:
         if (!background_.empty() || picture_.dark()) {
             style.background = picture_background(background_.empty() ? "dark" : background_);
         }
+        style.bark = axes_->bark();
+        style.skin = axes_->skin();
         style.shading = !no_shade_;
         style.legend = !no_legend_;
         style.scale_bar = scale_bar_;
@@ -339,6 +344,7 @@ private:
     GrowthOptions growth_;
     PictureOptions picture_;
     CameraOption place_of_camera_;
+    std::optional<AxisSurfaceOptions> axes_;
     RunArguments run_;
     CameraPlace camera_;
     fs::path output_;

@@ -80,6 +80,7 @@ std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOpt
         AxisPath& path = paths.emplace_back();
         path.plant = first.plant;
         path.row = geometry.lines.first + first.axis;
+        path.stands_free = tree.axes[i].bearer == RecordedInternode::none;
         path.points.push_back(first.base_point);
         for (auto at = static_cast<std::int32_t>(i); at >= 0; at = next[static_cast<std::size_t>(at)]) {
             const AxisTree::Axis& axis = tree.axes[static_cast<std::size_t>(at)];

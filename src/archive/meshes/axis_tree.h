@@ -28,6 +28,7 @@ struct AxisPath {
     std::uint32_t plant;
     std::size_t row;  ///< of `of_cells`: of the axis it begins with
     std::vector<std::int32_t> points;
+    bool stands_free = true;  ///< on no other axis
 };
 
 /// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.

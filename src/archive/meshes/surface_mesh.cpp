@@ -2,9 +2,10 @@
 
 #include "espalier/base/error.h"
 
-#include "archive/meshes/axis_tree.h"
+#include "archive/meshes/axis_lines.h"
+#include "archive/meshes/bark.h"
 #include "archive/meshes/reduction.h"
-#include "archive/meshes/tubes.h"
+#include "archive/meshes/skin.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -31,10 +32,8 @@ public:
 
     std::vector<PlannedTube> planned_tubes() const {
         std::vector<PlannedTube> tubes;
-        for (const AxisPath& path : axis_paths(geometry_, options_)) {
-            TubeLine line = tube_line(geometry_, path.points, options_.simplify, thinnest_);
-            line.wears_texture = geometry_.textures[path.row] != 0;
-            if (line.nodes.size() >= 2) tubes.push_back({std::move(line), options_.sides, Caps::round, path.row});
+        for (AxisLine& axis : lines()) {
+            tubes.push_back({std::move(axis.line), options_.sides, Caps::round, axis.row});
         }
         return tubes;
     }
@@ -43,9 +42,18 @@ public:
         for (const PlannedTube& tube : tubes) {
             if (tube.sides == 0) continue;
             require_room(tube.line.nodes.size() * static_cast<std::size_t>(tube.sides + 1));
-            begin_part(tube.row);
-            add_tube(tube);
-            end_part();
+            add_tube(tube.line, tube.row, sweep(tube.line, tube.sides, tube.caps));
+        }
+    }
+
+    void add_skin() {
+        const std::vector<AxisLine> axes = lines();
+        const std::vector<int> sides(axes.size(), options_.sides);
+        const std::vector<Tube> patches = skin_of(axes, sides, options_.skin);
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            if (patches[i].triangles.empty()) continue;  // inside others
+            require_room(patches[i].vertices.size());
+            add_tube(axes[i].line, axes[i].row, patches[i]);
         }
     }
 
@@ -75,6 +83,10 @@ public:
     }
 
 private:
+    std::vector<AxisLine> lines() const {
+        return axis_lines(geometry_, axis_paths(geometry_, options_), options_.simplify, thinnest_);
+    }
+
     bool wanted(std::size_t row) const { return !options_.plant || geometry_.of_cells.plants[row] == *options_.plant; }
 
     bool same_organ(std::size_t a, std::size_t b) const {
@@ -117,19 +129,21 @@ private:
 
     MeshMaterial worn(const Rgb& rgb, std::uint16_t texture) const {
         if (texture == 0) return {rgb, ""};
-        // Where nobody gave a colour the picture has it.
-        return {geometry_.of_cells.rgb.empty() ? Rgb{255, 255, 255} : rgb, geometry_.texture_files[texture]};
+        // Where nobody gave a colour the picture has it; bark is only brighter and darker.
+        const std::string& file = geometry_.texture_files[texture];
+        const bool has_own = geometry_.of_cells.rgb.empty() && !is_bark(file);
+        return {has_own ? Rgb{255, 255, 255} : rgb, file};
     }
 
-    void add_tube(const PlannedTube& planned) {
-        const std::uint16_t texture = geometry_.textures[planned.row];
+    void add_tube(const TubeLine& line, std::size_t row, const Tube& tube) {
+        begin_part(row);
+        const std::uint16_t texture = geometry_.textures[row];
         std::vector<std::uint32_t> materials;
         std::vector<Rgb> colours;
-        for (const TubeNode& node : planned.line.nodes) {
+        for (const TubeNode& node : line.nodes) {
             colours.push_back(colour_of(geometry_.of_points, static_cast<std::size_t>(node.row)));
             materials.push_back(material(worn(colours.back(), texture)));
         }
-        const Tube tube = sweep(planned.line, planned.sides, planned.caps);
         const auto origin = static_cast<std::uint32_t>(mesh_.points.size());
         for (const TubeVertex& vertex : tube.vertices) {
             mesh_.points.push_back(upright(vertex.position, options_.up));
@@ -142,6 +156,7 @@ private:
                 {origin + triangle.corners[0], origin + triangle.corners[1], origin + triangle.corners[2]});
             mesh_.material_of.push_back(materials[triangle.node]);
         }
+        end_part();
     }
 
     void add_polygon(std::size_t cell, std::size_t row) {
@@ -218,6 +233,11 @@ float thinnest_radius(const RecordedGeometry& geometry) {
 
 FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
+    if (options.skin.smooth) {
+        builder.add_skin();
+        builder.add_surfaces();
+        return builder.take();
+    }
     std::vector<PlannedTube> tubes = builder.planned_tubes();
     if (options.triangles) {
         builder.add_surfaces();
@@ -232,7 +252,11 @@ FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) 
 
 FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
-    builder.add(builder.planned_tubes());
+    if (options.skin.smooth) {
+        builder.add_skin();
+    } else {
+        builder.add(builder.planned_tubes());
+    }
     return builder.take();
 }
 

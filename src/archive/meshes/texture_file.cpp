@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "archive/meshes/bark.h"
 #include "base/picture_file.h"
 
 #include <vtkBMPReader.h>
@@ -13,6 +14,7 @@
 #include <vtkTIFFReader.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace espalier::archive {
 namespace {
@@ -59,15 +61,51 @@ vtkSmartPointer<vtkImageData> read_by_vtk(const fs::path& path) {
     return nullptr;
 }
 
+vtkSmartPointer<vtkImageData> read_image(const fs::path& path) {
+    return is_ours(path) ? read_ours(path) : read_by_vtk(path);
+}
+
+/// Where a texture's file may be, of these where one is.
+std::vector<fs::path> places_of(const fs::path& run, const std::string& file) {
+    std::error_code ignored;
+    std::vector<fs::path> places{file, run / file};
+    std::erase_if(places, [&](const fs::path& path) { return !fs::is_regular_file(path, ignored); });
+    return places;
+}
+
+/// Opacity is left out.
+vtkSmartPointer<vtkImageData> image_of(const OpacityPicture& picture) {
+    auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(static_cast<int>(picture.width), static_cast<int>(picture.height), 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
+    for (std::size_t y = picture.height; y-- > 0;) {
+        for (std::size_t x = 0; x < picture.width; ++x) bytes = std::copy_n(picture.at(x, y).begin(), 3, bytes);
+    }
+    return image;
+}
+
+vtkSmartPointer<vtkImageData> bark_image(const fs::path& path) {
+    const Bark bark = read_bark(path);
+    if (bark.picture) return read_image(*bark.picture);
+    return image_of(shades_of(bark, heights_of(bark)));
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkImageData> texture_image(const fs::path& run, const std::string& file) {
-    std::error_code ignored;
-    for (const fs::path& path : {fs::path(file), run / file}) {
-        if (!fs::is_regular_file(path, ignored)) continue;
-        if (const auto image = is_ours(path) ? read_ours(path) : read_by_vtk(path)) return image;
+    for (const fs::path& path : places_of(run, file)) {
+        if (const auto image = is_bark(file) ? bark_image(path) : read_image(path)) return image;
     }
     return nullptr;
+}
+
+ReliefImages relief_images(const fs::path& run, const std::string& file) {
+    const std::vector<fs::path> places = is_bark(file) ? places_of(run, file) : std::vector<fs::path>();
+    if (places.empty()) return {};
+    const Bark bark = read_bark(places.front());
+    const HeightMap map = heights_of(bark);
+    return {image_of(normals_of(bark, map)), image_of(grey_of(map)), bark.depth};
 }
 
 }  // namespace espalier::archive

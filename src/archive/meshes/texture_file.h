@@ -1,4 +1,4 @@
-// Picture files that surfaces wear.
+// Pictures that surfaces wear: from files, or of bark.
 #pragma once
 
 #include <vtkSmartPointer.h>
@@ -11,13 +11,24 @@ class vtkImageData;
 namespace espalier::archive {
 
 /// The picture of a texture's file, as it is named or beside the run: SGI (.rgb), Targa (.tga), PNG, JPEG, TIFF, BMP or
-/// PNM. Null if it is not there or is no picture: what wears it then has its own colour.
+/// PNM; or the colours of bark. Null if it is not there or is no picture: what wears it then has its own colour. Throws
+/// UserError for wrong settings of bark.
 vtkSmartPointer<vtkImageData> texture_image(const std::filesystem::path& run, const std::string& file);
+
+/// The relief of a texture.
+struct ReliefImages {
+    vtkSmartPointer<vtkImageData> normals;  ///< of tangent space; null where a texture is flat, as all but bark are
+    vtkSmartPointer<vtkImageData> heights;  ///< grey
+    double depth = 0;                       ///< from white to black, as a share of the picture's width
+};
+ReliefImages relief_images(const std::filesystem::path& run, const std::string& file);
 
 }  // namespace espalier::archive
 
 namespace espalier {
 
+using archive::relief_images;
+using archive::ReliefImages;
 using archive::texture_image;
 
 }  // namespace espalier

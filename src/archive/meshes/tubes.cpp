@@ -85,37 +85,31 @@ std::vector<glm::dvec3> tangents_of(const std::vector<TubeNode>& nodes) {
     return tangents;
 }
 
+/// Of the texture between two nodes.
+double texture_length(const TubeLine& line, const TubeNode& from, const TubeNode& to) {
+    const double metres = glm::distance(from.position, to.position);
+    if (line.pictures_around == 0) return metres;
+    return metres * line.pictures_around / (std::numbers::pi * (double(from.radius) + to.radius));
+}
+
 class Sweeper {
 public:
     Sweeper(const TubeLine& line, int sides, Caps caps)
-        : nodes_(line.nodes),
-          wears_texture_(line.wears_texture),
-          sides_(static_cast<std::uint32_t>(sides)),
-          caps_(caps) {}
+        : line_(line), nodes_(line.nodes), sides_(static_cast<std::uint32_t>(sides)), caps_(caps) {}
 
     Tube tube() {
-        const std::vector<glm::dvec3> tangents = tangents_of(nodes_);
-        glm::dvec3 across = any_across(tangents.front());
-        double along = 0;
-        for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            across -= tangents[i] * glm::dot(across, tangents[i]);
-            across = glm::length(across) > 1e-6 ? glm::normalize(across) : any_across(tangents[i]);
-            if (i > 0) along += length(nodes_[i - 1], nodes_[i]);
-            add_ring(static_cast<std::uint32_t>(i), tangents[i], across, along);
-            if (i > 0) join(static_cast<std::uint32_t>(i));
+        const std::vector<TubeFrame> frames = frames_along(line_);
+        for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+            add_ring(i, frames[i]);
+            if (i > 0) join(i);
         }
-        add_cap(0, -tangents.front());
-        add_cap(static_cast<std::uint32_t>(nodes_.size() - 1), tangents.back());
+        add_cap(0, -frames.front().tangent);
+        add_cap(static_cast<std::uint32_t>(nodes_.size() - 1), frames.back().tangent);
         return std::move(tube_);
     }
 
 private:
     std::uint32_t ring(std::uint32_t node) const { return node * (sides_ + 1); }
-
-    double length(const TubeNode& from, const TubeNode& to) const {
-        const double metres = glm::distance(from.position, to.position);
-        return wears_texture_ ? metres / (std::numbers::pi * (double(from.radius) + to.radius)) : metres;
-    }
 
     /// How fast the radius shrinks along the axis there.
     double taper(std::size_t node) const {
@@ -125,17 +119,18 @@ private:
     }
 
     // The last vertex stands where the first does, at the other end of the texture.
-    void add_ring(std::uint32_t node, const glm::dvec3& tangent, const glm::dvec3& across, double along) {
-        const glm::dvec3 left = glm::cross(tangent, across);
+    void add_ring(std::uint32_t node, const TubeFrame& frame) {
+        const glm::dvec3 left = glm::cross(frame.tangent, frame.across);
         const double shrinking = taper(node);
+        const auto around = static_cast<float>(std::max(1, line_.pictures_around));
         for (std::uint32_t side = 0; side <= sides_; ++side) {
             const double angle = 2 * std::numbers::pi * (side % sides_) / sides_;
-            const glm::dvec3 outward = std::cos(angle) * across + std::sin(angle) * left;
+            const glm::dvec3 outward = std::cos(angle) * frame.across + std::sin(angle) * left;
             const glm::dvec3 position = glm::dvec3(nodes_[node].position) + double(nodes_[node].radius) * outward;
             tube_.vertices.push_back(
                 {glm::vec3(position),
-                 glm::vec3(glm::normalize(outward + shrinking * tangent)),
-                 {static_cast<float>(side) / static_cast<float>(sides_), static_cast<float>(along)},
+                 glm::vec3(glm::normalize(outward + shrinking * frame.tangent)),
+                 {around * static_cast<float>(side) / static_cast<float>(sides_), static_cast<float>(frame.along)},
                  node});
         }
     }
@@ -167,8 +162,8 @@ private:
         }
     }
 
+    const TubeLine& line_;
     const std::vector<TubeNode>& nodes_;
-    bool wears_texture_;
     std::uint32_t sides_;
     Caps caps_;
     Tube tube_;
@@ -231,6 +226,20 @@ std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& 
         pieces.push_back({worst, to, errors[worst]});
     }
     return errors;
+}
+
+std::vector<TubeFrame> frames_along(const TubeLine& line) {
+    const std::vector<glm::dvec3> tangents = tangents_of(line.nodes);
+    std::vector<TubeFrame> frames;
+    glm::dvec3 across = any_across(tangents.front());
+    double along = 0;
+    for (std::size_t i = 0; i < line.nodes.size(); ++i) {
+        across -= tangents[i] * glm::dot(across, tangents[i]);
+        across = glm::length(across) > 1e-6 ? glm::normalize(across) : any_across(tangents[i]);
+        if (i > 0) along += texture_length(line, line.nodes[i - 1], line.nodes[i]);
+        frames.push_back({tangents[i], across, along});
+    }
+    return frames;
 }
 
 Tube sweep(const TubeLine& line, int sides, Caps caps) {

@@ -18,7 +18,8 @@ struct TubeNode {
 
 struct TubeLine {
     std::vector<TubeNode> nodes;
-    bool wears_texture = false;  ///< a picture that keeps its proportions as it goes round and along
+    int pictures_around = 0;  ///< of a texture, which keeps its proportions as it goes round and along; 0: it wears none
+    bool stands_free = true;  ///< on no other axis
 };
 
 /// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
@@ -31,9 +32,18 @@ TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_
 /// colour changes it is the radius at least.
 std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points);
 
+/// The frame of a ring, carried along without twist.
+struct TubeFrame {
+    glm::dvec3 tangent, across;  ///< unit vectors; the texture begins at `across`
+    double along;                ///< v of the texture
+};
+
+/// Of each node; two nodes at least.
+std::vector<TubeFrame> frames_along(const TubeLine& line);
+
 struct TubeVertex {
     glm::vec3 position, normal;
-    glm::vec2 uv;        ///< once round, and metres along the axis; circumferences if it wears a texture
+    glm::vec2 uv;        ///< once round, and metres along the axis; in pictures if it wears a texture
     std::uint32_t node;  ///< of the line
 };
 
@@ -62,9 +72,11 @@ Tube sweep(const TubeLine& line, int sides, Caps caps = Caps::round);
 
 namespace espalier {
 
+using archive::frames_along;
 using archive::sweep;
 using archive::Tube;
 using archive::tube_line;
+using archive::TubeFrame;
 using archive::TubeLine;
 using archive::TubeNode;
 using archive::TubeTriangle;

@@ -1,4 +1,5 @@
 // glTF 2.0 (.glb): one frame as smooth tubes and surfaces, or several as growth, each internode and organ moving.
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
 
@@ -29,7 +30,7 @@ glm::vec4 quaternion(const glm::quat& q) {
 
 /// Every plant a node with a mesh, or with one for each piece.
 ExportedFile write_frame(const ExportJob& job, const RecordedFrame& frame) {
-    const FrameMesh mesh = mesh_of(job.run.geometry(frame), standing(job.options));
+    const FrameMesh mesh = mesh_of(job.geometry(frame), standing(job.options));
     Glb glb(job.run);
     std::vector<std::size_t> roots;
     std::size_t vertices = 0;
@@ -125,7 +126,7 @@ public:
         : job_(job), frame_(frame), glb_(job.run), meshes_(glb_) {}
 
     ExportedFile write() {
-        const RecordedGeometry geometry = job_.run.geometry(frame_);
+        const RecordedGeometry geometry = job_.geometry(frame_);
         add_wood(geometry);
         add_organs(geometry);
         std::vector<std::size_t> roots;
@@ -194,7 +195,7 @@ public:
 
     ExportedFile write() {
         for (const RecordedFrame* frame : job_.frames) {
-            nodes_.add(job_.run.geometry(*frame));
+            nodes_.add(job_.geometry(*frame));
             const double seconds = (frame->step - job_.frames.front()->step) / job_.steps_per_second;
             times_.push_back(static_cast<float>(seconds));
         }
@@ -333,6 +334,9 @@ public:
 
     void check(const ExportJob& job) const override {
         if (job.frames.size() > 1) {
+            if (job.options.skin.smooth) {
+                throw UserError("--skin smooth: things that move have shapes of their own; export one --step");
+            }
             refuse_triangles_and_split(job, "things that move have shapes of their own; export one --step");
         } else if (job.instances) {
             refuse_triangles_and_split(

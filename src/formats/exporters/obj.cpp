@@ -37,6 +37,10 @@ std::string mtl(const RecordedRun& run, const FrameMesh& mesh, TextureCopies& te
         const TextureCopy& copy = textures.copy(material.texture);
         if (!copy.name.empty()) text += "map_Kd " + copy.name + "\n";
         if (copy.is_transparent) text += "map_d " + copy.name + "\n";
+        const std::string& heights = textures.copy(material.texture, TextureMap::heights).name;
+        if (heights.empty()) continue;
+        text += "map_Bump " + heights + "\n";
+        text += "norm " + textures.copy(material.texture, TextureMap::normals).name + "\n";
     }
     return text;
 }
@@ -95,7 +99,7 @@ public:
     void write(const ExportJob& job) const override {
         TextureCopies textures(job);
         for (const RecordedFrame* frame : job.frames) {
-            const FrameMesh mesh = mesh_of(job.run.geometry(*frame), job.options);
+            const FrameMesh mesh = mesh_of(job.geometry(*frame), job.options);
             const std::vector<Object> objects = objects_of(job, mesh);
             std::size_t vertices = 0;
             for (const Object& object : objects) vertices += object.mesh.points.size();

@@ -195,7 +195,7 @@ private:
     bool is_wanted(std::uint32_t plant) const { return !job_.options.plant || *job_.options.plant == plant; }
 
     void add(const RecordedFrame& frame) {
-        const RecordedGeometry geometry = job_.run.geometry(frame);
+        const RecordedGeometry geometry = job_.geometry(frame);
         std::vector<Curves> curves(plants_.size());
         if (!job_.mesh_axes) curves = curves_of(geometry, job_);
         std::map<std::uint32_t, FrameMesh> meshes = by_plant(mesh(geometry));

@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "archive/meshes/axis_lines.h"
+#include "archive/meshes/bark.h"
 #include "picture/stage/background_scene.h"
 #include "picture/stage/colouring.h"
 #include "picture/stage/field_props.h"
@@ -36,6 +38,7 @@ namespace {
 
 constexpr Rgb bright{255, 60, 0}, ink{30, 30, 30}, chalk{235, 235, 235};
 constexpr std::size_t most_labels = 300;
+const std::string none;
 
 /// Also with what thickness its organs have.
 bool is_flat_box(const Box& box) {
@@ -48,6 +51,12 @@ bool is_flat_box(const Box& box) {
 std::string time_text(const RecordedRun& run, const RecordedFrame& frame) {
     if (run.time_unit() == "step") return fmt::format("step {}", frame.step);
     return fmt::format("{} {:.6g}", run.time_unit(), frame.time);
+}
+
+std::shared_ptr<const RecordedGeometry> dressed(const RecordedGeometry& geometry, const std::string& bark) {
+    RecordedGeometry copy = geometry;
+    dress_axes(copy, bark);
+    return std::make_shared<RecordedGeometry>(std::move(copy));
 }
 
 }  // namespace
@@ -98,13 +107,14 @@ public:
     }
 
     void show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry) {
-        geometry_ = std::move(geometry);
+        geometry_ = style_.bark.empty() ? std::move(geometry) : dressed(*geometry, style_.bark);
         frame_ = frame;
         rebuild();
     }
 
     std::shared_ptr<const RecordedGeometry> load(const RecordedFrame& frame) const {
-        if (frame_ && frame_->plants == frame.plants && !frame.plants.empty()) return geometry_;
+        const bool is_here = frame_ && frame_->plants == frame.plants && !frame.plants.empty();
+        if (is_here && style_.bark.empty()) return geometry_;
         if (frame.plants.empty()) return std::make_shared<RecordedGeometry>();
         return std::make_shared<RecordedGeometry>(run_->geometry(frame));
     }
@@ -210,6 +220,7 @@ private:
         options.triangles = static_cast<std::size_t>(std::max(0, style_.triangles));
         options.size = size();
         options.thinnest = static_cast<float>(framed_size() / 1000);
+        options.skin = style_.skin;
         std::vector<StageMesh> meshes = surfaces_of(*geometry_, options);
         std::vector<StageMesh> tubes = tubes_of(*geometry_, options);
         std::move(tubes.begin(), tubes.end(), std::back_inserter(meshes));
@@ -235,11 +246,13 @@ private:
         const std::vector<Rgb> white(colours.size(), Rgb{255, 255, 255});
         for (Part& part : parts_) {
             const auto texture = texture_worn(part.mesh);
-            // Where nobody gave a colour the picture has it.
-            const bool has_own_colours = texture && geometry_->of_points.rgb.empty();
+            // Where nobody gave a colour the picture has it; bark is only brighter and darker.
+            const std::string& file = texture ? geometry_->texture_files[part.mesh.texture] : none;
+            const bool has_own_colours = texture && geometry_->of_points.rgb.empty() && !is_bark(file);
             dress_actor(*part.actor, part.mesh,
                         {has_own_colours ? white : colours, daylight ? &*daylight : nullptr, shade, !is_flat()});
             part.actor->SetTexture(texture);
+            if (texture) add_relief(*part.actor, run_->folder(), file);
             renderer_->AddActor(part.actor);
         }
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);

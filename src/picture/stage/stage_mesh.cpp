@@ -1,8 +1,8 @@
 #include "picture/stage/stage_mesh.h"
 
-#include "archive/meshes/axis_tree.h"
+#include "archive/meshes/axis_lines.h"
+#include "archive/meshes/skin.h"
 #include "archive/meshes/surface_mesh.h"
-#include "archive/meshes/tubes.h"
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -78,19 +78,24 @@ private:
 };
 
 struct PlacedTube {
-    TubeLine line;
+    AxisLine axis;
     std::uint16_t texture = 0;
     int sides = 3;
+    std::optional<Tube> patch = std::nullopt;  ///< of a skin; none: it is still to be swept
     std::size_t first_point = 0, first_triangle = 0;
 
     // What `sweep` makes: a ring per node, and two caps with a centre each.
-    std::size_t points() const { return (line.nodes.size() + 2) * static_cast<std::size_t>(sides + 1); }
-    std::size_t triangles() const { return 2 * line.nodes.size() * static_cast<std::size_t>(sides); }
+    std::size_t points() const {
+        return patch ? patch->vertices.size() : (axis.line.nodes.size() + 2) * static_cast<std::size_t>(sides + 1);
+    }
+    std::size_t triangles() const {
+        return patch ? patch->triangles.size() : 2 * axis.line.nodes.size() * static_cast<std::size_t>(sides);
+    }
 };
 
-/// Points of outlines and other lines that are no axes.
-void add_outlines(const RecordedGeometry& geometry, const std::optional<std::uint32_t>& plant,
-                  std::vector<AxisPath>& paths) {
+/// Outlines and other lines that are no axes.
+std::vector<AxisPath> outlines(const RecordedGeometry& geometry, const std::optional<std::uint32_t>& plant) {
+    std::vector<AxisPath> paths;
     for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
         const std::size_t row = geometry.lines.first + line;
         if (geometry.of_cells.kinds[row] == Kind::axis) continue;
@@ -98,6 +103,7 @@ void add_outlines(const RecordedGeometry& geometry, const std::optional<std::uin
         const auto points = geometry.lines[line];
         paths.push_back({geometry.of_cells.plants[row], row, {points.begin(), points.end()}});
     }
+    return paths;
 }
 
 /// Enough for a round look at a thousand pixels.
@@ -107,34 +113,48 @@ double wanted_sides(const TubeLine& line, double size) {
     return std::clamp(4 + 3 * std::sqrt(1000 * radius / size), 4.0, 24.0);
 }
 
+/// The parts of a skin that belong to each axis.
+void cover(std::span<PlacedTube> tubes, const archive::AxisSkin& skin) {
+    std::vector<AxisLine> lines;
+    std::vector<int> sides;
+    for (const PlacedTube& tube : tubes) {
+        lines.push_back(tube.axis);
+        sides.push_back(tube.sides);
+    }
+    std::vector<Tube> patches = skin_of(lines, sides, skin);
+    for (std::size_t i = 0; i < tubes.size(); ++i) tubes[i].patch = std::move(patches[i]);
+}
+
 std::vector<PlacedTube> placed_tubes(const RecordedGeometry& geometry, const StageMeshOptions& options) {
     MeshOptions wanted;
     wanted.plant = options.plant;
-    std::vector<AxisPath> paths = axis_paths(geometry, wanted);
-    add_outlines(geometry, options.plant, paths);
-    std::vector<PlacedTube> tubes(paths.size());
-    tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
-        tubes[i].line = tube_line(geometry, paths[i].points, 0, options.thinnest);
-        tubes[i].texture = geometry.textures[paths[i].row];
-        tubes[i].line.wears_texture = tubes[i].texture != 0;
-    });
-    std::erase_if(tubes, [](const PlacedTube& tube) { return tube.line.nodes.size() < 2; });
+    std::vector<PlacedTube> tubes;
+    const auto add = [&](const std::vector<AxisPath>& paths) {
+        for (AxisLine& axis : axis_lines(geometry, paths, 0, options.thinnest)) {
+            const std::uint16_t texture = geometry.textures[axis.row];
+            tubes.push_back({std::move(axis), texture});
+        }
+    };
+    add(axis_paths(geometry, wanted));
+    const std::size_t axes = tubes.size();
+    add(outlines(geometry, options.plant));
     double triangles = 1;
     for (const PlacedTube& tube : tubes) {
-        triangles += 2 * static_cast<double>(tube.line.nodes.size()) * wanted_sides(tube.line, options.size);
+        triangles += 2 * static_cast<double>(tube.axis.line.nodes.size()) * wanted_sides(tube.axis.line, options.size);
     }
     const double share = std::min(1.0, static_cast<double>(options.triangles) / triangles);
     for (PlacedTube& tube : tubes) {
-        tube.sides = std::max(3, static_cast<int>(share * wanted_sides(tube.line, options.size)));
+        tube.sides = std::max(3, static_cast<int>(share * wanted_sides(tube.axis.line, options.size)));
     }
+    if (options.skin.smooth) cover(std::span(tubes).first(axes), options.skin);
     const auto by_texture = [](const PlacedTube& a, const PlacedTube& b) { return a.texture < b.texture; };
     std::stable_sort(tubes.begin(), tubes.end(), by_texture);
     return tubes;
 }
 
 void fill_tube(const PlacedTube& placed, MeshFiller& filler) {
-    const Tube tube = sweep(placed.line, placed.sides);
-    const auto row = [&](std::uint32_t node) { return static_cast<std::uint32_t>(placed.line.nodes[node].row); };
+    const Tube tube = placed.patch ? *placed.patch : sweep(placed.axis.line, placed.sides);
+    const auto row = [&](std::uint32_t node) { return static_cast<std::uint32_t>(placed.axis.line.nodes[node].row); };
     std::size_t at = placed.first_point;
     for (const TubeVertex& vertex : tube.vertices) {
         filler.set_point(at++, vertex.position, vertex.normal, vertex.uv, row(vertex.node));

@@ -1,6 +1,7 @@
 // A frame's axes and surfaces as VTK's triangles, each of which knows the row of the frame it came from.
 #pragma once
 
+#include "espalier/archive/mesh_options.h"
 #include "espalier/archive/recorded_run.h"
 
 #include <vtkPolyData.h>
@@ -27,6 +28,7 @@ struct StageMeshOptions {
     std::size_t triangles = 0;           ///< of tubes, about
     double size = 1;                     ///< of the scene: thick axes have more sides than thin ones
     float thinnest = 0.001f;             ///< radius of lines that have none, and half a pixel of those with such widths
+    archive::AxisSkin skin = {};
 };
 
 /// Axes, joined where one continues another, and outlines: a mesh for each texture.

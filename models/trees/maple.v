@@ -1,0 +1,3 @@
+/* The bark of maple.l */
+texture: F: oak.bark
+line style: cylinder

@@ -1,0 +1,26 @@
+// Options of commands that draw or write axes: their bark and how they join.
+#pragma once
+
+#include "espalier/archive/mesh_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace espalier::app {
+
+/// --bark, --skin, --blend and --voxel.
+class AxisSurfaceOptions {
+public:
+    explicit AxisSurfaceOptions(CLI::App& command);
+
+    /// Throws UserError if there is no such file, or its settings are wrong.
+    std::string bark() const;
+    archive::AxisSkin skin() const;
+
+private:
+    std::string bark_, skin_ = "tubes";
+    double blend_ = 1, voxel_ = 0;
+};
+
+}  // namespace espalier::app

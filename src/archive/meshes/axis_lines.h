@@ -1,0 +1,33 @@
+// The axes of a frame as lines that are ready to be swept or to be covered by a skin.
+#pragma once
+
+#include "archive/meshes/axis_tree.h"
+#include "archive/meshes/tubes.h"
+
+#include <span>
+#include <vector>
+
+namespace espalier::archive {
+
+struct AxisLine {
+    TubeLine line;  ///< two nodes at least
+    std::uint32_t plant;
+    std::size_t row;  ///< of `of_cells`: of the axis it begins with
+};
+
+/// As `tube_line` makes them, with as many pictures of their textures around as fit the thickest axis of their plant.
+std::vector<AxisLine> axis_lines(const RecordedGeometry& geometry, std::span<const AxisPath> paths, double tolerance,
+                                 float thinnest);
+
+/// Puts a texture on all axes that wear none.
+void dress_axes(RecordedGeometry& geometry, const std::string& texture);
+
+}  // namespace espalier::archive
+
+namespace espalier {
+
+using archive::axis_lines;
+using archive::AxisLine;
+using archive::dress_axes;
+
+}  // namespace espalier

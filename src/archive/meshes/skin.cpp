@@ -1,0 +1,276 @@
+#include "archive/meshes/skin.h"
+
+#include "espalier/base/error.h"
+
+#include "archive/meshes/limb_level_set.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace espalier::archive {
+namespace {
+
+constexpr double thinnest_in_voxels = 1.5;                        // a limb's radius
+constexpr double voxels_of_thinnest = 4, voxels_of_thickest = 40;  // at most
+constexpr double wanted_quads = 150'000, most_quads = 8'000'000;
+
+/// How many nodes of a line, from its first on, are thick enough for the level set; 0 if fewer than 2.
+std::size_t thick_nodes(const TubeLine& line, double voxel) {
+    std::size_t count = 0;
+    while (count < line.nodes.size() && line.nodes[count].radius >= thinnest_in_voxels * voxel) ++count;
+    return count < 2 ? 0 : count;
+}
+
+double quads_at(std::span<const AxisLine> lines, double voxel) {
+    double area = 0;
+    for (const AxisLine& axis : lines) {
+        const std::vector<TubeNode>& nodes = axis.line.nodes;
+        for (std::size_t i = 1; i < thick_nodes(axis.line, voxel); ++i) {
+            area += std::numbers::pi * (double(nodes[i - 1].radius) + nodes[i].radius) *
+                    glm::distance(nodes[i - 1].position, nodes[i].position);
+        }
+    }
+    return area / (voxel * voxel);
+}
+
+/// The first of `voxel` and what is coarser that gives no more than so many.
+double coarse_enough(std::span<const AxisLine> lines, double voxel, double quads) {
+    while (quads_at(lines, voxel) > quads) voxel *= 1.1;
+    return voxel;
+}
+
+/// A plant's lines, their pieces and its surface.
+class Skin {
+public:
+    Skin(std::span<const AxisLine> lines, const std::vector<std::size_t>& members, double blend, double voxel)
+        : lines_(lines), members_(members), voxel_(voxel), limbs_(pieces(), blend) {}
+
+    /// Adds a patch to each of the plant's tubes.
+    void cover(std::vector<Tube>& tubes) {
+        if (limbs_.pieces().empty()) return;
+        patches_.resize(members_.size());
+        set_.emplace(limbs_, voxel_);
+        mesh_ = set_->mesh();
+        for (const glm::dvec3& point : mesh_.points) owners_.push_back(limb_nearest_to(point));
+        for (const auto& triangle : std::exchange(mesh_.triangles, {})) cut(triangle);
+        for (std::uint32_t limb = 0; limb < members_.size(); ++limb) add_patch(limb, tubes[members_[limb]]);
+    }
+
+private:
+    using Triangle = std::array<std::uint32_t, 3>;
+    using Nearest = LimbUnion::Nearest;
+
+    const TubeLine& line(std::uint32_t limb) const { return lines_[members_[limb]].line; }
+
+    std::vector<LimbPiece> pieces() const {
+        std::vector<LimbPiece> all;
+        for (std::uint32_t limb = 0; limb < members_.size(); ++limb) {
+            const std::vector<TubeNode>& nodes = line(limb).nodes;
+            for (std::uint32_t i = 1; i < thick_nodes(line(limb), voxel_); ++i) {
+                all.push_back({nodes[i - 1].position, nodes[i].position, nodes[i - 1].radius, nodes[i].radius, limb, i,
+                               i == 1 && line(limb).stands_free});
+            }
+        }
+        return all;
+    }
+
+    std::uint32_t limb_nearest_to(const glm::dvec3& point) {
+        limbs_.nearest(point, set_->near(point), found_);
+        const auto closer = [](const Nearest& a, const Nearest& b) { return a.at.distance < b.at.distance; };
+        const auto best = std::min_element(found_.begin(), found_.end(), closer);
+        return best == found_.end() ? 0 : limbs_.pieces()[best->piece].limb;
+    }
+
+    /// The nearest piece of a limb, which need not matter there.
+    Nearest nearest_of(std::uint32_t limb, const glm::dvec3& point) {
+        limbs_.nearest(point, set_->near(point), found_);
+        for (const Nearest& here : found_) {
+            if (limbs_.pieces()[here.piece].limb == limb) return here;
+        }
+        std::vector<std::uint32_t> own;
+        for (std::uint32_t i = 0; i < limbs_.pieces().size(); ++i) {
+            if (limbs_.pieces()[i].limb == limb) own.push_back(i);
+        }
+        limbs_.nearest(point, own, found_);
+        return found_.front();
+    }
+
+    std::uint32_t add_point(const glm::dvec3& position, const glm::dvec3& normal) {
+        mesh_.points.push_back(position);
+        mesh_.normals.push_back(glm::normalize(normal));
+        return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+    }
+
+    /// Where an edge between two limbs is as far from one as from the other; the same for both its triangles.
+    std::uint32_t cut_of(std::uint32_t a, std::uint32_t b) {
+        if (a > b) std::swap(a, b);
+        const auto [at, is_new] = cuts_.emplace(std::uint64_t{a} << 32 | b, 0);
+        if (!is_new) return at->second;
+        const auto lead = [&](std::uint32_t vertex) {
+            const glm::dvec3 point = mesh_.points[vertex];
+            return nearest_of(owners_[b], point).at.distance - nearest_of(owners_[a], point).at.distance;
+        };
+        const double here = std::max(0.0, lead(a)), there = std::max(0.0, -lead(b));
+        const double share = here + there > 0 ? std::clamp(here / (here + there), 0.05, 0.95) : 0.5;
+        return at->second = add_point(mesh_.points[a] + share * (mesh_.points[b] - mesh_.points[a]),
+                                      mesh_.normals[a] + share * (mesh_.normals[b] - mesh_.normals[a]));
+    }
+
+    // Between limbs, so that the textures of two meet in a line.
+    void cut(const Triangle& t) {
+        const auto owner = [&](std::size_t k) { return owners_[t[k % 3]]; };
+        if (owner(0) == owner(1) && owner(1) == owner(2)) return keep(owner(0), t);
+        if (owner(0) != owner(1) && owner(1) != owner(2) && owner(2) != owner(0)) return cut_in_three(t);
+        std::size_t lone = 0;
+        while (owner(lone + 1) != owner(lone + 2)) ++lone;
+        const std::uint32_t a = t[lone], b = t[(lone + 1) % 3], c = t[(lone + 2) % 3];
+        const std::uint32_t ab = cut_of(a, b), ac = cut_of(a, c);
+        keep(owners_[a], {a, ab, ac});
+        keep(owners_[b], {ab, b, c});
+        keep(owners_[b], {ab, c, ac});
+    }
+
+    void cut_in_three(const Triangle& t) {
+        glm::dvec3 middle(0), normal(0);
+        for (const std::uint32_t corner : t) {
+            middle += mesh_.points[corner] / 3.0;
+            normal += mesh_.normals[corner];
+        }
+        const std::uint32_t centre = add_point(middle, normal);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t here = t[k], ahead = cut_of(here, t[(k + 1) % 3]), behind = cut_of(t[(k + 2) % 3], here);
+            keep(owners_[here], {here, ahead, centre});
+            keep(owners_[here], {here, centre, behind});
+        }
+    }
+
+    void keep(std::uint32_t limb, const Triangle& triangle) { patches_[limb].push_back(triangle); }
+
+    /// Where a point of the surface lies on a limb's texture, and the node whose attributes it has.
+    struct Place {
+        glm::dvec2 uv;
+        std::uint32_t node;
+    };
+
+    Place place_on(std::uint32_t limb, const std::vector<TubeFrame>& frames, const glm::dvec3& point) {
+        const Nearest nearest = nearest_of(limb, point);
+        const LimbPiece& piece = limbs_.pieces()[nearest.piece];
+        const TubeFrame &from = frames[piece.node - 1], &to = frames[piece.node];
+        const double share = nearest.at.share;
+        const glm::dvec3 centre = piece.base + share * (piece.tip - piece.base), off = point - centre;
+        const glm::dvec3 across = from.across + share * (to.across - from.across);
+        const glm::dvec3 left = glm::cross(from.tangent + share * (to.tangent - from.tangent), across);
+        const double turn = std::atan2(glm::dot(off, left), glm::dot(off, across)) / (2 * std::numbers::pi);
+        const double around = std::max(1, line(limb).pictures_around);
+        double along = from.along + share * (to.along - from.along);
+        const bool is_beyond = (share == 0 && piece.node == 1) || (share == 1 && piece.node + 1 == frames.size());
+        if (is_beyond) {
+            const double metres = glm::dot(off, glm::normalize(piece.tip - piece.base));
+            const bool is_textured = line(limb).pictures_around > 0;
+            along += is_textured ? metres * around / (2 * std::numbers::pi * nearest.at.radius) : metres;
+        }
+        return {{around * (turn < 0 ? turn + 1 : turn), along}, piece.node};
+    }
+
+    void add_patch(std::uint32_t limb, Tube& tube) {
+        if (patches_[limb].empty()) return;
+        const std::vector<TubeFrame> frames = frames_along(line(limb));
+        const double around = std::max(1, line(limb).pictures_around);
+        std::unordered_map<std::uint32_t, Place> places;
+        std::map<std::pair<std::uint32_t, bool>, std::uint32_t> numbers;  // with those beyond the texture's seam
+        for (const Triangle& triangle : patches_[limb]) {
+            std::array<Place, 3> at{};
+            double farthest = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [known, is_new] = places.try_emplace(triangle[k]);
+                if (is_new) known->second = place_on(limb, frames, mesh_.points[triangle[k]]);
+                at[k] = known->second;
+                farthest = std::max(farthest, at[k].uv.x);
+            }
+            TubeTriangle made{{}, at[0].node};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const bool is_beyond = farthest - at[k].uv.x > around / 2;
+                const auto next = static_cast<std::uint32_t>(tube.vertices.size());
+                const auto [number, is_new] = numbers.try_emplace({triangle[k], is_beyond}, next);
+                made.corners[k] = number->second;
+                if (!is_new) continue;
+                const glm::dvec2 uv(at[k].uv.x + (is_beyond ? around : 0), at[k].uv.y);
+                tube.vertices.push_back({glm::vec3(mesh_.points[triangle[k]]), glm::vec3(mesh_.normals[triangle[k]]),
+                                         glm::vec2(uv), at[k].node});
+            }
+            tube.triangles.push_back(made);
+        }
+    }
+
+    std::span<const AxisLine> lines_;
+    const std::vector<std::size_t>& members_;
+    double voxel_;
+    LimbUnion limbs_;
+    std::optional<LimbLevelSet> set_;
+    LimbMesh mesh_;
+    std::vector<std::uint32_t> owners_;  ///< of the level set's points: the nearest limb
+    std::unordered_map<std::uint64_t, std::uint32_t> cuts_;
+    std::vector<std::vector<Triangle>> patches_;  ///< of each limb
+    std::vector<Nearest> found_;
+};
+
+/// What is too thin for the level set; it begins inside.
+void add_thin_rest(const TubeLine& line, int sides, double voxel, Tube& tube) {
+    const std::size_t thick = thick_nodes(line, voxel), first = thick == 0 ? 0 : thick - 1;
+    if (first + 1 == line.nodes.size()) return;
+    TubeLine rest = line;
+    rest.nodes.erase(rest.nodes.begin(), rest.nodes.begin() + static_cast<std::ptrdiff_t>(first));
+    Tube swept = sweep(rest, sides);
+    const auto origin = static_cast<std::uint32_t>(tube.vertices.size());
+    for (TubeVertex& vertex : swept.vertices) {
+        vertex.node += static_cast<std::uint32_t>(first);
+        tube.vertices.push_back(vertex);
+    }
+    for (TubeTriangle& triangle : swept.triangles) {
+        for (std::uint32_t& corner : triangle.corners) corner += origin;
+        triangle.node += static_cast<std::uint32_t>(first);
+        tube.triangles.push_back(triangle);
+    }
+}
+
+}  // namespace
+
+double skin_voxel(std::span<const AxisLine> lines, const AxisSkin& skin) {
+    if (skin.voxel > 0) {
+        const double quads = quads_at(lines, skin.voxel);
+        if (quads <= most_quads) return skin.voxel;
+        throw UserError(fmt::format(
+            "--voxel {:g}: the skin would have about {:.0f} million triangles; the smallest voxel is {:.3g} m",
+            skin.voxel, 2e-6 * quads, coarse_enough(lines, skin.voxel, most_quads)));
+    }
+    if (lines.empty()) return 1;
+    double thinnest = std::numeric_limits<double>::infinity(), thickest = 0;
+    for (const AxisLine& axis : lines) {
+        for (const TubeNode& node : axis.line.nodes) {
+            thinnest = std::min(thinnest, double(node.radius));
+            thickest = std::max(thickest, double(node.radius));
+        }
+    }
+    return coarse_enough(lines, std::max(thinnest / voxels_of_thinnest, thickest / voxels_of_thickest), wanted_quads);
+}
+
+std::vector<Tube> skin_of(std::span<const AxisLine> lines, std::span<const int> sides, const AxisSkin& skin) {
+    const double voxel = skin_voxel(lines, skin);
+    std::map<std::uint32_t, std::vector<std::size_t>> members;
+    for (std::size_t i = 0; i < lines.size(); ++i) members[lines[i].plant].push_back(i);
+    std::vector<Tube> tubes(lines.size());
+    for (const auto& [plant, own] : members) Skin(lines, own, skin.blend, voxel).cover(tubes);
+    for (std::size_t i = 0; i < lines.size(); ++i) add_thin_rest(lines[i].line, sides[i], voxel, tubes[i]);
+    return tubes;
+}
+
+}  // namespace espalier::archive
