@@ -67,10 +67,10 @@ void normalise(std::vector<float>& values) {
     for (float& value : values) value = static_cast<float>((value - mean) / deviation);
 }
 
-/// A tooth from 0 to 1 and back for each whole number.
+/// A tooth from 0 to 1 and back for each whole number, with a blunt top: ridges are wider than furrows.
 double saw(double t) {
-    const double part = t - std::floor(t);
-    return 1 - std::abs(2 * part - 1);
+    const double down = std::abs(2 * (t - std::floor(t)) - 1);
+    return 1 - down * down;
 }
 
 HeightMap grown(const Bark& bark) {

@@ -22,10 +22,10 @@ int pictures_around(const std::string& texture, float radius, float thickest);
 /// One picture of bark, which continues itself at all four sides.
 struct Bark {
     int stripes = 10;         ///< from side to side
-    double waviness = 0.3;    ///< standard deviation of the noise that moves stripes, in stripes
-    double roughness = 0.05;  ///< of the noise that is added to their height, as a share of it
+    double waviness = 0.25;   ///< standard deviation of the noise that moves stripes, in stripes
+    double roughness = 0.04;  ///< of the noise that is added to their height, as a share of it
     double depth = 0.03;      ///< from ridges to cracks, as a share of the picture's width
-    double darkness = 0.75;   ///< of cracks; 0: as bright as ridges
+    double darkness = 0.55;   ///< of cracks; 0: as bright as ridges
     int size = 512;           ///< pixels along a side
     std::uint64_t seed = 1;
     std::optional<std::filesystem::path> heights;  ///< a picture whose brightness is the height, instead of the above

@@ -54,7 +54,7 @@ double LimbUnion::distance(std::span<const Nearest> limbs) const {
         for (std::size_t k = i + 1; k < limbs.size(); ++k) {
             const LimbDistance &a = limbs[i].at, &b = limbs[k].at;
             const double parallel = std::max(0.0, glm::dot(a.gradient, b.gradient));
-            const double width = blend_ * std::min(a.radius, b.radius) * (1 - parallel * parallel);
+            const double width = blend_ * std::min(a.radius, b.radius) * (1 - parallel * parallel * parallel * parallel);
             const double overlap = width - std::abs(a.distance - b.distance);
             if (overlap <= 0) continue;
             least = std::min(least, std::min(a.distance, b.distance) - overlap * overlap / (4 * width));

@@ -14,8 +14,8 @@ struct LimbPiece {
     glm::dvec3 base, tip;
     double base_radius, tip_radius;
     std::uint32_t limb;
-    std::uint32_t node;       ///< of the limb's line, where it ends
-    bool flat_base = false;   ///< cut off at `base`, so that it stands on a plane
+    std::uint32_t node;      ///< of the limb's curve, where it ends
+    bool flat_base = false;  ///< cut off at `base`, so that it stands on a plane
 };
 
 /// A point and the ball of a piece whose surface is nearest, on the outside or the inside.

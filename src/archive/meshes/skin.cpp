@@ -48,11 +48,55 @@ double coarse_enough(std::span<const AxisLine> lines, double voxel, double quads
     return voxel;
 }
 
+/// The thick part of a line as a smooth curve through its nodes.
+struct Limb {
+    TubeLine curve;
+    std::vector<std::uint32_t> node_of;  ///< the line's node that ends the piece in which a node of the curve lies
+    std::vector<TubeFrame> frames;       ///< of the curve
+};
+
+/// Between two nodes: a cubic with their tangents (Hermite).
+glm::dvec3 on_curve(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& tangent_a, const glm::dvec3& tangent_b,
+                    double t) {
+    const double length = glm::distance(a, b), u = 1 - t;
+    return u * u * (1 + 2 * t) * a + t * t * (3 - 2 * t) * b + length * t * u * (u * tangent_a - t * tangent_b);
+}
+
+Limb limb_of(const TubeLine& line, double voxel) {
+    constexpr double bend_of_piece = 0.1;  // radians
+    const std::vector<TubeNode>& nodes = line.nodes;
+    const std::size_t count = thick_nodes(line, voxel);
+    Limb limb{line, {}, {}};
+    limb.curve.nodes.clear();
+    if (count == 0) return limb;
+    const std::vector<TubeFrame> frames = frames_along(line);
+    const auto bend = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+    };
+    limb.curve.nodes.push_back(nodes.front());
+    limb.node_of.push_back(1);
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const glm::dvec3 a = nodes[i - 1].position, b = nodes[i].position, along = glm::normalize(b - a);
+        const glm::dvec3 &before = frames[i - 1].tangent, &behind = frames[i].tangent;
+        const double turns = bend(before, along) + bend(along, behind);
+        const int pieces = std::clamp(static_cast<int>(std::ceil(turns / bend_of_piece)), 1, 32);
+        for (int k = 1; k <= pieces; ++k) {
+            const double t = static_cast<double>(k) / pieces;
+            const double radius = nodes[i - 1].radius + t * (double(nodes[i].radius) - nodes[i - 1].radius);
+            const glm::vec3 place = k == pieces ? nodes[i].position : glm::vec3(on_curve(a, b, before, behind, t));
+            limb.curve.nodes.push_back({place, static_cast<float>(radius), nodes[i].row});
+            limb.node_of.push_back(i);
+        }
+    }
+    limb.frames = frames_along(limb.curve);
+    return limb;
+}
+
 /// A plant's lines, their pieces and its surface.
 class Skin {
 public:
     Skin(std::span<const AxisLine> lines, const std::vector<std::size_t>& members, double blend, double voxel)
-        : lines_(lines), members_(members), voxel_(voxel), limbs_(pieces(), blend) {}
+        : members_(members), voxel_(voxel), curves_(curves(lines)), limbs_(pieces(), blend) {}
 
     /// Adds a patch to each of the plant's tubes.
     void cover(std::vector<Tube>& tubes) {
@@ -69,15 +113,19 @@ private:
     using Triangle = std::array<std::uint32_t, 3>;
     using Nearest = LimbUnion::Nearest;
 
-    const TubeLine& line(std::uint32_t limb) const { return lines_[members_[limb]].line; }
+    std::vector<Limb> curves(std::span<const AxisLine> lines) const {
+        std::vector<Limb> all;
+        for (const std::size_t member : members_) all.push_back(limb_of(lines[member].line, voxel_));
+        return all;
+    }
 
     std::vector<LimbPiece> pieces() const {
         std::vector<LimbPiece> all;
-        for (std::uint32_t limb = 0; limb < members_.size(); ++limb) {
-            const std::vector<TubeNode>& nodes = line(limb).nodes;
-            for (std::uint32_t i = 1; i < thick_nodes(line(limb), voxel_); ++i) {
+        for (std::uint32_t limb = 0; limb < curves_.size(); ++limb) {
+            const std::vector<TubeNode>& nodes = curves_[limb].curve.nodes;
+            for (std::uint32_t i = 1; i < nodes.size(); ++i) {
                 all.push_back({nodes[i - 1].position, nodes[i].position, nodes[i - 1].radius, nodes[i].radius, limb, i,
-                               i == 1 && line(limb).stands_free});
+                               i == 1 && curves_[limb].curve.stands_free});
             }
         }
         return all;
@@ -155,36 +203,41 @@ private:
 
     void keep(std::uint32_t limb, const Triangle& triangle) { patches_[limb].push_back(triangle); }
 
-    /// Where a point of the surface lies on a limb's texture, and the node whose attributes it has.
+    /// Where a point of the surface lies on a limb's texture, and the line's node whose attributes it has.
     struct Place {
         glm::dvec2 uv;
         std::uint32_t node;
     };
 
-    Place place_on(std::uint32_t limb, const std::vector<TubeFrame>& frames, const glm::dvec3& point) {
-        const Nearest nearest = nearest_of(limb, point);
-        const LimbPiece& piece = limbs_.pieces()[nearest.piece];
-        const TubeFrame &from = frames[piece.node - 1], &to = frames[piece.node];
-        const double share = nearest.at.share;
-        const glm::dvec3 centre = piece.base + share * (piece.tip - piece.base), off = point - centre;
+    // Planes across the curve's nodes, not the nearest point, so that the texture stretches evenly in bends.
+    Place place_on(const Limb& limb, std::uint32_t end, const glm::dvec3& point) const {
+        const std::vector<TubeNode>& nodes = limb.curve.nodes;
+        const auto ahead = [&](std::uint32_t node) {
+            return glm::dot(point - glm::dvec3(nodes[node].position), limb.frames[node].tangent);
+        };
+        while (end > 1 && ahead(end - 1) < 0) --end;
+        while (end + 1 < nodes.size() && ahead(end) > 0) ++end;
+        const TubeFrame &from = limb.frames[end - 1], &to = limb.frames[end];
+        const double passed = ahead(end - 1), left_over = -ahead(end);
+        const double share = std::clamp(passed / std::max(1e-12, passed + left_over), 0.0, 1.0);
+        const glm::dvec3 base = nodes[end - 1].position, tip = nodes[end].position;
+        const glm::dvec3 off = point - (base + share * (tip - base));
         const glm::dvec3 across = from.across + share * (to.across - from.across);
         const glm::dvec3 left = glm::cross(from.tangent + share * (to.tangent - from.tangent), across);
         const double turn = std::atan2(glm::dot(off, left), glm::dot(off, across)) / (2 * std::numbers::pi);
-        const double around = std::max(1, line(limb).pictures_around);
-        double along = from.along + share * (to.along - from.along);
-        const bool is_beyond = (share == 0 && piece.node == 1) || (share == 1 && piece.node + 1 == frames.size());
-        if (is_beyond) {
-            const double metres = glm::dot(off, glm::normalize(piece.tip - piece.base));
-            const bool is_textured = line(limb).pictures_around > 0;
-            along += is_textured ? metres * around / (2 * std::numbers::pi * nearest.at.radius) : metres;
-        }
-        return {{around * (turn < 0 ? turn + 1 : turn), along}, piece.node};
+        const double beyond = passed < 0 ? passed : std::max(0.0, -left_over);  // on a rounded end
+        const double picture = limb.curve.pictures_around == 0
+                                   ? 1
+                                   : 2 * std::numbers::pi * nodes[passed < 0 ? end - 1 : end].radius / limb.curve.pictures_around;
+        const double around = std::max(1, limb.curve.pictures_around);
+        return {{around * (turn < 0 ? turn + 1 : turn), from.along + share * (to.along - from.along) + beyond / picture},
+                limb.node_of[end]};
     }
 
     void add_patch(std::uint32_t limb, Tube& tube) {
         if (patches_[limb].empty()) return;
-        const std::vector<TubeFrame> frames = frames_along(line(limb));
-        const double around = std::max(1, line(limb).pictures_around);
+        const Limb& curve = curves_[limb];
+        const double around = std::max(1, curve.curve.pictures_around);
         std::unordered_map<std::uint32_t, Place> places;
         std::map<std::pair<std::uint32_t, bool>, std::uint32_t> numbers;  // with those beyond the texture's seam
         for (const Triangle& triangle : patches_[limb]) {
@@ -192,7 +245,10 @@ private:
             double farthest = 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [known, is_new] = places.try_emplace(triangle[k]);
-                if (is_new) known->second = place_on(limb, frames, mesh_.points[triangle[k]]);
+                if (is_new) {
+                    const glm::dvec3& point = mesh_.points[triangle[k]];
+                    known->second = place_on(curve, limbs_.pieces()[nearest_of(limb, point).piece].node, point);
+                }
                 at[k] = known->second;
                 farthest = std::max(farthest, at[k].uv.x);
             }
@@ -211,9 +267,9 @@ private:
         }
     }
 
-    std::span<const AxisLine> lines_;
     const std::vector<std::size_t>& members_;
     double voxel_;
+    std::vector<Limb> curves_;  ///< of each member
     LimbUnion limbs_;
     std::optional<LimbLevelSet> set_;
     LimbMesh mesh_;
