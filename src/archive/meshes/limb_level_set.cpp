@@ -59,7 +59,7 @@ bool prune(Block& block, const LimbUnion& limbs, double voxel) {
         const double of_limb = least_of.at(piece.limb);
         if (block.distances[i] > of_limb + 2 * slack || of_limb > least + 2 * slack + limbs.reach(piece)) continue;
         kept.push_back(block.pieces[i]);
-        deepest = std::max(deepest, limbs.reach(piece) / 4);
+        deepest = std::max(deepest, limbs.reach(piece) / 6);
     }
     block.pieces = std::move(kept);
     block.distances = {};
@@ -152,7 +152,7 @@ struct LimbLevelSet::Body {
             const openvdb::Coord at = leaf->offsetToGlobalCoord(i);
             const glm::dvec3 point = origin + voxel * glm::dvec3(at.x(), at.y(), at.z());
             limbs.nearest(point, block.pieces, found);
-            const auto distance = static_cast<float>(limbs.distance(found));
+            const auto distance = static_cast<float>(limbs.distance(point, found));
             if (std::abs(distance) < background) {
                 leaf->setValueOn(i, distance);
             } else {
@@ -181,9 +181,9 @@ struct LimbLevelSet::Body {
                                          std::vector<LimbUnion::Nearest>& found) const {
         const auto distance = [&](const glm::dvec3& at) {
             limbs.nearest(at, pieces, found);
-            return limbs.distance(found);
+            return limbs.distance(at, found);
         };
-        const double step = 0.05 * voxel;
+        const double step = 0.2 * voxel;
         glm::dvec3 gradient(0);
         for (int axis = 0; axis < 3; ++axis) {
             glm::dvec3 off(0);

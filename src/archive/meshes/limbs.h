@@ -13,27 +13,27 @@ namespace espalier::archive {
 struct LimbPiece {
     glm::dvec3 base, tip;
     double base_radius, tip_radius;
-    std::uint32_t limb;
-    std::uint32_t node;      ///< of the limb's curve, where it ends
-    bool flat_base = false;  ///< cut off at `base`, so that it stands on a plane
+    std::uint32_t limb, node;              ///< its limb, and the node of the limb's curve where it ends
+    glm::dvec3 base_tangent, tip_tangent;  ///< of the curve, unit vectors
+    bool is_first = true, is_last = true;  ///< of its limb
+    bool is_flat = false;                  ///< cut off at `base`, to stand on a plane
 };
 
-/// A point and the ball of a piece whose surface is nearest, on the outside or the inside.
+/// The ball of a piece whose surface is nearest to a point.
 struct LimbDistance {
-    double distance;      ///< negative inside
-    glm::dvec3 gradient;  ///< the unit vector from the ball's centre
-    double radius;        ///< of the ball
-    double share;         ///< where its centre lies between base (0) and tip (1)
+    double distance;  ///< from its surface, negative inside
+    double share;     ///< where its centre lies between base (0) and tip (1)
 };
 
 LimbDistance distance_to(const LimbPiece& piece, const glm::dvec3& point);
 
-/// The union of limbs. Pieces of one limb meet as they are. Two limbs are joined by a quadratic smooth minimum (Quilez
-/// 2013) whose width is `blend` times the smaller radius where their surfaces meet at a right angle or an opening of
-/// less, and falls to 0 where they are parallel, so that nothing bulges on the far side of a fork (after Gourmel et al.
+/// The union of limbs. Pieces of one limb meet as they are. Two limbs are joined by a cubic smooth minimum (Quilez
+/// 2013), which fills a right angle about as a fillet of `blend` times the radius of the thinner limb does. Where
+/// surfaces are parallel nothing is filled, so that nothing bulges on the far side of a fork (after Gourmel et al.
 /// 2013). The order of limbs does not matter.
 class LimbUnion {
 public:
+    /// The pieces of a limb follow each other, from its first to its last.
     LimbUnion(std::vector<LimbPiece> pieces, double blend) : pieces_(std::move(pieces)), blend_(blend) {}
 
     const std::vector<LimbPiece>& pieces() const { return pieces_; }
@@ -43,14 +43,22 @@ public:
     /// The nearest piece of one limb.
     struct Nearest {
         std::uint32_t piece;
-        LimbDistance at;
+        double distance;
     };
     /// Of each limb that has pieces among `near`, in the order of limbs, into `found`. `near` is sorted.
     void nearest(const glm::dvec3& point, std::span<const std::uint32_t> near, std::vector<Nearest>& found) const;
-    /// The distance from the union's surface, roughly: exact where one limb is alone.
-    double distance(std::span<const Nearest> limbs) const;
+    /// The distance from the union's surface, roughly: exact where one limb is alone. `limbs` are those `nearest` finds.
+    double distance(const glm::dvec3& point, std::span<const Nearest> limbs) const;
 
 private:
+    /// Where the direction away from a limb starts, and how thick the limb is there.
+    struct Outward {
+        glm::dvec3 direction;
+        double radius;
+    };
+    Outward outward_at(std::uint32_t piece, const glm::dvec3& point) const;
+    double fill(const glm::dvec3& point, const Nearest& a, const Nearest& b) const;
+
     std::vector<LimbPiece> pieces_;
     double blend_;
 };

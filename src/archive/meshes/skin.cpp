@@ -124,7 +124,9 @@ private:
         for (std::uint32_t limb = 0; limb < curves_.size(); ++limb) {
             const std::vector<TubeNode>& nodes = curves_[limb].curve.nodes;
             for (std::uint32_t i = 1; i < nodes.size(); ++i) {
+                const std::vector<TubeFrame>& frames = curves_[limb].frames;
                 all.push_back({nodes[i - 1].position, nodes[i].position, nodes[i - 1].radius, nodes[i].radius, limb, i,
+                               frames[i - 1].tangent, frames[i].tangent, i == 1, i + 1 == nodes.size(),
                                i == 1 && curves_[limb].curve.stands_free});
             }
         }
@@ -133,7 +135,7 @@ private:
 
     std::uint32_t limb_nearest_to(const glm::dvec3& point) {
         limbs_.nearest(point, set_->near(point), found_);
-        const auto closer = [](const Nearest& a, const Nearest& b) { return a.at.distance < b.at.distance; };
+        const auto closer = [](const Nearest& a, const Nearest& b) { return a.distance < b.distance; };
         const auto best = std::min_element(found_.begin(), found_.end(), closer);
         return best == found_.end() ? 0 : limbs_.pieces()[best->piece].limb;
     }
@@ -165,7 +167,7 @@ private:
         if (!is_new) return at->second;
         const auto lead = [&](std::uint32_t vertex) {
             const glm::dvec3 point = mesh_.points[vertex];
-            return nearest_of(owners_[b], point).at.distance - nearest_of(owners_[a], point).at.distance;
+            return nearest_of(owners_[b], point).distance - nearest_of(owners_[a], point).distance;
         };
         const double here = std::max(0.0, lead(a)), there = std::max(0.0, -lead(b));
         const double share = here + there > 0 ? std::clamp(here / (here + there), 0.05, 0.95) : 0.5;
