@@ -99,6 +99,7 @@ section "Trees"
 system honda "Two branches" "Honda 1971" models/trees/honda.l
 system aono "Constant angles" "Aono & Kunii 1984" models/trees/aono-kunii.l
 system oppenheimer "Fractal tree" "Oppenheimer 1986" models/trees/oppenheimer.l
+system maple "Bark, saddles and roots" "Bloomenthal 1985" models/trees/maple.l --view models/trees/maple.v -- --skin smooth
 system particles "Structured particles" "Reeves & Blau 1985" models/trees/structured-particles.l
 system amap "Buds that die, rest or grow" "de Reffye et al. 1988" models/trees/buds.l
 system viennot "Ramification matrix" "Viennot et al. 1989" models/trees/ramification.l

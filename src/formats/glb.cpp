@@ -96,7 +96,8 @@ std::size_t Glb::material(const MeshMaterial& look) {
         surface["baseColorTexture"] = {{"index", *number}};
         if (cut_out_.contains(*number) && recorded.opacity == 1) material["alphaMode"] = "MASK";
     }
-    if (const auto number = texture(look.texture, TextureMap::normals)) material["normalTexture"] = {{"index", *number}};
+    if (const auto number = texture(look.texture, TextureMap::normals))
+        material["normalTexture"] = {{"index", *number}};
     material["pbrMetallicRoughness"] = std::move(surface);
     materials_.push_back(std::move(material));
     return material_number_[look] = materials_.size() - 1;

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <cstring>
 #include <filesystem>
+#include <map>
 
 namespace {
 
@@ -189,4 +192,76 @@ TEST_CASE("the formats are listed with what each carries and loses", "[export]")
     const Outcome outcome = place.run("list exporters rsml");
     CHECK(outcome.code == 0);
     CHECK(outcome.out.find("Lost:") != std::string::npos);
+}
+
+namespace {
+
+using StlPoint = std::array<float, 3>;
+
+std::vector<std::array<StlPoint, 3>> triangles_of_stl(const std::filesystem::path& file) {
+    const std::string bytes = text_of(file);
+    std::vector<std::array<StlPoint, 3>> triangles((bytes.size() - 84) / 50);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        std::memcpy(&triangles[i], bytes.data() + 84 + 50 * i + 12, sizeof triangles[i]);
+    }
+    return triangles;
+}
+
+/// Half the extent along x of what lies between two heights.
+float half_width(const std::vector<std::array<StlPoint, 3>>& triangles, float low, float high) {
+    float least = 1e9f, most = -1e9f;
+    for (const auto& triangle : triangles) {
+        for (const StlPoint& point : triangle) {
+            if (point[1] < low || point[1] > high) continue;
+            least = std::min(least, point[0]);
+            most = std::max(most, point[0]);
+        }
+    }
+    return (most - least) / 2;
+}
+
+}  // namespace
+
+TEST_CASE("the skin of the maple is closed and flares at its foot", "[export]") {
+    const Workplace place;
+    const std::string model = std::string(ESPALIER_SOURCE_DIR) + "/models/trees/maple.l";
+    REQUIRE(place.run("run '" + model + "' --define THINNEST=0.15 --output run --quiet").code == 0);
+    REQUIRE(place.run("export run --format stl --skin smooth --voxel 0.03 --output maple.stl --quiet").code == 0);
+    const auto triangles = triangles_of_stl(place.path() / "maple.stl");
+    REQUIRE(triangles.size() > 10000);
+    std::map<std::pair<StlPoint, StlPoint>, int> edges;
+    for (const auto& triangle : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const StlPoint &a = triangle[k], &b = triangle[(k + 1) % 3];
+            edges[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    CHECK(std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; }));
+    const float above = half_width(triangles, 1.3f, 1.4f);
+    CHECK(above == Approx(0.315f).epsilon(0.1));
+    CHECK(half_width(triangles, 0.4f, 0.5f) > 1.1f * above);
+    CHECK(half_width(triangles, 0.1f, 0.2f) > 2 * above);
+}
+
+TEST_CASE("export gives axes bark that nobody drew, and refuses what is none", "[export]") {
+    const RunPlace place;
+    place.write("oak.bark", "stripes = 6\nsize = 32\n");
+    CHECK(place.run("export run --format obj,usd --bark oak.bark --output made --quiet").code == 0);
+    for (const char* file : {"made/bush-oak.png", "made/bush-oak-normal.png", "made/bush-oak-height.png"}) {
+        CHECK(exists(place, file));
+    }
+    CHECK(text_of(place.path() / "made/bush-0005.mtl").find("map_Bump bush-oak-height.png") != std::string::npos);
+    CHECK(text_of(place.path() / "made/bush.usda").find("inputs:normal.connect") != std::string::npos);
+    const auto complaint = [&](const std::string& options) {
+        const Outcome outcome = place.run("export run --format gltf " + options);
+        CHECK(outcome.code == 1);
+        return outcome.err;
+    };
+    CHECK(complaint("--bark none.bark").find("none.bark") != std::string::npos);
+    CHECK(complaint("--bark bush.l").find("ends in .bark") != std::string::npos);
+    place.write("wrong.bark", "stripes = 6\nsise = 32\n");
+    CHECK(complaint("--bark wrong.bark").find("wrong.bark:2") != std::string::npos);
+    CHECK(complaint("--skin smooth --triangles 100").find("a larger --voxel") != std::string::npos);
+    CHECK(complaint("--skin smooth --voxel 1e-7").find("the smallest voxel is") != std::string::npos);
+    CHECK(complaint("--skin smooth --step all").find("export one --step") != std::string::npos);
 }

@@ -82,7 +82,8 @@ TEST_CASE("bark continues itself at all sides, is the same for the same seed and
     float inside = 0, across = 0;
     for (std::size_t y = 0; y < 128; ++y) {
         for (std::size_t x = 0; x < 128; ++x) {
-            const float step = std::max(std::abs(map.at(x + 1, y) - map.at(x, y)), std::abs(map.at(x, y + 1) - map.at(x, y)));
+            const float step =
+                std::max(std::abs(map.at(x + 1, y) - map.at(x, y)), std::abs(map.at(x, y + 1) - map.at(x, y)));
             float& most = x == 127 || y == 127 ? across : inside;
             most = std::max(most, step);
         }

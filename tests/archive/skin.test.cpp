@@ -9,12 +9,12 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
-#include <tbb/global_control.h>
 
 using namespace espalier;
 using namespace espalier::archive;
@@ -142,7 +142,8 @@ std::size_t intersections(const Whole& whole) {
         }
     }
     for (const auto& [a, b] : pairs) {
-        for (std::size_t k = 0; k < 3; ++k) found += pierces(whole.corner(a, k), whole.corner(a, (k + 1) % 3), whole, b);
+        for (std::size_t k = 0; k < 3; ++k)
+            found += pierces(whole.corner(a, k), whole.corner(a, (k + 1) % 3), whole, b);
     }
     return found;
 }
@@ -227,7 +228,8 @@ TEST_CASE("nothing bulges where limbs go on beside each other", "[skin]") {
     const Whole whole(covered(fork(40, 0.09f, 0.09f), {true, 1, 0.01}));
     double farthest = 0;
     for (const glm::dvec3& point : whole.points) {
-        if (point.y > 1.02 && point.y < 1.2 && std::abs(point.x) < 0.02) farthest = std::max(farthest, std::abs(point.z));
+        if (point.y > 1.02 && point.y < 1.2 && std::abs(point.x) < 0.02)
+            farthest = std::max(farthest, std::abs(point.z));
     }
     CHECK(farthest < 0.12 * 1.02);
     CHECK(farthest > 0.08);
@@ -353,6 +355,7 @@ TEST_CASE("a voxel is chosen for the thinnest limb and for a surface that fits m
     wide.push_back(axis({{0, 0, 0}, {0, 1000, 0}}, {0.5f}));
     const double coarse = skin_voxel(wide, {true});
     CHECK(2 * std::numbers::pi * 0.5 * 1000 / (coarse * coarse) < 150'000);
-    CHECK_THROWS_WITH(skin_voxel(axes, {true, 1, 1e-5}), Contains("--voxel 1e-05") && Contains("the smallest voxel is"));
+    CHECK_THROWS_WITH(skin_voxel(axes, {true, 1, 1e-5}),
+                      Contains("--voxel 1e-05") && Contains("the smallest voxel is"));
     CHECK_THROWS_AS(skin_voxel(axes, {true, 1, 1e-5}), UserError);
 }

@@ -236,3 +236,71 @@ TEST_CASE("an OBJ reads back by the letter, with the colours of its settings and
     const ObjFile wood(ExportedPlant(branched_plant(), "obj").files.at(0).path);
     CHECK(glm::distance(wood.materials.at("rgb_7a5c3e").colour, glm::dvec3(122, 92, 62) / 255.0) < 1e-6);
 }
+
+namespace {
+
+/// branched_plant() in bark of a file of settings.
+HandmadePlant barked_plant(const TemporaryFolder& folder) {
+    HandmadePlant plant = branched_plant();
+    plant.interpretation.geometry.shapes = square_leaf(folder.write("oak.bark", "stripes = 4\nsize = 32\n"));
+    plant.interpretation.geometry.textures.assign(plant.interpretation.geometry.internodes.size(), 1);
+    return plant;
+}
+
+}  // namespace
+
+TEST_CASE("bark goes with what is exported: its colours and its relief", "[export]") {
+    const TemporaryFolder folder;
+    const HandmadePlant plant = barked_plant(folder);
+
+    const nlohmann::json json = json_of_glb(bytes_of(ExportedPlant(plant, "gltf").files.at(0).path));
+    REQUIRE(json["materials"].size() == 1);
+    const nlohmann::json& material = json["materials"][0];
+    const int relief = material["normalTexture"]["index"];
+    CHECK(relief != material["pbrMetallicRoughness"]["baseColorTexture"]["index"]);
+    CHECK(json["textures"].size() == 2);
+    CHECK(json["images"].size() == 2);
+    // Bark is brighter and darker than wood, whose colour stays.
+    CHECK(material["name"] == "rgb_7a5c3e_oak");
+
+    const ExportedPlant obj(plant, "obj");
+    const std::filesystem::path beside = obj.files.at(0).path.parent_path();
+    CHECK_THAT(bytes_of(beside / "handmade-0000.mtl"),
+               Contains("map_Kd handmade-oak.png\nmap_Bump handmade-oak-height.png\nnorm handmade-oak-normal.png\n"));
+    for (const char* file : {"handmade-oak.png", "handmade-oak-height.png", "handmade-oak-normal.png"}) {
+        vtkNew<vtkPNGReader> reader;
+        reader->SetFileName((beside / file).c_str());
+        reader->Update();
+        CHECK(reader->GetOutput()->GetDimensions()[0] == 32);
+    }
+
+    const ExportedPlant usd(plant, "usd", [](ExportJob& job) { job.mesh_axes = true; });
+    const std::string text = bytes_of(usd.files.at(0).path);
+    CHECK_THAT(text, Contains("normal3f inputs:normal.connect = </world/materials/texture_0/relief.outputs:rgb>") &&
+                         Contains("asset inputs:file = @./handmade-oak-normal.png@") &&
+                         Contains("token inputs:sourceColorSpace = \"raw\""));
+    CHECK(std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}'));
+}
+
+TEST_CASE("axes that wear nothing can be given bark; a smooth skin has the colours and groups of tubes", "[export]") {
+    const TemporaryFolder folder;
+    const std::string bark = folder.write("oak.bark", "size = 32\n");
+    const auto in_bark = [&](bool is_smooth) {
+        return ExportedPlant(branched_plant(), "obj", [&](ExportJob& job) {
+            job.bark = bark;
+            job.options.skin.smooth = is_smooth;
+        });
+    };
+    const ExportedPlant tubes_file = in_bark(false), skin_file = in_bark(true);
+    const ObjFile tubes(tubes_file.files.at(0).path), skin(skin_file.files.at(0).path);
+    std::set<std::string> of_tubes, of_skin;
+    for (const ObjFile::Face& face : tubes.faces) of_tubes.insert(face.group + face.material);
+    for (const ObjFile::Face& face : skin.faces) of_skin.insert(face.group + face.material);
+    CHECK(of_tubes == of_skin);
+    for (const auto& [name, material] : skin.materials) {
+        const bool is_wood = name.find("_oak_") != std::string::npos;
+        CHECK(material.picture == (is_wood ? "handmade-oak.png" : ""));
+    }
+    CHECK(skin.faces.size() > tubes.faces.size());
+    for (const glm::dvec3& normal : skin.normals) CHECK(glm::length(normal) == Approx(1).epsilon(1e-5));
+}

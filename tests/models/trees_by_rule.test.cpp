@@ -312,3 +312,21 @@ TEST_CASE("vigour: the more the straight axis is favoured, the taller and narrow
         slenderness = box.upper.y / width;
     }
 }
+
+TEST_CASE("maple: the areas of two limbs add up to that of their parent", "[trees]") {
+    LonePlant tree("models/trees/maple.l");
+    tree.grow(5);
+    const PlantGeometry& geometry = tree.interpretation.geometry;
+    int forks = 0;
+    const auto children = children_of(geometry);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        if (children[i].size() != 2) continue;
+        double area = 0;
+        for (const std::size_t child : children[i]) {
+            area += geometry.internodes[child].base_radius * geometry.internodes[child].base_radius;
+        }
+        CHECK(area == Approx(geometry.internodes[i].tip_radius * geometry.internodes[i].tip_radius));
+        ++forks;
+    }
+    CHECK(forks == 31);
+}

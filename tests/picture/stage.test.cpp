@@ -2,6 +2,7 @@
 #include "picture/stage/stage.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include "picture/pictures.h"
 #include "picture/stage/legend.h"
@@ -307,4 +308,41 @@ TEST_CASE("stage: names that a run has not are told with the nearest", "[picture
     CHECK(names.front() == "natural");
     CHECK(std::count(names.begin(), names.end(), "light") == 1);
     CHECK(std::count(names.begin(), names.end(), "vigour") == 1);
+}
+
+TEST_CASE("stage: light shows the relief of bark, and a smooth skin fills the fork", "[pictures]") {
+    if (!can_draw()) return;
+    HandmadePlant plant = stem(0, 0, 0);
+    plant.add_internode(3, 1, 1, 1, 1, {0, 1, 0}, {1, 2, 0}, 0);
+    for (Internode& internode : plant.interpretation.geometry.internodes) {
+        internode.base_radius = internode.tip_radius = 0.2;
+    }
+    const RunFolder folder;
+    const auto differing = [&](const PictureStyle& a, const PictureStyle& b) {
+        Pictured pictured({&plant});
+        const auto first = pictured.picture(a), second = pictured.picture(b);
+        int count = 0;
+        for (int x = 0; x < Pictured::width; ++x) {
+            for (int y = 0; y < Pictured::height; ++y) count += pixel_at(*first, x, y) != pixel_at(*second, x, y);
+        }
+        return count;
+    };
+    const auto barked = [&](const char* name, const std::string& settings) {
+        PictureStyle style = Pictured::plain();
+        style.bark = (folder.path / name).string();
+        write_text(style.bark, settings);
+        return style;
+    };
+    // Of equal brightness: what differs is the light on what rises and falls.
+    const PictureStyle flat = barked("flat.bark", "depth = 0\ndarkness = 0\nsize = 64\n");
+    const PictureStyle deep = barked("deep.bark", "depth = 0.1\ndarkness = 0\nsize = 64\n");
+    CHECK(differing(flat, flat) == 0);
+    CHECK(differing(flat, deep) > 500);
+    PictureStyle smooth = Pictured::plain();
+    smooth.skin.smooth = true;
+    CHECK(differing(Pictured::plain(), smooth) > 50);
+    Pictured pictured({&plant});
+    const glm::dvec3 in_the_fork(0.25, 1.57, 0);
+    CHECK(is_white(pictured.seen(*pictured.picture(), in_the_fork)));
+    CHECK_FALSE(is_white(pictured.seen(*pictured.picture(smooth), in_the_fork)));
 }

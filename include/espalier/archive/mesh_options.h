@@ -9,8 +9,8 @@ namespace espalier::archive {
 /// How thick axes join: as tubes that run into each other, or as one smooth surface.
 struct AxisSkin {
     bool smooth = false;
-    double blend = 1;  ///< radius of the fillet between two axes, in radii of the thinner; 0: sharp joints
-    double voxel = 0;  ///< metres between vertices; 0: chosen. Axes thinner than 1.5 voxels stay tubes
+    double blend = 1.5;  ///< radius of the fillet between two axes, in radii of the thinner; 0: sharp joints
+    double voxel = 0;    ///< metres between vertices; 0: chosen. Axes thinner than 1.5 voxels stay tubes
 };
 
 struct MeshOptions {

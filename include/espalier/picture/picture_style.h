@@ -45,7 +45,7 @@ struct PictureStyle {
     bool textures = true;
     std::string bark;        ///< the texture of axes that wear none: a file; "": none
     archive::AxisSkin skin;  ///< of axes
-    bool legend = true;  ///< colour bars of arrays and fields
+    bool legend = true;      ///< colour bars of arrays and fields
     bool scale_bar = false;
     bool time_label = false;
     bool time_beneath = false;  ///< the time in the middle of the lower edge

@@ -20,7 +20,7 @@ public:
 
 private:
     std::string bark_, skin_ = "tubes";
-    double blend_ = 1, voxel_ = 0;
+    double blend_ = 1.5, voxel_ = 0;
 };
 
 }  // namespace espalier::app

@@ -33,7 +33,8 @@ MeshFileOptions::MeshFileOptions(CLI::App& command, const std::string& sides_nam
     command.add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
     command.add_flag("--mesh-axes", mesh_axes_,
                      fmt::format("usd: axes as meshes, with {} and textures, and not as curves; "
-                                 "--bark and --skin smooth imply it", sides_name));
+                                 "--bark and --skin smooth imply it",
+                                 sides_name));
     command.add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
     axes_.emplace(command);
     command.option_defaults()->group(before);

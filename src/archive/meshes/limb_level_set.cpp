@@ -21,8 +21,8 @@ namespace {
 using Leaf = openvdb::FloatTree::LeafNodeType;
 using BlockPlace = std::array<int, 3>;
 
-constexpr double half_band = 3;                          // voxels
-constexpr int block_width = 8;                           // voxels of a leaf
+constexpr double half_band = 3;                         // voxels
+constexpr int block_width = 8;                          // voxels of a leaf
 const double block_radius = 5.5 * std::numbers::sqrt3;  // voxels around its centre, with those between two blocks
 
 struct PlaceHash {

@@ -74,7 +74,8 @@ double LimbUnion::fill(const glm::dvec3& point, const Nearest& a, const Nearest&
     if (apart >= std::min(reach(pieces_[a.piece]), reach(pieces_[b.piece]))) return 0;
     const Outward from_a = outward_at(a.piece, point), from_b = outward_at(b.piece, point);
     const double parallel = std::max(0.0, glm::dot(from_a.direction, from_b.direction));
-    const double thinner = std::numbers::sqrt2 * from_a.radius * from_b.radius / std::hypot(from_a.radius, from_b.radius);
+    const double thinner =
+        std::numbers::sqrt2 * from_a.radius * from_b.radius / std::hypot(from_a.radius, from_b.radius);
     const double width = width_by_fillet * blend_ * thinner * (1 - parallel * parallel * parallel * parallel);
     if (apart >= width) return 0;
     const double overlap = 1 - apart / width;
@@ -86,8 +87,7 @@ double LimbUnion::distance(const glm::dvec3& point, std::span<const Nearest> lim
     for (std::size_t i = 0; i < limbs.size(); ++i) {
         least = std::min(least, limbs[i].distance);
         for (std::size_t k = 0; blend_ > 0 && k < i; ++k) {
-            least = std::min(least,
-                             std::min(limbs[i].distance, limbs[k].distance) - fill(point, limbs[i], limbs[k]));
+            least = std::min(least, std::min(limbs[i].distance, limbs[k].distance) - fill(point, limbs[i], limbs[k]));
         }
     }
     return least;

@@ -47,7 +47,8 @@ public:
     };
     /// Of each limb that has pieces among `near`, in the order of limbs, into `found`. `near` is sorted.
     void nearest(const glm::dvec3& point, std::span<const std::uint32_t> near, std::vector<Nearest>& found) const;
-    /// The distance from the union's surface, roughly: exact where one limb is alone. `limbs` are those `nearest` finds.
+    /// The distance from the union's surface, roughly: exact where one limb is alone. `limbs` are those `nearest`
+    /// finds.
     double distance(const glm::dvec3& point, std::span<const Nearest> limbs) const;
 
 private:

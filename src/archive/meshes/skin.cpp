@@ -19,7 +19,7 @@
 namespace espalier::archive {
 namespace {
 
-constexpr double thinnest_in_voxels = 1.5;                        // a limb's radius
+constexpr double thinnest_in_voxels = 1.5;                         // a limb's radius
 constexpr double voxels_of_thinnest = 4, voxels_of_thickest = 40;  // at most
 constexpr double wanted_quads = 150'000, most_quads = 8'000'000;
 
@@ -197,7 +197,8 @@ private:
         }
         const std::uint32_t centre = add_point(middle, normal);
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t here = t[k], ahead = cut_of(here, t[(k + 1) % 3]), behind = cut_of(t[(k + 2) % 3], here);
+            const std::uint32_t here = t[k], ahead = cut_of(here, t[(k + 1) % 3]),
+                                behind = cut_of(t[(k + 2) % 3], here);
             keep(owners_[here], {here, ahead, centre});
             keep(owners_[here], {here, centre, behind});
         }
@@ -228,12 +229,14 @@ private:
         const glm::dvec3 left = glm::cross(from.tangent + share * (to.tangent - from.tangent), across);
         const double turn = std::atan2(glm::dot(off, left), glm::dot(off, across)) / (2 * std::numbers::pi);
         const double beyond = passed < 0 ? passed : std::max(0.0, -left_over);  // on a rounded end
-        const double picture = limb.curve.pictures_around == 0
-                                   ? 1
-                                   : 2 * std::numbers::pi * nodes[passed < 0 ? end - 1 : end].radius / limb.curve.pictures_around;
+        const double picture =
+            limb.curve.pictures_around == 0
+                ? 1
+                : 2 * std::numbers::pi * nodes[passed < 0 ? end - 1 : end].radius / limb.curve.pictures_around;
         const double around = std::max(1, limb.curve.pictures_around);
-        return {{around * (turn < 0 ? turn + 1 : turn), from.along + share * (to.along - from.along) + beyond / picture},
-                limb.node_of[end]};
+        return {
+            {around * (turn < 0 ? turn + 1 : turn), from.along + share * (to.along - from.along) + beyond / picture},
+            limb.node_of[end]};
     }
 
     void add_patch(std::uint32_t limb, Tube& tube) {

@@ -11,9 +11,9 @@
 
 namespace espalier::archive {
 
-/// The voxel that `skin` asks for. If it asks for none, a quarter of the thinnest radius, but no smaller than a fortieth
-/// of the thickest, nor than what gives a surface of 300,000 triangles. Throws UserError if there would be more than
-/// 16 million.
+/// The voxel that `skin` asks for. If it asks for none, a quarter of the thinnest radius, but no smaller than a
+/// fortieth of the thickest, nor than what gives a surface of 300,000 triangles. Throws UserError if there would be
+/// more than 16 million.
 double skin_voxel(std::span<const AxisLine> lines, const AxisSkin& skin);
 
 /// A patch for each line: the part of its plant's surface that is nearest to it, textured as a tube is, and a tube of

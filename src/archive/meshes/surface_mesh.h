@@ -49,8 +49,8 @@ inline glm::vec3 upright(const glm::vec3& v, char up) {
 /// The colour of a row, as the plant's colour map said; where none did, brown wood and green organs.
 Rgb colour_of(const RecordedAttributes& attributes, std::size_t row);
 
-/// Tubes or skin, and surfaces, of the plants asked for. Throws RunError beyond 2^31 vertices, UserError as `skin_voxel`
-/// does. `triangles` says nothing about a skin.
+/// Tubes or skin, and surfaces, of the plants asked for. Throws RunError beyond 2^31 vertices, UserError as
+/// `skin_voxel` does. `triangles` says nothing about a skin.
 FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options);
 /// The tubes alone.
 FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options);

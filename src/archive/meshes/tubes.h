@@ -18,7 +18,8 @@ struct TubeNode {
 
 struct TubeLine {
     std::vector<TubeNode> nodes;
-    int pictures_around = 0;  ///< of a texture, which keeps its proportions as it goes round and along; 0: it wears none
+    int pictures_around =
+        0;  ///< of a texture, which keeps its proportions as it goes round and along; 0: it wears none
     bool stands_free = true;  ///< on no other axis
 };
 
