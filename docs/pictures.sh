@@ -70,9 +70,9 @@ for plant in grass fern daisy palm spruce agave tree bush; do
 done
 grow maple models/trees/maple.l --view models/trees/maple.v --every 1000
 render maple.png maple --size 380x380 --skin smooth
-grow fork models/trees/maple.l --view models/trees/maple.v --define THINNEST=0.25 --define ROOTS=0 --every 1000
-render fork-tubes.png fork --size 380x380 --zoom 2 --no-ground
-render fork-skin.png fork --size 380x380 --zoom 2 --no-ground --skin smooth
+grow fork models/trees/maple.l --view models/trees/maple.v --define THINNEST=0.2 --define ROOTS=0 --every 1000
+render fork-tubes.png fork --size 380x380 --azimuth 60 --elevation 5 --zoom 1.5 --no-ground
+render fork-skin.png fork --size 380x380 --azimuth 60 --elevation 5 --zoom 1.5 --no-ground --skin smooth
 species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a large tree takes gigabytes
     grow "species-$1" "models/species/$1.species" --colour-map models/plants.map --every 1000 "${@:2}"
     render "species-$1.png" "species-$1" --size 300x300

@@ -2,10 +2,10 @@
 #include "picture/stage/stage.h"
 
 #include "espalier/base/error.h"
-#include "espalier/base/file.h"
 
 #include "picture/pictures.h"
 #include "picture/stage/legend.h"
+#include "temporary_folder.h"
 
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
@@ -317,7 +317,7 @@ TEST_CASE("stage: light shows the relief of bark, and a smooth skin fills the fo
     for (Internode& internode : plant.interpretation.geometry.internodes) {
         internode.base_radius = internode.tip_radius = 0.2;
     }
-    const RunFolder folder;
+    const TemporaryFolder folder;
     const auto differing = [&](const PictureStyle& a, const PictureStyle& b) {
         Pictured pictured({&plant});
         const auto first = pictured.picture(a), second = pictured.picture(b);
@@ -329,8 +329,7 @@ TEST_CASE("stage: light shows the relief of bark, and a smooth skin fills the fo
     };
     const auto barked = [&](const char* name, const std::string& settings) {
         PictureStyle style = Pictured::plain();
-        style.bark = (folder.path / name).string();
-        write_text(style.bark, settings);
+        style.bark = folder.write(name, settings);
         return style;
     };
     // Of equal brightness: what differs is the light on what rises and falls.

@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <unordered_map>
+#include <utility>
 
 namespace espalier::archive {
 namespace {
@@ -120,7 +122,7 @@ struct LimbLevelSet::Body {
             for (int y = lower[1]; y <= upper[1]; ++y) {
                 for (int z = lower[2]; z <= upper[2]; ++z) {
                     const BlockPlace place{x, y, z};
-                    const double distance = distance_to(piece, centre_of(place)).distance;
+                    const double distance = distance_to(piece, centre_of(place));
                     if (distance > most) continue;
                     const auto [at, is_new] = number_at.emplace(place, blocks.size());
                     if (is_new) blocks.push_back({place, {}, {}});

@@ -21,7 +21,7 @@ double positive(double x, double softness) {
 
 }  // namespace
 
-LimbDistance distance_to(const LimbPiece& piece, const glm::dvec3& point) {
+double distance_to(const LimbPiece& piece, const glm::dvec3& point) {
     const glm::dvec3 axis = piece.tip - piece.base, from_base = point - piece.base;
     const double length = glm::length(axis);
     const glm::dvec3 along = axis / length;
@@ -32,7 +32,7 @@ LimbDistance distance_to(const LimbPiece& piece, const glm::dvec3& point) {
     double centre = taper > 0 ? 0 : length;
     if (std::abs(taper) < 1) centre = std::clamp(ahead - aside * taper / std::sqrt(1 - taper * taper), 0.0, length);
     const double distance = std::hypot(ahead - centre, aside) - piece.base_radius + centre * taper;
-    return {piece.is_flat ? std::max(distance, -ahead) : distance, centre / length};
+    return piece.is_flat ? std::max(distance, -ahead) : distance;
 }
 
 double LimbUnion::reach(const LimbPiece& piece) const {
@@ -43,7 +43,7 @@ void LimbUnion::nearest(const glm::dvec3& point, std::span<const std::uint32_t> 
                         std::vector<Nearest>& found) const {
     found.clear();
     for (const std::uint32_t number : near) {
-        const double here = distance_to(pieces_[number], point).distance;
+        const double here = distance_to(pieces_[number], point);
         if (found.empty() || pieces_[found.back().piece].limb != pieces_[number].limb) {
             found.push_back({number, here});
         } else if (here < found.back().distance) {

@@ -19,13 +19,8 @@ struct LimbPiece {
     bool is_flat = false;                  ///< cut off at `base`, to stand on a plane
 };
 
-/// The ball of a piece whose surface is nearest to a point.
-struct LimbDistance {
-    double distance;  ///< from its surface, negative inside
-    double share;     ///< where its centre lies between base (0) and tip (1)
-};
-
-LimbDistance distance_to(const LimbPiece& piece, const glm::dvec3& point);
+/// From the piece's surface, negative inside.
+double distance_to(const LimbPiece& piece, const glm::dvec3& point);
 
 /// The union of limbs. Pieces of one limb meet as they are. Two limbs are joined by a cubic smooth minimum (Quilez
 /// 2013), which fills a right angle about as a fillet of `blend` times the radius of the thinner limb does. Where

@@ -105,7 +105,7 @@ ReliefImages relief_images(const fs::path& run, const std::string& file) {
     if (places.empty()) return {};
     const Bark bark = read_bark(places.front());
     const HeightMap map = heights_of(bark);
-    return {image_of(normals_of(bark, map)), image_of(grey_of(map)), bark.depth};
+    return {image_of(normals_of(bark, map)), image_of(grey_of(map))};
 }
 
 }  // namespace espalier::archive

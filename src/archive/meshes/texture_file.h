@@ -19,7 +19,6 @@ vtkSmartPointer<vtkImageData> texture_image(const std::filesystem::path& run, co
 struct ReliefImages {
     vtkSmartPointer<vtkImageData> normals;  ///< of tangent space; null where a texture is flat, as all but bark are
     vtkSmartPointer<vtkImageData> heights;  ///< grey
-    double depth = 0;                       ///< from white to black, as a share of the picture's width
 };
 ReliefImages relief_images(const std::filesystem::path& run, const std::string& file);
 
