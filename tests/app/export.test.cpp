@@ -251,7 +251,7 @@ TEST_CASE("export gives axes bark that nobody drew, and refuses what is none", "
         CHECK(exists(place, file));
     }
     CHECK(text_of(place.path() / "made/bush-0005.mtl").find("map_Bump bush-oak-height.png") != std::string::npos);
-    CHECK(text_of(place.path() / "made/bush.usda").find("inputs:normal.connect") != std::string::npos);
+    CHECK(text_of(place.path() / "made/bush-0005.usda").find("inputs:normal.connect") != std::string::npos);
     const auto complaint = [&](const std::string& options) {
         const Outcome outcome = place.run("export run --format gltf " + options);
         CHECK(outcome.code == 1);

@@ -313,7 +313,7 @@ TEST_CASE("stage: names that a run has not are told with the nearest", "[picture
 TEST_CASE("stage: light shows the relief of bark, and a smooth skin fills the fork", "[pictures]") {
     if (!can_draw()) return;
     HandmadePlant plant = stem(0, 0, 0);
-    plant.add_internode(3, 1, 1, 1, 1, {0, 1, 0}, {1, 2, 0}, 0);
+    plant.add_internode(3, 1, 1, 1, 1, {0, 1, 0}, {1, 2, 0.3}, 0);
     for (Internode& internode : plant.interpretation.geometry.internodes) {
         internode.base_radius = internode.tip_radius = 0.2;
     }
@@ -337,11 +337,14 @@ TEST_CASE("stage: light shows the relief of bark, and a smooth skin fills the fo
     const PictureStyle deep = barked("deep.bark", "depth = 0.1\ndarkness = 0\nsize = 64\n");
     CHECK(differing(flat, flat) == 0);
     CHECK(differing(flat, deep) > 500);
+    const HandmadePlant unlit = stem(0, 0, 0);  // flat drawings have no light
+    Pictured flat_drawing({&unlit});
+    CHECK_FALSE(is_white(flat_drawing.seen(*flat_drawing.picture(deep), {0, 1, 0})));
     PictureStyle smooth = Pictured::plain();
     smooth.skin.smooth = true;
     CHECK(differing(Pictured::plain(), smooth) > 50);
     Pictured pictured({&plant});
-    const glm::dvec3 in_the_fork(0.25, 1.57, 0);
+    const glm::dvec3 in_the_fork(0.24, 1.58, 0.07);
     CHECK(is_white(pictured.seen(*pictured.picture(), in_the_fork)));
     CHECK_FALSE(is_white(pictured.seen(*pictured.picture(smooth), in_the_fork)));
 }

@@ -252,7 +252,7 @@ private:
             dress_actor(*part.actor, part.mesh,
                         {has_own_colours ? white : colours, daylight ? &*daylight : nullptr, shade, !is_flat()});
             part.actor->SetTexture(texture);
-            if (texture) add_relief(*part.actor, run_->folder(), file);
+            if (texture && !is_flat()) add_relief(*part.actor, run_->folder(), file);
             renderer_->AddActor(part.actor);
         }
         if (style_.ground && !is_flat()) add_ground(daylight ? &*daylight : nullptr);
