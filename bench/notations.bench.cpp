@@ -21,7 +21,7 @@ std::shared_ptr<const CompiledModel> compiled(const std::string& model) {
 }
 
 std::string model_of_graph() {
-    return language::translated(*notation_of("head.pgraph"), graph, "head.pgraph");
+    return language::translated(*notation_of("head.pgraph"), graph, "head.pgraph").text;
 }
 
 void grow(benchmark::State& state, const std::shared_ptr<const CompiledModel>& model) {

@@ -18,7 +18,7 @@ public:
     }
 
     int run() override {
-        const std::string model = language::translated(file_);
+        const std::string model = language::translated(file_).text;
         if (output_.empty()) {
             fmt::print("{}", model);
         } else {

@@ -1,6 +1,7 @@
 #include "espalier/language/model_settings.h"
 
 #include "espalier/base/file.h"
+#include "espalier/language/notation.h"
 
 #include "base/text.h"
 #include "language/definitions.h"
@@ -31,16 +32,19 @@ std::string ModelSetting::what_is_allowed() const {
 }
 
 ModelSettings ModelSettings::read(const std::filesystem::path& model, const Defines& defines) {
-    return read_text(espalier::read_text(model), model.string(), model.parent_path(), defines);
+    if (notation_of(model)) {
+        return read_text(translated(model), model.string(), model.parent_path(), defines);
+    }
+    return read_text({espalier::read_text(model)}, model.string(), model.parent_path(), defines);
 }
 
 ModelSettings ModelSettings::parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                                    const Defines& defines) {
-    return read_text(std::string(text), name, folder, defines);
+    return read_text({std::string(text)}, name, folder, defines);
 }
 
-ModelSettings ModelSettings::read_text(std::string text, const std::string& name, const std::filesystem::path& folder,
-                                       const Defines& defines) {
+ModelSettings ModelSettings::read_text(TranslatedText text, const std::string& name,
+                                       const std::filesystem::path& folder, const Defines& defines) {
     Sources sources;
     Mistakes mistakes(sources);
     const auto contents = std::make_shared<Contents>();

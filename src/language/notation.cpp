@@ -16,12 +16,12 @@ const NotationType* notation_of(const std::filesystem::path& path) {
     return nullptr;
 }
 
-std::string translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path) {
+TranslatedText translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path) {
     require_text(text, path.string());
     return notation.translate(with_plain_lines(text), path);
 }
 
-std::string translated(const std::filesystem::path& path) {
+TranslatedText translated(const std::filesystem::path& path) {
     if (const NotationType* notation = notation_of(path)) return translated(*notation, read_text(path), path);
     std::string extensions;
     for (const auto& [name, known] : registered<NotationType>()) extensions += " " + known->extension;

@@ -17,10 +17,10 @@
 namespace espalier::language {
 namespace {
 
-std::shared_ptr<const Model> read(std::string text, const std::string& name, const std::filesystem::path& path,
+std::shared_ptr<const Model> read(TranslatedText text, const std::string& name, const std::filesystem::path& path,
                                   const std::filesystem::path& folder, const ReadOptions& options) {
-    require_text(text, name);
-    const std::optional<std::string> other = language::other_language(text, path);
+    require_text(text.text, name);
+    const std::optional<std::string> other = language::other_language(text.text, path);
     language::Sources sources;
     language::Mistakes mistakes(sources);
     const auto model = std::make_shared<Model>();
@@ -50,14 +50,14 @@ std::shared_ptr<const Model> read(std::string text, const std::string& name, con
 
 std::shared_ptr<const Model> read_model(const std::filesystem::path& path, const ReadOptions& options) {
     if (notation_of(path)) {
-        return read(translated(path), path.string() + ", translated", path, path.parent_path(), options);
+        return read(translated(path), path.string(), path, path.parent_path(), options);
     }
-    return read(read_text(path), path.string(), path, path.parent_path(), options);
+    return read({read_text(path)}, path.string(), path, path.parent_path(), options);
 }
 
 std::shared_ptr<const Model> read_model_text(std::string_view text, const std::string& name,
                                              const std::filesystem::path& folder, const ReadOptions& options) {
-    return read(std::string(text), name, {}, folder, options);
+    return read({std::string(text)}, name, {}, folder, options);
 }
 
 }  // namespace espalier::language

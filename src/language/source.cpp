@@ -1,11 +1,19 @@
 #include "language/source.h"
 
+#include "base/excerpt.h"
+
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace espalier::language {
 
 std::uint32_t Sources::add(std::string name, std::string text) {
-    File file{std::move(name), std::move(text), {0}};
+    return add(std::move(name), TranslatedText{std::move(text)});
+}
+
+std::uint32_t Sources::add(std::string name, TranslatedText translated) {
+    File file{std::move(name), std::move(translated.text), {0}, std::move(translated.origins)};
     for (std::size_t i = 0; i < file.text.size(); ++i) {
         if (file.text[i] == '\n') file.line_starts.push_back(i + 1);
     }
@@ -13,8 +21,25 @@ std::uint32_t Sources::add(std::string name, std::string text) {
     return static_cast<std::uint32_t>(files_.size() - 1);
 }
 
+Place Sources::origin(Location location) const {
+    const std::vector<TranslatedText::Origin>& origins = files_[location.file].origins;
+    const auto behind =
+        std::upper_bound(origins.begin(), origins.end(), location, [](Location at, const TranslatedText::Origin& each) {
+            return std::pair(at.line, at.column) < std::pair(each.line, each.column);
+        });
+    return behind == origins.begin() ? Place{} : std::prev(behind)->place;
+}
+
 Place Sources::place(Location location) const {
-    return {files_[location.file].name, location.line, location.column};
+    if (const Place written = origin(location); written.known()) return written;
+    const File& file = files_[location.file];
+    const bool is_of_translation = !file.origins.empty() && location.line > 0;
+    return {file.name + (is_of_translation ? ", translated" : ""), location.line, location.column};
+}
+
+std::string Sources::line_at_place(Location location) const {
+    const Place written = origin(location);
+    return written.known() ? source_line(written) : line(location);
 }
 
 std::string Sources::line(Location location) const {
@@ -87,7 +112,7 @@ std::vector<Diagnostic> Mistakes::sorted(std::vector<SyntaxError> found, Diagnos
     std::vector<Diagnostic> diagnostics;
     for (SyntaxError& mistake : found) {
         diagnostics.push_back(
-            {severity, sources_.place(mistake.at), std::move(mistake.message), sources_.line(mistake.at)});
+            {severity, sources_.place(mistake.at), std::move(mistake.message), sources_.line_at_place(mistake.at)});
     }
     return diagnostics;
 }

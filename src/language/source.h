@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/error.h"
+#include "espalier/language/notation.h"
 
 #include <compare>
 #include <cstdint>
@@ -24,18 +25,26 @@ struct Location {
 class Sources {
 public:
     std::uint32_t add(std::string name, std::string text);
+    /// One that was translated: what has an origin is placed there, and the rest in the translation.
+    std::uint32_t add(std::string name, TranslatedText text);
     const std::string& name(std::uint32_t file) const { return files_[file].name; }
     const std::string& text(std::uint32_t file) const { return files_[file].text; }
     Place place(Location location) const;
-    /// The line of text a location stands in, as its author wrote it.
+    /// The line of text a location stands in.
     std::string line(Location location) const;
+    /// The line at its place, which of a translated file is one of the notation.
+    std::string line_at_place(Location location) const;
 
 private:
     struct File {
         std::string name;
         std::string text;
         std::vector<std::size_t> line_starts;
+        std::vector<TranslatedText::Origin> origins;
     };
+    /// Where the author of a translated file wrote it; not known for all others.
+    Place origin(Location location) const;
+
     std::vector<File> files_;
 };
 

@@ -20,7 +20,7 @@ constexpr int steps = 3;
 
 std::optional<std::string> translation(const NotationType& notation, const std::string& text) {
     try {
-        return language::translated(notation, text, "plant" + notation.extension);
+        return language::translated(notation, text, "plant" + notation.extension).text;
     } catch (const UserError& error) {
         for (const Diagnostic& mistake : error.diagnostics()) {
             const bool is_bytes = mistake.message.find("is a binary file") != std::string::npos;

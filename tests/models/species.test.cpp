@@ -20,7 +20,8 @@ struct GrownSpecies {
     PlantGeometry geometry;
 
     explicit GrownSpecies(const std::string& lines)
-        : model(read_model_text(registered<NotationType>().at("species")->translate(lines, "tree.species"), "tree")) {
+        : model(read_model_text(registered<NotationType>().at("species")->translate(lines, "tree.species").text,
+                                "tree")) {
         Derivation derivation(compile(model), {});
         derivation.start(string);
         for (double step = 0; step <= derivation.length(); ++step) {

@@ -18,7 +18,7 @@ namespace sdl = language::sdl;
 constexpr double pi = std::numbers::pi;
 
 PlantGeometry drawn(const std::string& description, int generations = 0) {
-    const std::string text = sdl::model_of(sdl::parse(description, "test.sdl"), "test.sdl");
+    const std::string text = sdl::model_of(sdl::parse(description, "test.sdl"), "test.sdl").text;
     const std::shared_ptr<const Model> model = read_model_text(text, "test.sdl");
     Derivation derivation(compile(model), {});
     ModuleString string, next;

@@ -14,6 +14,8 @@
 
 namespace espalier::language {
 
+struct TranslatedText;
+
 /// #define CROWN_WIDTH 6  /* width of the crown; 0.5..40; m */
 struct ModelSetting {
     std::string name;
@@ -55,7 +57,7 @@ public:
 
 private:
     struct Contents;
-    static ModelSettings read_text(std::string text, const std::string& name, const std::filesystem::path& folder,
+    static ModelSettings read_text(TranslatedText text, const std::string& name, const std::filesystem::path& folder,
                                    const Defines& defines);
     explicit ModelSettings(std::shared_ptr<const Contents> contents) : contents_(std::move(contents)) {}
     std::shared_ptr<const Contents> contents_;

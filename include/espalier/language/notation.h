@@ -1,13 +1,27 @@
 // A notation is another way to write a model. One file in src/language/notations/ per notation.
 #pragma once
 
+#include "espalier/base/error.h"
 #include "espalier/base/registry.h"
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace espalier::language {
+
+/// A model that stands for a file of another notation.
+struct TranslatedText {
+    /// A place of the text, and what it was written for, up to the next origin.
+    struct Origin {
+        int line = 0, column = 0;  ///< of the text
+        Place place;               ///< in the notation; not known: nothing in particular
+    };
+
+    std::string text;
+    std::vector<Origin> origins = {};  ///< in the order of the text
+};
 
 /// What a file of src/language/notations/ registers: a translator into the language of models.
 struct NotationType {
@@ -15,17 +29,18 @@ struct NotationType {
     std::string extension;  ///< of its files: ".pgraph"
     std::string summary;    ///< a line
     std::string help;       ///< the notation: its parts with units, ranges and defaults; the published source
-    /// The model of a file's text, as text that can be run. Throws UserError with every mistake at its own place.
-    std::function<std::string(const std::string& text, const std::filesystem::path& path)> translate;
+    /// The model of a file's text, as text that can be run, with the places that mistakes in it are told at. Throws
+    /// UserError with every mistake at its own place.
+    std::function<TranslatedText(const std::string& text, const std::filesystem::path& path)> translate;
 };
 
 /// The notation that files of this extension are written in; null for models themselves.
 const NotationType* notation_of(const std::filesystem::path& path);
 
 /// The model that a text in a notation stands for, however its lines end. Throws UserError for bytes that are no text.
-std::string translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path);
+TranslatedText translated(const NotationType& notation, const std::string& text, const std::filesystem::path& path);
 /// The model that a file in a notation stands for. Throws UserError for a file in none.
-std::string translated(const std::filesystem::path& path);
+TranslatedText translated(const std::filesystem::path& path);
 
 }  // namespace espalier::language
 
@@ -33,5 +48,6 @@ namespace espalier {
 
 using language::notation_of;
 using language::NotationType;
+using language::TranslatedText;
 
 }  // namespace espalier

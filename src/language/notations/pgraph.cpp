@@ -53,7 +53,7 @@ std::vector<Diagnostic> with_lines(std::vector<Diagnostic> mistakes, const std::
     return mistakes;
 }
 
-std::string translated_graph(const std::string& text, const std::filesystem::path& path) {
+TranslatedText translated_graph(const std::string& text, const std::filesystem::path& path) {
     try {
         return pgraph::translate(pgraph::parse(text, path.string()));
     } catch (const UserError& error) {

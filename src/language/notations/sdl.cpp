@@ -23,7 +23,7 @@ generations 5;   optional; --define GENERATIONS=n replaces it
 L. Szemla: 3D models generator simulating a grow of natural objects for virtual reality. Brno 1999. See docs/sdl.md.
 )",
      [](const std::string& text, const std::filesystem::path& path) {
-         return sdl::model_of(sdl::parse(text, path.string()), path.filename().string());
+         return sdl::model_of(sdl::parse(text, path.string()), path.string());
      }}};
 
 }  // namespace

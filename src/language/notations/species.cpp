@@ -17,7 +17,7 @@ J. Weber, J. Penn: Creation and rendering of realistic trees. SIGGRAPH 1995. See
 
 )" + weber_penn::describe_parameters(),
      [](const std::string& text, const std::filesystem::path& path) {
-         return weber_penn::model_of(weber_penn::parse(text, path.string()), path.filename().string());
+         return weber_penn::model_of(weber_penn::parse(text, path.string()), path.string());
      }}};
 
 }  // namespace

@@ -15,7 +15,13 @@ struct Value {
     std::string function = {};       ///< of x, applied to what the range gives; may be empty
     std::string noise = {};          ///< largest deviation drawn at last; may be empty
     Place place = {};
+    /// Where the parts stand in its line, then the function and the noise; none for a default.
+    std::vector<int> columns = {};
 
+    /// Of a part, or of what stands behind the parts.
+    Place place_of(std::size_t k) const {
+        return k < columns.size() ? Place{place.file, place.line, columns[k]} : Place{};
+    }
     bool operator==(const Value& other) const {
         return parts == other.parts && is_range == other.is_range && function == other.function && noise == other.noise;
     }
@@ -51,9 +57,17 @@ struct Link {
     bool operator==(const Link& other) const { return from == other.from && to == other.to && kind == other.kind; }
 };
 
+/// A line of #define with its comment, which makes it a setting.
+struct Define {
+    std::string text;
+    Place place = {};
+
+    bool operator==(const Define& other) const { return text == other.text; }
+};
+
 struct Graph {
     int version = 1;
-    std::vector<std::string> defines;  ///< lines of #define with their comments, which are settings
+    std::vector<Define> defines;
     std::vector<Component> components;
     std::vector<Link> links;
 

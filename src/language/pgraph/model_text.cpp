@@ -1,5 +1,7 @@
 #include "language/pgraph/model_text.h"
 
+#include "language/marks.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,8 +21,13 @@ std::string values_of(const Parameters& parameters) {
     return text;
 }
 
-ComponentText::ComponentText(const Graph& graph, const Structure& structure, const Component& component)
-    : graph_(graph), structure_(structure), component_(component), values_(component, structure) {
+ComponentText::ComponentText(const Graph& graph, const Structure& structure, const Origins& origins,
+                             const Component& component)
+    : graph_(graph),
+      structure_(structure),
+      origins_(origins),
+      component_(component),
+      values_(component, structure, origins) {
     for (const std::string& head : structure.heads_around(component.name)) depths_ += ", depth_" + head;
     declared(bud(), place());
     const std::vector<std::string>& heads = structure.heads_around(component.name);
@@ -69,7 +76,7 @@ std::string ComponentText::placing() const {
 std::string ComponentText::direction_of_child() const {
     std::string text;
     const std::string angle = values_.number("angle");
-    if (angle != "0") text += fmt::format("&({}) ", angle);
+    if (without_marks(angle) != "0") text += fmt::format("&({}) ", angle);
     if (values_.is_set("child_scale")) text += fmt::format("@Di({}) ", values_.number("child_scale"));
     return text;
 }

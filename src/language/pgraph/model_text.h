@@ -2,6 +2,7 @@
 #pragma once
 
 #include "language/pgraph/graph.h"
+#include "language/pgraph/origins.h"
 #include "language/pgraph/structure.h"
 #include "language/pgraph/values.h"
 
@@ -20,7 +21,7 @@ std::string values_of(const Parameters& parameters);
 /// What one component adds to the model.
 class ComponentText {
 public:
-    ComponentText(const Graph& graph, const Structure& structure, const Component& component);
+    ComponentText(const Graph& graph, const Structure& structure, const Origins& origins, const Component& component);
 
     /// The component's modules: the bud, and what stays of it. `suffix` makes the names of others.
     std::string bud() const { return component_.name; }
@@ -52,6 +53,7 @@ public:
     const Graph& graph() const { return graph_; }
     const Structure& structure() const { return structure_; }
     const Values& values() const { return values_; }
+    const Origins& origins() const { return origins_; }
 
     std::vector<std::string> modules, fields, productions, decomposition, homomorphism, arrays;
 
@@ -62,6 +64,7 @@ private:
 
     const Graph& graph_;
     const Structure& structure_;
+    const Origins& origins_;
     const Component& component_;
     Values values_;
     std::string depths_;

@@ -97,8 +97,9 @@ void write_multiplier(ComponentText& text) {
 
 void write_world(ComponentText& text) {
     for (const KeyValue& key : text.component().keys) {
-        text.fields.push_back(
-            fmt::format("field {}_{} = {};", key.key, text.component().name, fmt::join(key.value.parts, ", ")));
+        const std::string field =
+            fmt::format("field {}_{} = {};", key.key, text.component().name, fmt::join(key.value.parts, ", "));
+        text.fields.push_back(text.origins().marked(field, key.value.place));
     }
     text.productions.push_back(
         fmt::format("{}({}) --> {}{}", text.bud(), text.place(), text.kept(), text.followers(LinkKind::child)));

@@ -23,7 +23,7 @@ const char* arrow(LinkKind kind) {
 
 std::string print(const Graph& graph) {
     std::string text = fmt::format("pgraph {}\n", graph.version);
-    for (const std::string& define : graph.defines) text += define + "\n";
+    for (const Define& define : graph.defines) text += define.text + "\n";
     for (const Component& component : graph.components) {
         text += fmt::format("\n{} {}\n", component.type, component.name);
         for (const KeyValue& key : component.keys) text += fmt::format("  {} {}\n", key.key, print(key.value));

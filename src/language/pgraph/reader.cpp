@@ -120,6 +120,10 @@ private:
             return mistake(line_.find(name), "the name of a #define is written in capitals, at least two");
         }
         if (line_.back() == '\\') return mistake(line_.size() - 1, "a #define is one line, without a '\\' at its end");
+        const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' && !is_blank(c); };
+        if (const auto strange = std::find_if(line_.begin(), line_.end(), is_control); strange != line_.end()) {
+            return mistake(std::size_t(strange - line_.begin()), "a #define holds no control characters");
+        }
         if (const auto comment = line_.rfind("/*"); comment != std::string::npos) {
             if (line_.find("*/", comment + 2) == std::string::npos) {
                 return mistake(comment, "a comment behind a #define ends on its line: '*/' is missing");
@@ -130,7 +134,7 @@ private:
             return mistake(line_.find(name, 7),
                            fmt::format("'{}' is defined already, in {}", name, line_of(first->second)));
         }
-        graph_.defines.push_back(line_);
+        graph_.defines.push_back({line_, place(0)});
         definitions_.text.resize(definitions_.text.size() + std::size_t(number_ - 1 - definitions_.newlines), '\n');
         definitions_.text += line_ + "\n";
         definitions_.newlines = number_;
@@ -218,7 +222,23 @@ private:
         Value value;
         value.place = place(column);
         if (!read_value(line_.substr(column), key->kind, value)) return mistake(column, expectation(*key));
+        value.columns = columns_of(value, column);
         component.keys.push_back({name, value, place(begin)});
+    }
+
+    /// Columns of the parts, the function and the noise of a value, which stand in this order.
+    std::vector<int> columns_of(const Value& value, std::size_t from) const {
+        std::vector<std::string> texts = value.parts;
+        for (const std::string& further : {value.function, value.noise}) {
+            if (!further.empty()) texts.push_back(further);
+        }
+        std::vector<int> columns;
+        for (const std::string& text : texts) {
+            from = line_.find(text, from);
+            columns.push_back(static_cast<int>(from) + 1);
+            from += text.size();
+        }
+        return columns;
     }
 
     static std::string expectation(const Key& key) {

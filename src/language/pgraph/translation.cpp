@@ -1,5 +1,6 @@
 #include "language/pgraph/translation.h"
 
+#include "language/marks.h"
 #include "language/pgraph/model_text.h"
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ std::string section(const std::vector<ComponentText>& texts, Lines lines) {
     for (const ComponentText& text : texts) {
         if ((text.*lines).empty()) continue;
         result += fmt::format("\n/* {}: {} */\n", text.component().name, text.component().type);
-        for (const std::string& line : text.*lines) result += line + "\n";
+        for (const std::string& line : text.*lines)
+            result += text.origins().marked(line, text.component().place) + "\n";
     }
     return result;
 }
@@ -64,18 +66,19 @@ std::string axiom(const Structure& structure) {
 
 }  // namespace
 
-std::string translate(const Graph& graph) {
+TranslatedText translate(const Graph& graph) {
     check_values(graph);
     const Structure structure(graph);
+    const Origins origins(graph);
     std::vector<ComponentText> texts;
     for (const Component& component : graph.components) {
-        texts.emplace_back(graph, structure, component);
+        texts.emplace_back(graph, structure, origins, component);
         writer_of(component.type)(texts.back());
     }
     std::string text =
         "/* Translated from a p-graph. A module in small letters becomes an instance of its component in the next "
         "step;\n   the same name with a capital is the instance, with its values. */\n\n";
-    for (const std::string& define : graph.defines) text += define + "\n";
+    for (const Define& define : graph.defines) text += origins.marked(define.text, define.place) + "\n";
     text += declarations(texts);
     for (const ComponentText& each : texts) {
         for (const std::string& field : each.fields) text += field + "\n";
@@ -88,7 +91,7 @@ std::string translate(const Graph& graph) {
     }
     text += fmt::format("\nhomomorphism\nmaximum depth: {}\n{}", homomorphism_depth,
                         section(texts, &ComponentText::homomorphism));
-    return text + "endlsystem\n";
+    return unmarked(text + "endlsystem\n", origins.files());
 }
 
 }  // namespace espalier::language::pgraph

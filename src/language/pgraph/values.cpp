@@ -4,6 +4,7 @@
 
 #include "base/characters.h"
 #include "base/text.h"
+#include "language/marks.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ const std::string trial =
     "#define ran(a) ((a) * 0.5)\n#define nran(a, b) (a)\n#define bran(a, b) 0.5\n#define biran(a, b) (a)\n";
 
 bool differs_by_instance(const std::string& expression) {
-    std::map<std::string, std::string> marks;
+    Names marks;
     for (const char* name : {"i", "n", "u", "depth", "ran", "nran", "bran", "biran"})
         marks.emplace(name, std::string(1, '?'));
     return substituted(expression, marks) != expression;
@@ -46,8 +47,7 @@ public:
     }
 
     /// The value with names replaced by numbers.
-    std::optional<double> value_of(const std::string& expression, const Place& place,
-                                   const std::map<std::string, std::string>& names) {
+    std::optional<double> value_of(const std::string& expression, const Place& place, const Names& names) {
         try {
             return trial_.value(substituted(expression, names));
         } catch (const UserError& error) {
@@ -59,7 +59,7 @@ public:
 private:
     std::string definitions() const {
         std::string text;
-        for (const std::string& define : graph_.defines) text += define + "\n";
+        for (const Define& define : graph_.defines) text += define.text + "\n";
         return text;
     }
 
@@ -200,58 +200,52 @@ std::vector<double> numbers_of(const Graph& graph, const Value& list) {
     return numbers;
 }
 
-std::string substituted(const std::string& text, const std::map<std::string, std::string>& names) {
-    std::string result;
-    for (std::size_t k = 0; k < text.size();) {
-        if (!is_name_start(text[k])) {
-            // A digit takes its exponent along: the e of 1e3 is no name.
-            const bool is_number = is_digit(text[k]);
-            do result += text[k++];
-            while (is_number && k < text.size() && (is_name_part(text[k]) || text[k] == '.'));
-            continue;
-        }
-        std::string name;
-        while (k < text.size() && is_name_part(text[k])) name += text[k++];
-        const auto found = names.find(name);
-        result += found == names.end() ? name : found->second;
-    }
-    return result;
-}
-
-Values::Values(const Component& component, const Structure& structure) : component_(component), depth_("1") {
+Values::Values(const Component& component, const Structure& structure, const Origins& origins)
+    : component_(component), origins_(origins), depth_("1") {
     const std::vector<std::string>& heads = structure.heads_around(component.name);
     if (!heads.empty()) depth_ = "depth_" + heads.back();
 }
 
-std::string Values::with_names(const std::string& expression) const {
-    return substituted(expression, {{"u", "(i / max(n - 1, 1))"}, {"depth", depth_}});
+std::string Values::expression(const Value& value, std::size_t k, const std::string& text, Names names) const {
+    names.insert({{"u", "(i / max(n - 1, 1))"}, {"depth", depth_}});
+    return origins_.written(text, value.place_of(k), names);
+}
+
+std::string Values::function_of(const Value& value, const std::string& argument) const {
+    if (value.function.empty()) return argument;
+    return expression(value, value.parts.size(), value.function, {{"x", "(" + argument + ")"}});
 }
 
 std::string Values::number(const std::string& key) const {
     const Value value = value_of(component_, key);
-    std::string text = with_names(value.parts.front());
-    if (value.is_range) text = fmt::format("lerp({}, {}, i / max(n - 1, 1))", text, with_names(value.parts.back()));
-    if (!value.function.empty()) text = substituted(with_names(value.function), {{"x", "(" + text + ")"}});
-    if (!value.noise.empty()) text = fmt::format("{} + ({}) * (ran(2) - 1)", text, with_names(value.noise));
-    return text;
+    std::string text = expression(value, 0, value.parts.front());
+    if (value.is_range)
+        text = fmt::format("lerp({}, {}, i / max(n - 1, 1))", text, expression(value, 1, value.parts.back()));
+    text = function_of(value, text);
+    if (!value.noise.empty()) {
+        const std::size_t k = value.columns.empty() ? 0 : value.columns.size() - 1;
+        text = fmt::format("{} + ({}) * (ran(2) - 1)", text, expression(value, k, value.noise));
+    }
+    return origins_.marked(text, value.place);
 }
 
 std::string Values::whole(const std::string& key) const {
-    const std::string text = number(key);
-    return std::all_of(text.begin(), text.end(), is_digit) ? text : "round(" + text + ")";
+    const std::string text = number(key), plain = without_marks(text);
+    return std::all_of(plain.begin(), plain.end(), is_digit) ? plain : "round(" + text + ")";
 }
 
 std::vector<std::pair<std::string, std::string>> Values::parameters(const std::string& key) const {
     if (find_type(component_.type)->find(key)->kind != KeyKind::axis) return {{key, number(key)}};
     const Value value = value_of(component_, key);
-    if (!value.is_range) return {{key, with_names(value.parts.front())}};
-    return {{key + "0", with_names(value.parts.front())}, {key + "1", with_names(value.parts.back())}};
+    if (!value.is_range) return {{key, expression(value, 0, value.parts.front())}};
+    return {{key + "0", expression(value, 0, value.parts.front())},
+            {key + "1", expression(value, 1, value.parts.back())}};
 }
 
 std::string Values::along(const std::string& key, const std::string& part) const {
     const Value value = value_of(component_, key);
     const std::string text = value.is_range ? fmt::format("lerp({0}0, {0}1, {1})", key, part) : key;
-    return value.function.empty() ? text : substituted(value.function, {{"x", "(" + text + ")"}});
+    return origins_.marked(function_of(value, text), value.place);
 }
 
 }  // namespace espalier::language::pgraph

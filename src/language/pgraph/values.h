@@ -2,10 +2,10 @@
 #pragma once
 
 #include "language/pgraph/graph.h"
+#include "language/pgraph/origins.h"
 #include "language/pgraph/schema.h"
 #include "language/pgraph/structure.h"
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,13 +18,10 @@ void check_values(const Graph& graph);
 /// The numbers of a list of constants.
 std::vector<double> numbers_of(const Graph& graph, const Value& list);
 
-/// The text with names replaced by other text.
-std::string substituted(const std::string& text, const std::map<std::string, std::string>& names);
-
 /// Writes the values of one component. Instances are numbered i of n, and `depth` counts the innermost recursion.
 class Values {
 public:
-    Values(const Component& component, const Structure& structure);
+    Values(const Component& component, const Structure& structure, const Origins& origins);
 
     /// A number for each instance: the range, then the function, then the noise.
     std::string number(const std::string& key) const;
@@ -37,9 +34,12 @@ public:
     bool is_set(const std::string& key) const { return component_.find(key) != nullptr; }
 
 private:
-    std::string with_names(const std::string& expression) const;
+    /// A part of a value, or what stands behind the parts, with the names of an instance and others replaced.
+    std::string expression(const Value& value, std::size_t k, const std::string& text, Names names = {}) const;
+    std::string function_of(const Value& value, const std::string& argument) const;
 
     const Component& component_;
+    const Origins& origins_;
     std::string depth_;
 };
 

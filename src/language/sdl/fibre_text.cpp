@@ -2,6 +2,7 @@
 
 #include "base/monotone_curve.h"
 #include "base/text.h"
+#include "language/marks.h"
 #include "language/sdl/formula.h"
 
 #include <fmt/format.h>
@@ -112,8 +113,9 @@ std::vector<double> strengths_at(const Fibre& fibre, double at) {
 
 std::string fibre_call(const FibreModules& modules) {
     const std::string &width = modules.fibre->width.text, &thickness = modules.fibre->thickness.text;
-    const std::string ratio =
-        width == thickness ? "1" : fmt::format("{} / max({}, 0.000001)", factor(modules.fibre->thickness), width);
+    const std::string ratio = without_marks(width) == without_marks(thickness)
+                                  ? "1"
+                                  : fmt::format("{} / max({}, 0.000001)", factor(modules.fibre->thickness), width);
     return fmt::format("{}(length, {}, {}, length + vertical + horizontal)", modules.drawn, width, ratio);
 }
 
@@ -126,7 +128,7 @@ std::string fibre_productions(const FibreModules& modules) {
         text += fmt::format("\t{} {} {}\n", arc(bend(fibre, k - 1), stretches), cut(fibre, double(k) / stretches),
                             k < stretches ? "@Gc(1)" : "@Ge(1)");
     }
-    return modules.along.empty() ? text : text + along_production(modules);
+    return marked(modules.along.empty() ? text : text + along_production(modules), fibre.at);
 }
 
 }  // namespace espalier::language::sdl

@@ -2,6 +2,7 @@
 
 #include "base/characters.h"
 #include "base/text.h"
+#include "language/marks.h"
 
 #include <fmt/format.h>
 
@@ -31,6 +32,10 @@ std::string written(double value) {
 
 Formula constant(double value) {
     return {written(value), value, true};
+}
+
+std::string in_parentheses(const Formula& formula) {
+    return begins_with_minus(formula) ? "(" + formula.text + ")" : formula.text;
 }
 
 class FormulaParser {
@@ -84,13 +89,14 @@ private:
             if (in_.looking_at(function.name)) return call(function);
         }
         if (std::find(names_.begin(), names_.end(), in_.next().text) == names_.end()) fail_name();
-        return {in_.take().text, {}, true};
+        const Token name = in_.take();
+        return {marked(name.text, name.at), {}, true};
     }
 
     Formula call(const Function& function) {
         const Location at = in_.next().at;
         std::vector<double> known;
-        std::string text = in_.take().text + "(";
+        std::string text = marked(in_.take().text, at) + "(";
         in_.expect("(", fmt::format("after '{}'", function.name));
         for (int k = 0; k < function.arguments; ++k) {
             if (k > 0)
@@ -101,7 +107,7 @@ private:
         }
         in_.expect(")", fmt::format("after the arguments of '{}'", function.name));
         if (!known.empty() && !is_finite(function.name, known.front())) {
-            throw SyntaxError{at, fmt::format("{}) is no finite number", text)};
+            throw SyntaxError{at, fmt::format("{}) is no finite number", without_marks(text))};
         }
         return {text + ")", {}, true};
     }
@@ -132,8 +138,7 @@ private:
             }
             return constant(value);
         }
-        const bool needs_parentheses = b.text.starts_with("-");
-        return {fmt::format("{} {} {}", a.text, sign.text, needs_parentheses ? "(" + b.text + ")" : b.text), {}, false};
+        return {fmt::format("{} {} {}", a.text, marked(sign.text, sign.at), in_parentheses(b)), {}, false};
     }
 
     TokenReader& in_;
@@ -148,11 +153,15 @@ Formula parse_formula(TokenReader& in, std::span<const std::string> names, std::
     return FormulaParser(in, names, what).sum();
 }
 
+bool begins_with_minus(const Formula& formula) {
+    return without_marks(formula.text).starts_with('-');
+}
+
 std::string sum(const std::string& base, const Formula& formula) {
     if (formula.number && *formula.number == 0) return base;
     if (base == "0") return formula.text;
     if (formula.number && *formula.number < 0) return base + " - " + format_exact(-*formula.number);
-    return base + " + " + (formula.text.starts_with("-") ? "(" + formula.text + ")" : formula.text);
+    return base + " + " + (in_parentheses(formula));
 }
 
 std::string factor(const Formula& formula) {

@@ -17,6 +17,9 @@ Formula parse_formula(TokenReader& in, std::span<const std::string> names, std::
 /// `base` plus the formula, without a sum that changes nothing.
 std::string sum(const std::string& base, const Formula& formula);
 
+/// True for what begins with a minus, which needs parentheses behind another sign.
+bool begins_with_minus(const Formula& formula);
+
 /// The formula as a factor.
 std::string factor(const Formula& formula);
 

@@ -157,7 +157,7 @@ private:
             for (Fibre& fibre : parse_fibres(in_, mistakes_)) skeleton_.fibres.push_back(std::move(fibre));
         } else if (in_.looking_at("generations")) {
             if (skeleton_.says_generations) throw SyntaxError{in_.next().at, "'generations' is said twice"};
-            in_.take();
+            skeleton_.generations_at = in_.take().at;
             skeleton_.generations = in_.expect_whole("the number of generations", 0, most_generations);
             skeleton_.says_generations = true;
             in_.expect(";", "after the number of generations");

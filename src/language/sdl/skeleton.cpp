@@ -1,6 +1,7 @@
 #include "language/sdl/skeleton.h"
 
 #include "base/text.h"
+#include "language/marks.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,8 @@ std::string text_of(const Component& component) {
     if (component.is_null) return text + component.name + "[NULL]";
     std::vector<std::string> features;
     for (const Attribute& feature : component.features) {
-        features.push_back(feature.middle.text + (feature.deviation ? ":" + feature.deviation->text : ""));
+        features.push_back(without_marks(feature.middle.text));
+        if (feature.deviation) features.back() += fmt::format(":{}", without_marks(feature.deviation->text));
     }
     return fmt::format("{}{}[{}]", text, component.name, joined(features, ", "));
 }
@@ -47,7 +49,7 @@ std::string text_of(const std::vector<Slave>& slaves) {
 std::string text_of(const Rule& rule) {
     std::vector<std::string> sides;
     for (const RightSide& side : rule.right_sides) {
-        sides.push_back(text_of(side.slaves) + (side.weight ? " : " + side.weight->text : ""));
+        sides.push_back(text_of(side.slaves) + (side.weight ? " : " + without_marks(side.weight->text) : ""));
     }
     return rule.master + " -> " + joined(sides, " | ");
 }
@@ -56,7 +58,7 @@ std::string text_of(const Fibre& fibre) {
     std::string text = fibre.type == Fibre::Type::leaf ? "  leaf" : "  wooden";
     if (!fibre.components.empty()) text += fmt::format(" {}", joined(fibre.components, ", "));
     text += fmt::format("{{\n    {};\n", fibre.is_flat ? "flat" : "solid");
-    text += fmt::format("    cut[{}, {}];\n", fibre.width.text, fibre.thickness.text);
+    text += fmt::format("    cut[{}, {}];\n", without_marks(fibre.width.text), without_marks(fibre.thickness.text));
     for (const std::vector<double>& ring : fibre.rings) text += fmt::format("    ring[{}];\n", list_of(ring));
     if (!fibre.contour.empty()) text += fmt::format("    contour[{}];\n", list_of(fibre.contour));
     if (fibre.correction) {

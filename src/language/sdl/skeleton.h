@@ -11,7 +11,8 @@
 
 namespace espalier::language::sdl {
 
-/// A number, or an expression of the model's language. `text` is written so that it can stand in a sum.
+/// A number, or an expression of the model's language. `text` is written so that it can stand in a sum; its words are
+/// marked with their places.
 struct Formula {
     std::string text = "0";
     std::optional<double> number = 0;  ///< its value, if it is known
@@ -83,6 +84,7 @@ struct Skeleton {
     std::vector<Fibre> fibres;
     int generations = 5;
     bool says_generations = false;
+    Location generations_at;
 
     const Component* component(const std::string& name) const;
     const Rule* rule_of(const std::string& master) const;

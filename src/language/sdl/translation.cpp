@@ -1,12 +1,14 @@
 #include "language/sdl/translation.h"
 
 #include "base/text.h"
+#include "language/marks.h"
 #include "language/sdl/fibre_text.h"
 #include "language/sdl/formula.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -151,9 +153,11 @@ private:
         const std::string vertical = component.constant_ver ? "0" : master[1];
         const std::string horizontal = component.constant_hor ? "0" : master[2];
         if (component.is_null) return fmt::format("{}, {}, {}", master[0], vertical, horizontal);
-        return fmt::format("{}, {}, {}", length(master[0], component.features[Component::length]),
-                           value(vertical, component.features[Component::vertical]),
-                           value(horizontal, component.features[Component::horizontal]));
+        const auto& features = component.features;
+        return fmt::format(
+            "{}, {}, {}", marked(length(master[0], features[Component::length]), features[Component::length].at),
+            marked(value(vertical, features[Component::vertical]), features[Component::vertical].at),
+            marked(value(horizontal, features[Component::horizontal]), features[Component::horizontal].at));
     }
 
     /// Moves to where a component begins on its master.
@@ -162,7 +166,7 @@ private:
         std::string begin = value("0", attribute);
         if (component.is_null || begin == "0") return "";
         const bool is_known = attribute.middle.number && (!attribute.deviation || attribute.deviation->number);
-        if (!is_known) begin = "clamp(" + begin + ", 0, 1)";
+        if (!is_known) begin = marked("clamp(" + begin + ", 0, 1)", attribute.at);
         const FibreModules* fibre = fibre_of(bearers(skeleton_, master).front());
         if (fibre && !fibre->along.empty()) return fmt::format("{}(length, {}) ", fibre->along, begin);
         return begin == "1" ? "f(length) " : fmt::format("f(length * {}) ", begin);
@@ -175,8 +179,9 @@ private:
         std::string text = values(start, {"0", "0", "0"});
         for (const char* name : {"length", "vertical", "horizontal", "i"}) text = with_value(text, name, "0");
         const char* state = skeleton_.rule_of(start.name) ? ", 1" : ", 0";
-        return fmt::format("{}({}{})", module(start.name), with_value(text, "generation", "Q"),
-                           waits(start.name) ? state : "");
+        const std::string parameters = with_value(text, "generation", "Q");
+        return marked(fmt::format("{}({}{})", module(start.name), parameters, waits(start.name) ? state : ""),
+                      start.at);
     }
 
     std::string production(const Rule& rule) const {
@@ -188,13 +193,15 @@ private:
                 text += " : " + with_value(side.weight->text, "generation", "Q");
             text += "\n";
         }
-        return text;
+        return marked(text, rule.at);
     }
 
     std::string decomposition(const Slave& slave, int number) const {
-        return fmt::format("{0}{1} : waits == {2} -->\n\t{0}(length, vertical, horizontal, {3}){4}\n",
-                           module(slave.component), formals(slave.component), number,
-                           skeleton_.rule_of(slave.component) ? 1 : 0, births(slave.component, slave.slaves));
+        const std::string text =
+            fmt::format("{0}{1} : waits == {2} -->\n\t{0}(length, vertical, horizontal, {3}){4}\n",
+                        module(slave.component), formals(slave.component), number,
+                        skeleton_.rule_of(slave.component) ? 1 : 0, births(slave.component, slave.slaves));
+        return marked(text, slave.at);
     }
 
     std::string births(const std::string& master, const std::vector<Slave>& slaves) const {
@@ -210,7 +217,8 @@ private:
         std::string text = fmt::format("[{}{}({}", place(master, component), module(slave.component),
                                        values(component, {"length", "vertical", "horizontal"}));
         text = with_value(with_value(text, "i", std::to_string(i)), "generation", "Q");
-        return text + (waits(slave.component) ? fmt::format(", {})]", number_of(slave)) : ")]");
+        text += waits(slave.component) ? fmt::format(", {})]", number_of(slave)) : ")]";
+        return marked(text, slave.at);
     }
 
     std::string depth() const { return deepest_ > 1 ? fmt::format("maximum depth: {}\n", deepest_) : ""; }
@@ -220,8 +228,9 @@ private:
         for (const Component& component : skeleton_.components) {
             if (component.is_null) continue;
             const FibreModules* fibre = fibre_of(skeleton_.fibre_of(component.name));
-            text += fmt::format("{}{} --> TURN(vertical, horizontal) [{}]\n", module(component.name),
-                                formals(component.name), fibre ? fibre_call(*fibre) : "F(length)");
+            const std::string drawn = fmt::format("{}{} --> TURN(vertical, horizontal) [{}]\n", module(component.name),
+                                                  formals(component.name), fibre ? fibre_call(*fibre) : "F(length)");
+            text += marked(drawn, component.at);
         }
         for (const FibreModules& fibre : fibres_) text += fibre_productions(fibre);
         return text;
@@ -249,8 +258,9 @@ private:
             "/* Translated from {}, a skeleton description (Szemla 1999).\n   A component has "
             "its own length and angles; waits: 1 until its rule is applied. */\n\n",
             file_);
-        text += fmt::format("#define GENERATIONS {}  /* derivations of the skeleton; 0.. whole */\n",
-                            skeleton_.generations);
+        const std::string generations = fmt::format(
+            "#define GENERATIONS {}  /* derivations of the skeleton; 0.. whole */\n", skeleton_.generations);
+        text += skeleton_.says_generations ? marked(generations, skeleton_.generations_at) : generations;
         if (uses("MUTATED")) text += mutated;
         if (uses("TURN")) text += turn;
         if (uses("PART")) text += part;
@@ -302,8 +312,9 @@ std::vector<const Fibre*> bearers(const Skeleton& skeleton, const std::string& c
     return found;
 }
 
-std::string model_of(const Skeleton& skeleton, const std::string& file) {
-    return Translation(skeleton, file).text();
+TranslatedText model_of(const Skeleton& skeleton, const std::string& file) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    return unmarked(Translation(skeleton, name).text(), {file});
 }
 
 }  // namespace espalier::language::sdl

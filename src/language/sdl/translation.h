@@ -1,6 +1,8 @@
 // The model that a skeleton stands for.
 #pragma once
 
+#include "espalier/language/notation.h"
+
 #include "language/sdl/skeleton.h"
 
 #include <string>
@@ -11,7 +13,7 @@ namespace espalier::language::sdl {
 /// The fibres that the slaves of a component begin on: its own, or, as it is NULL, those of all its masters.
 std::vector<const Fibre*> bearers(const Skeleton& skeleton, const std::string& component);
 
-/// `file` is named in the first comment.
-std::string model_of(const Skeleton& skeleton, const std::string& file);
+/// `file` is the name that mistakes are told with; the first comment has it without its folder.
+TranslatedText model_of(const Skeleton& skeleton, const std::string& file);
 
 }  // namespace espalier::language::sdl

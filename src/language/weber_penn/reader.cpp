@@ -123,7 +123,7 @@ private:
             return mistake(value.column, fmt::format("'{}' is a number, not '{}'", name.text, value.text));
         }
         check_range(*found->second.parameter, name.text, number, value.column);
-        species_.set(name.text, number);
+        species_.set(name.text, number, {0, number_, static_cast<int>(name.column) + 1});
     }
 
     void check_range(const Parameter& parameter, const std::string& name, double number, std::size_t column) {

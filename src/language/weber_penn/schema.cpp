@@ -167,4 +167,19 @@ double Species::value(const std::string& name, int level) const {
     return parameter.standard.at(static_cast<std::size_t>(place));
 }
 
+std::optional<Location> Species::place(const std::string& written) const {
+    const auto found = places_.find(written);
+    return found == places_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<Location> Species::place_of_level(int level) const {
+    std::optional<Location> first, first_of_level;
+    const auto keep = [](std::optional<Location>& kept, Location at) { kept = kept ? std::min(*kept, at) : at; };
+    for (const auto& [name, at] : places_) {
+        keep(first, at);
+        if (name.front() == '0' + std::min(level, highest_described_level)) keep(first_of_level, at);
+    }
+    return first_of_level ? first_of_level : first;
+}
+
 }  // namespace espalier::language::weber_penn

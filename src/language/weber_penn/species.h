@@ -3,7 +3,10 @@
 
 #include "espalier/base/error.h"
 
+#include "language/source.h"
+
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,10 +42,18 @@ public:
     int levels() const { return static_cast<int>(value("Levels")); }
     bool prunes() const { return value("PruneRatio") > 0; }
 
-    void set(const std::string& written, double value) { values_[written] = value; }
+    void set(const std::string& written, double value, Location at) {
+        values_[written] = value;
+        places_[written] = at;
+    }
+    /// Where the file sets a parameter; nothing for a default.
+    std::optional<Location> place(const std::string& written) const;
+    /// The first place where the file sets a parameter of a level, or anything.
+    std::optional<Location> place_of_level(int level) const;
 
 private:
     std::map<std::string, double> values_;  // by written name
+    std::map<std::string, Location> places_;
 };
 
 /// Reads a file; `name` stands in messages. Throws UserError with every mistake at its place.

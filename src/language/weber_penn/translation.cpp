@@ -1,10 +1,14 @@
 #include "language/weber_penn/translation.h"
 
 #include "base/text.h"
+#include "language/marks.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 namespace espalier::language::weber_penn {
 namespace {
@@ -76,8 +80,9 @@ public:
             "*/\n",
             file_);
         text += settings() + chance + macros_ + "\n" + declarations();
-        text += fmt::format("\nlsystem: 1\nderivation length: {}\nStart: {{\n{}}}\naxiom: {}\n{}", length(), start(),
-                            axiom(), productions_);
+        text += fmt::format("\nlsystem: 1\nderivation length: {}\nStart: {{\n{}}}\naxiom: {}\n{}", length(),
+                            placed(start(), species_.place_of_level(0)), placed(axiom(), species_.place_of_level(0)),
+                            productions_);
         text += fmt::format("\ndecomposition\nmaximum depth: 100100\n{}\nhomomorphism\nmaximum depth: 1100\n{}",
                             decomposition_, drawing_ + leaf_drawing());
         return text + "endlsystem\n";
@@ -93,6 +98,10 @@ private:
     bool has_fans() const { return value("Leaves") < 0; }
     bool is_last(int level) const { return level + 1 == species_.levels(); }
     static int described(int level) { return std::min(level, highest_described_level); }
+
+    static std::string placed(const std::string& text, const std::optional<Location>& at) {
+        return at ? marked(text, *at) : text;
+    }
 
     // --- settings ---------------------------------------------------------------------------------------------------
 
@@ -123,8 +132,10 @@ private:
         text +=
             fmt::format("#define LEVELS {0}  /* levels of stems that are drawn; 1..{0} whole */\n", species_.levels());
         if (value("Leaves") != 0) {
-            text += fmt::format("#define Leaves {}  /* on a stem of the last level; 0..100000 whole */\n",
-                                format_exact(std::abs(value("Leaves"))));
+            const std::string line =
+                fmt::format("#define Leaves {}  /* on a stem of the last level; 0..100000 whole */\n",
+                            format_exact(std::abs(value("Leaves"))));
+            text += placed(line, species_.place("Leaves"));
             text += "#define QUALITY 1  /* share of the leaves that are drawn, each the larger; 0.001..1 */\n";
         }
         return text;
@@ -146,8 +157,10 @@ private:
         std::string range = bound(lowest) + ".." + bound(highest);
         if (range == "..") range = "-1e9..1e9";
         if (parameter.is_whole) range += " whole";
-        return fmt::format("#define {} {}  /* {}; {}{} */\n", setting_name(parameter, level), format_exact(number),
-                           comment, range, parameter.unit.empty() ? "" : "; " + parameter.unit);
+        const std::string line =
+            fmt::format("#define {} {}  /* {}; {}{} */\n", setting_name(parameter, level), format_exact(number),
+                        comment, range, parameter.unit.empty() ? "" : "; " + parameter.unit);
+        return placed(line, species_.place(written_name(parameter, level)));
     }
 
     // --- macros -----------------------------------------------------------------------------------------------------
@@ -289,12 +302,17 @@ private:
 
     void write_level(int level) {
         const std::string title = fmt::format("\n/* level {} */\n", level);
-        productions_ += title;
-        decomposition_ += title;
+        const std::array<std::string*, 3> sections{&productions_, &decomposition_, &drawing_};
+        std::array<std::string, 3> before;
+        for (std::size_t k = 0; k < sections.size(); ++k) before[k] = std::exchange(*sections[k], "");
         write_bud(level);
         write_stem(level);
         write_node(level);
         write_wood(level);
+        for (std::size_t k = 0; k < sections.size(); ++k) {
+            const std::string head = sections[k] == &drawing_ ? "" : title;
+            *sections[k] = before[k] + head + placed(*sections[k], species_.place_of_level(level));
+        }
     }
 
     void write_bud(int level) {
@@ -497,8 +515,9 @@ private:
 
 }  // namespace
 
-std::string model_of(const Species& species, const std::string& file) {
-    return Translation(species, file).text();
+TranslatedText model_of(const Species& species, const std::string& file) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    return unmarked(Translation(species, name).text(), {file});
 }
 
 }  // namespace espalier::language::weber_penn

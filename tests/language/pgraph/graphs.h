@@ -32,7 +32,7 @@ inline std::string graph_mistakes(const std::string& lines) {
 
 /// The parameters of every module, by its symbol, after the last step.
 inline std::map<std::string, std::vector<std::vector<double>>> instances_of(const std::string& lines) {
-    Grown plant(pgraph::translate(graph_of(lines)));
+    Grown plant(pgraph::translate(graph_of(lines)).text);
     plant.steps(static_cast<int>(plant.derivation.length()));
     std::map<std::string, std::vector<std::vector<double>>> found;
     const Alphabet& alphabet = plant.model->alphabet;

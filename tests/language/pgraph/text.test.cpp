@@ -149,7 +149,7 @@ TEST_CASE("Graphs include others, whose mistakes are told with their own files a
     folder.write("wrong.pgraph", "pgraph 1\nLeaf oak\n  lenght 0.3\n");
     const auto path = (folder.path() / "plant.pgraph").string();
     const auto translated = [&](const std::string& lines) {
-        return registered<NotationType>().at("pgraph")->translate("pgraph 1\n" + lines, path);
+        return registered<NotationType>().at("pgraph")->translate("pgraph 1\n" + lines, path).text;
     };
     const std::string stem = "Tree stem\ncamera -> stem -B-> oak\n";
     CHECK_THAT(translated("include \"leaves.pgraph\"\n" + stem), Catch::Contains("Oak"));

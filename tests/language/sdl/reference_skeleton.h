@@ -110,7 +110,7 @@ inline std::string canonical(const std::vector<Node>& nodes, int at = 0) {
 
 /// The model of a description.
 inline std::string model_text(const std::string& description) {
-    return sdl::model_of(sdl::parse(description, "test.sdl"), "test.sdl");
+    return sdl::model_of(sdl::parse(description, "test.sdl"), "test.sdl").text;
 }
 
 /// "name < master" for every component of the string, in the order of the string.

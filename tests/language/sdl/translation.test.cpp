@@ -153,7 +153,7 @@ TEST_CASE("translation and direct interpretation give the same skeletons", "[sdl
         INFO(text);
         const sdl::Skeleton skeleton = sdl::parse(text, "random.sdl");
         ReferenceSkeleton reference(skeleton);
-        Grown grown(sdl::model_of(skeleton, "random.sdl"));
+        Grown grown(sdl::model_of(skeleton, "random.sdl").text);
         for (int generation = 0; generation <= 4; ++generation) {
             CHECK(canonical(nodes_of(grown.string, grown.model->alphabet)) == canonical(reference.nodes));
             if (reference.nodes.size() > 2000) break;
