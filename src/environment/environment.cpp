@@ -101,6 +101,15 @@ void Environment::require_answers(const Model& model, const std::string& plant_n
                         "that name{}; {}",
                         plant_name, model.name, name, did_you_mean(name, names_), listed(names_)));
     }
+    for (const std::string& field : fields_read_by(model)) {
+        if (fields_.find(field) || keeps_unanswered_) continue;
+        std::vector<std::string> known;
+        for (const auto& entry : fields_.all()) known.push_back(entry.first);
+        throw UserError(
+            fmt::format("plant '{}': model {} reads the field '{}', which no process of the scene has{}; {}",
+                        plant_name, model.name, field, did_you_mean(field, known),
+                        known.empty() ? "there are no fields" : fmt::format("there are: {}", fmt::join(known, ", "))));
+    }
     visit_written_queries(model, [&](const ModuleTemplate& module, bool is_unnamed) {
         if (is_unnamed && routed_) return;  // which process it asks is known only then
         if (is_unnamed && !default_ && !keeps_unanswered_) {

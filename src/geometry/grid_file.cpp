@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/Stream.h>
 
 #include <sstream>
 #include <string_view>
@@ -74,10 +75,28 @@ bool same_field(const FieldGrid& a, const FieldGrid& b) {
            same_values(a.grid->tree(), b.grid->tree());
 }
 
+std::string bytes_of(const FieldGrid& grid) {
+    initialize_openvdb();
+    const MemoryArchive archive(openvdb::io::COMPRESS_NONE);  // inactive values, too
+    return archive.text(grid.grid->copyGridReplacingMetadata(openvdb::MetaMap()));
+}
+
+std::shared_ptr<const FieldGrid> grid_from_bytes(const std::string& bytes) {
+    initialize_openvdb();
+    try {
+        std::istringstream in(bytes, std::ios::binary);
+        const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(in, /*delayLoad=*/false).getGrids();
+        const auto grid = grids->empty() ? nullptr : openvdb::gridPtrCast<openvdb::FloatGrid>(grids->front());
+        if (!grid) throw RunError("these bytes hold no grid");
+        return std::make_shared<FieldGrid>(FieldGrid{grid, grid->evalActiveVoxelBoundingBox()});
+    } catch (const openvdb::Exception& error) {
+        throw RunError(fmt::format("these bytes hold no grid: {}", error.what()));
+    }
+}
+
 std::uint64_t digest_of(const FieldGrid& grid) {
     if (!grid.grid) return 0;
-    const MemoryArchive archive(openvdb::io::COMPRESS_NONE);  // inactive values count, too
-    const std::string bytes = archive.text(grid.grid->copyGridReplacingMetadata(openvdb::MetaMap()));
+    const std::string bytes = bytes_of(grid);
     const std::string box = fmt::format("{} {} {} {} {} {}", grid.box.min().x(), grid.box.min().y(), grid.box.min().z(),
                                         grid.box.max().x(), grid.box.max().y(), grid.box.max().z());
     return digest(bytes + box);

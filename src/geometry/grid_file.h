@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <string>
 
 namespace espalier::geometry {
 
@@ -20,6 +22,10 @@ bool same_field(const FieldGrid& a, const FieldGrid& b);
 /// The same for grids that are the same_field, and hardly ever for others.
 std::uint64_t digest_of(const FieldGrid& grid);
 
+/// All values of a grid, and the grid that they are of. Throws RunError for bytes that are none.
+std::string bytes_of(const FieldGrid& grid);
+std::shared_ptr<const FieldGrid> grid_from_bytes(const std::string& bytes);
+
 /// Active values only, compressed by Blosc if there are many. The file appears complete or not at all. Throws RunError.
 void write_vdb(const std::filesystem::path& path, const Field& field);
 
@@ -27,7 +33,9 @@ void write_vdb(const std::filesystem::path& path, const Field& field);
 
 namespace espalier {
 
+using geometry::bytes_of;
 using geometry::digest_of;
+using geometry::grid_from_bytes;
 using geometry::grid_of;
 using geometry::most_dense_voxels;
 using geometry::same_field;

@@ -1,5 +1,6 @@
 #include "language/vector_field.h"
 
+#include "base/characters.h"
 #include "language/parser/expressions.h"
 #include "language/parser/names.h"
 #include "language/parser/scanner.h"
@@ -34,7 +35,39 @@ std::array<Expression, 3> read_components(std::string_view text) {
     return components;
 }
 
+/// The two ways to read fields of processes, each with a name in parentheses.
+constexpr std::string_view gradient = "gradient", components = "vector";
+
+std::size_t skip_blanks(std::string_view text, std::size_t k) {
+    while (k < text.size() && is_blank(text[k])) ++k;
+    return k;
+}
+
+/// The word before the parentheses, and the name between them; nothing if the text does not begin like this.
+struct Reading {
+    std::string_view word, name;
+    std::size_t length;
+};
+
+std::optional<Reading> reading_at(std::string_view text) {
+    for (const std::string_view word : {gradient, components}) {
+        const std::size_t open = text.starts_with(word) ? skip_blanks(text, word.size()) : text.size();
+        if (open >= text.size() || text[open] != '(') continue;
+        const std::size_t begin = skip_blanks(text, open + 1), close = text.find_first_of("()\n", begin);
+        if (close == text.npos || text[close] != ')') continue;
+        std::size_t end = close;
+        while (end > begin && is_blank(text[end - 1])) --end;
+        if (end > begin) return Reading{word, text.substr(begin, end - begin), close + 1};
+    }
+    return std::nullopt;
+}
+
 }  // namespace
+
+std::size_t VectorField::length_of_reading(std::string_view text) {
+    const std::optional<Reading> reading = reading_at(text);
+    return reading ? reading->length : 0;
+}
 
 const std::vector<std::string>& VectorField::coordinates() {
     static const std::vector<std::string> names{"x", "y", "z"};
@@ -43,6 +76,14 @@ const std::vector<std::string>& VectorField::coordinates() {
 
 VectorField VectorField::parse(std::string_view text) {
     VectorField field;
+    const std::optional<Reading> reading = reading_at(text);
+    if (reading && skip_blanks(text, reading->length) == text.size()) {
+        const std::string name(reading->name);
+        field.kind_ = reading->word == gradient ? Kind::gradient : Kind::components;
+        field.fields_ = field.kind_ == Kind::gradient ? std::vector<std::string>{name}
+                                                      : std::vector<std::string>{name + ".x", name + ".y", name + ".z"};
+        return field;
+    }
     try {
         field.components_ = read_components(text);
     } catch (const SyntaxError& mistake) {

@@ -1,4 +1,4 @@
-// A vector for every place, by three expressions in x, y and z.
+// A vector for every place: by three expressions in x, y and z, or from the fields of an environment.
 #pragma once
 
 #include "espalier/lsystem/expression.h"
@@ -15,16 +15,30 @@ namespace espalier::language {
 
 class VectorField {
 public:
-    /// "-z, 0, x". Throws UserError without a place.
+    enum class Kind {
+        expressions,  ///< "-z, 0, x"
+        gradient,     ///< "gradient(light)"
+        components,   ///< "vector(wind)", of the fields wind.x, wind.y and wind.z
+    };
+
+    /// Throws UserError without a place.
     static VectorField parse(std::string_view text);
+    /// Length of "gradient(light)" or "vector(wind)" at the beginning of a text, 0 if none stands there.
+    static std::size_t length_of_reading(std::string_view text);
     /// The names that a field reads.
     static const std::vector<std::string>& coordinates();
 
-    /// Nothing where an expression has no finite value.
+    Kind kind() const { return kind_; }
+    /// The fields of processes that are read: one for a gradient, three for components.
+    const std::vector<std::string>& fields() const { return fields_; }
+
+    /// Of expressions. Nothing where an expression has no finite value.
     std::optional<glm::dvec3> at(const glm::dvec3& position) const;
 
 private:
+    Kind kind_ = Kind::expressions;
     std::array<Expression, 3> components_;
+    std::vector<std::string> fields_;
 };
 
 }  // namespace espalier::language

@@ -95,10 +95,10 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
     note_derived();
 }
 
-void GrowingPlant::interpret() {
+void GrowingPlant::interpret(const FieldValues& fields) {
     Interpretation& result = interpretation.for_writing();
     const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
-    espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number}, result);
+    espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number, &fields}, result);
     asks_ = result.asks();
     if (description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();

@@ -18,12 +18,13 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace espalier::simulation {
 namespace {
 
-constexpr std::uint64_t checkpoint_signature = 0x33'646c'726f'57;  // "World3"
+constexpr std::uint64_t checkpoint_signature = 0x34'646c'726f'57;  // "World4"
 
 class Stopwatch {
 public:
@@ -74,6 +75,8 @@ struct World::State {
     double time() const { return step * scene.dt; }
     void rewrite(void (GrowingPlant::*stage)(ModuleString*));
     void note_ends();
+    void find_fields_read();
+    void take_fields();
 
     Scene scene;
     MemoryShares shares;
@@ -82,6 +85,9 @@ struct World::State {
     ReadLog* reads = ReadLog::current();  ///< of the thread that makes the world
     std::vector<GrowingPlant> plants;
     std::unique_ptr<Environment> environment;
+    std::vector<std::string> fields_read;  ///< by turtles
+    FieldValues fields;                    ///< while turtles walk, and after a restart until then
+    bool has_restored_fields = false;
     std::vector<Recorder*> recorders;
     int step = 0;
     int longest = 0;  ///< derivation length of the plants
@@ -139,12 +145,27 @@ void World::State::note_ends() {
 void World::interpret() {
     if (!state_->is_seen) return;
     const Stopwatch stopwatch(state_->times.interpret);
+    state_->take_fields();
     for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
                     [&](GrowingPlant& plant, ModuleString&) {
-                        plant.interpret();
+                        plant.interpret(state_->fields);
                         state_->memory.count_drawn(plant, state_->step, size() > 1);
                     });
+    state_->fields.forget();  // so that processes may write the next values over these
     state_->memory.check_drawn(state_->plants, state_->step);
+}
+
+// What processes left after the step before; a restarted world has it from its checkpoint.
+void World::State::take_fields() {
+    if (!std::exchange(has_restored_fields, false)) fields.take(environment->fields(), fields_read);
+}
+
+void World::State::find_fields_read() {
+    std::set<std::string> names;
+    for (const GrowingPlant& plant : plants) {
+        for (std::string& name : fields_read_by(plant.model())) names.insert(std::move(name));
+    }
+    fields_read.assign(names.begin(), names.end());
 }
 
 void World::exchange() {
@@ -195,6 +216,7 @@ World::State::State(const Scene& described, std::size_t budget, const std::files
       memory(shares.plants) {
     make_environment();
     make_plants(files);
+    find_fields_read();
     set_lengths();
 }
 
@@ -280,6 +302,9 @@ void World::save(std::ostream& out) const {
         put(out, plant.memory);
     }
     state_->environment->save(out);
+    FieldValues fields;
+    fields.take(state_->environment->fields(), state_->fields_read);
+    fields.save(out);
 }
 
 void World::restore(std::istream& in) {
@@ -293,6 +318,8 @@ void World::restore(std::istream& in) {
         plant.memory = get<PlantMemory>(in);
     }
     state_->environment->restore(in);
+    state_->fields.restore(in);
+    state_->has_restored_fields = true;
     state_->step = step;
     state_->note_ends();
     state_->memory.check_drawn(state_->plants, step);

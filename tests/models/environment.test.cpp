@@ -298,3 +298,33 @@ TEST_CASE("queries: every answer is what an independent turtle finds at that pla
     }
     CHECK(checked > 1000);
 }
+
+TEST_CASE("towards-light: beside an awning a tree leans away from it, and without one it stands upright",
+          "[environment]") {
+    const auto tip_of_trunk = [](const SceneOptions& options) {
+        World world(read_scene(source_path("environments/towards-light.toml"), options));
+        world.start();
+        while (world.steps_done() < world.last_step()) world.step();
+        glm::dvec3 tip(0);
+        for (const Internode& internode : world.interpretation(0).geometry.internodes) {
+            if (internode.order == world.interpretation(0).geometry.internodes.front().order) tip = internode.tip;
+        }
+        return tip;
+    };
+    const glm::dvec3 beside = tip_of_trunk({});
+    CHECK(beside.x > 0.5);
+    CHECK(std::abs(beside.z) < 0.1);
+    const glm::dvec3 bare = tip_of_trunk(overriding({{"environment.light.strength", "0"}}));
+    CHECK(bare.y == Approx(2.6));
+    CHECK(std::hypot(bare.x, bare.z) < 1e-6);
+}
+
+TEST_CASE("awning: the light below it is less than beside it", "[environment]") {
+    World world(read_scene(source_path("environments/towards-light.toml"), {}));
+    world.start();
+    FieldValues light;
+    light.take(world.environment().fields(), {"light"});
+    CHECK(light.value("light", {-1.25, 2, 0}) < 0.8);
+    CHECK(light.value("light", {2.5, 2, 0}) == Approx(1));
+    CHECK(light.gradient("light", {0, 2, 0}).x > 0.05);
+}

@@ -21,6 +21,7 @@ struct Drawing {
     Model model;
     ModuleString string;
     TurtleSettings settings;
+    InterpretOptions options;
     Interpretation result;
 
     explicit Drawing(const std::string& text) {
@@ -48,7 +49,7 @@ struct Drawing {
     }
 
     const Interpretation& draw() {
-        interpret(model, *symbol_table(model), string, settings, nullptr, {}, result);
+        interpret(model, *symbol_table(model), string, settings, nullptr, options, result);
         return result;
     }
     const PlantGeometry& geometry() { return draw().geometry; }

@@ -78,8 +78,8 @@ struct Outcome {
 Outcome walked(const Drawing& drawing, std::size_t chunk) {
     Interpretation result;
     try {
-        interpret(drawing.model, *symbol_table(drawing.model), drawing.string, drawing.settings, nullptr, {0, chunk},
-                  result);
+        interpret(drawing.model, *symbol_table(drawing.model), drawing.string, drawing.settings, nullptr,
+                  {0, nullptr, chunk}, result);
     } catch (const RunError& error) {
         return {"", error.what()};
     }
@@ -269,7 +269,7 @@ TEST_CASE("a model that carries more than was foreseen is walked in one piece fr
 
     const Drawing drawing(text + "[@!(5)F@O(1)]" + text);
     const SymbolTable symbols(drawing.model);
-    const WalkInput input{drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0};
+    const WalkInput input{drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0, nullptr};
     Interpretation result;
     CHECK(!walk_in_parallel(input, 50, result));
     CHECK(symbols.unpredictable);

@@ -1,6 +1,7 @@
 // Interpretation: a turtle walks the string and leaves geometry and queries. A function of its arguments.
 #pragma once
 
+#include "espalier/geometry/field_values.h"
 #include "espalier/geometry/plant_geometry.h"
 #include "espalier/lsystem/derivation.h"
 #include "espalier/turtle/query.h"
@@ -31,9 +32,14 @@ std::shared_ptr<const SymbolTable> symbol_table(const Model& model);
 
 struct InterpretOptions {
     std::uint32_t plant = 0;
+    /// What vector fields of the model read; null: nothing, and their vectors are 0.
+    const FieldValues* fields = nullptr;
     /// Modules that a thread walks at least; 0: all in one piece. Changes the time it takes, not the result.
     std::size_t chunk = 8192;
 };
+
+/// The fields of processes that the vector fields of a model read.
+std::vector<std::string> fields_read_by(const Model& model);
 
 /// Walks `string` once. `derivation` gives modules their pictures (homomorphism); may be null.
 /// `result`'s memory is reused. Throws RunError for a stack that is popped empty and for numbers that are none.
@@ -55,6 +61,7 @@ void write_turtle_answers(std::span<const TurtleAnswer> answers, std::span<const
 
 namespace espalier {
 
+using turtle::fields_read_by;
 using turtle::interpret;
 using turtle::Interpretation;
 using turtle::InterpretOptions;

@@ -153,6 +153,8 @@ public:
     void end();
 
     const TurtleSettings& settings() const { return *settings_; }
+    /// What vector fields read; null if there is nothing.
+    const FieldValues* fields() const { return fields_; }
     using WalkState::elasticities;
     using WalkState::stopped;
     TurtleState& turtle() { return turtles.top(); }
@@ -287,6 +289,7 @@ private:
     RowWriter<QueryColumn> queries_;
     RowWriter<Column<TurtleAnswer>> answers_;
     std::uint32_t plant_ = 0;
+    const FieldValues* fields_ = nullptr;
     const std::vector<std::int16_t>* processes_ = nullptr;  // by letter
 
     std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn

@@ -187,14 +187,7 @@ void DeclarationParser::constant_declaration() {
     in_.end_statement("the constant");
 }
 
-// field swirl = -z, 0, x; becomes a text of the model, of which the name is the number.
-void DeclarationParser::field_declaration() {
-    in_.skip();
-    const Location at = in_.here();
-    const std::string name(in_.accept_name());
-    if (name.empty()) in_.expected("the name of a field");
-    in_.expect("=", fmt::format("after 'field {}'", name));
-    const std::size_t begin = in_.position();
+void DeclarationParser::field_components(const std::string& name) {
     names_.set_formals(&VectorField::coordinates());
     names_.set_constants_only(true);
     for (int axis = 0; axis < 3; ++axis) {
@@ -203,6 +196,22 @@ void DeclarationParser::field_declaration() {
     }
     names_.set_formals(nullptr);
     names_.set_constants_only(false);
+}
+
+// field swirl = -z, 0, x; or field sun = gradient(light); becomes a text of the model, of which the name is the number.
+void DeclarationParser::field_declaration() {
+    in_.skip();
+    const Location at = in_.here();
+    const std::string name(in_.accept_name());
+    if (name.empty()) in_.expected("the name of a field");
+    in_.expect("=", fmt::format("after 'field {}'", name));
+    in_.skip();
+    const std::size_t begin = in_.position(), reading = VectorField::length_of_reading(in_.rest());
+    if (reading > 0) {
+        in_.take(reading);
+    } else {
+        field_components(name);
+    }
     const std::string text(in_.text(begin, in_.position()));
     try {
         VectorField::parse(text);

@@ -32,6 +32,7 @@ private:
     void process_declaration();
     void constant_declaration();
     void field_declaration();
+    void field_components(const std::string& name);
 
     Scanner& in_;
     Names& names_;

@@ -135,8 +135,9 @@ std::vector<ComponentType> make_types() {
                      true});
     types.push_back({"World",
                      "replaces the directions that tropisms turn to, for what follows it",
-                     {{"gravity", field, "", -unbounded, unbounded, "0, -1, 0", "vector at the place x, y, z"},
-                      {"light", field, "", -unbounded, unbounded, "0, 1, 0", "vector at the place x, y, z"}},
+                     {{"gravity", field, "", -unbounded, unbounded, "0, -1, 0",
+                       "vector at the place x, y, z; or gradient(FIELD) or vector(FIELD) of a process"},
+                      {"light", field, "", -unbounded, unbounded, "0, 1, 0", "the same"}},
                      false,
                      false,
                      false});

@@ -5,6 +5,7 @@
 #include "base/characters.h"
 #include "base/text.h"
 #include "language/marks.h"
+#include "language/vector_field.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +91,11 @@ private:
     }
 
     void check_field(const Key& key, const Value& value) {
-        check_count(key, value);
+        const std::string& first = value.parts.front();
+        if (value.parts.size() == 1 && VectorField::length_of_reading(first) == first.size()) return;
+        if (value.parts.size() != 3) {
+            return report(value.place, fmt::format("'{}' is x, y, z, or gradient(FIELD) or vector(FIELD)", key.name));
+        }
         for (const std::string& part : value.parts) {
             if (differs_by_instance(part)) {
                 report(value.place, fmt::format("'{}' is a function of the place x, y, z alone", key.name));

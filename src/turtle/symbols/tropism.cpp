@@ -39,10 +39,22 @@ const VectorField& field_of(const std::string& text) {
     return known != fields.end() ? known->second : fields.emplace(text, VectorField::parse(text)).first->second;
 }
 
+/// Of a field that reads those of processes.
+glm::dvec3 vector_read(const VectorField& field, const FieldValues& values, const glm::dvec3& place) {
+    const std::vector<std::string>& names = field.fields();
+    if (field.kind() == VectorField::Kind::gradient) return values.gradient(names[0], place);
+    return {values.value(names[0], place), values.value(names[1], place), values.value(names[2], place)};
+}
+
+std::optional<glm::dvec3> vector_at(const Walk& walk, const VectorField& field, const glm::dvec3& place) {
+    if (field.kind() == VectorField::Kind::expressions) return field.at(place);
+    return walk.fields() ? vector_read(field, *walk.fields(), place) : glm::dvec3(0);
+}
+
 void turn_along_field(Walk& walk, std::span<const double> parameters) {
     const std::string* text = walk.text(parameters[0]);
     if (!text) walk.fail("the first parameter is the name of a field: 'field NAME = x, y, z;'");
-    const std::optional<glm::dvec3> vector = field_of(*text).at(walk.turtle().pose.position);
+    const std::optional<glm::dvec3> vector = vector_at(walk, field_of(*text), walk.turtle().pose.position);
     if (!vector) walk.fail(fmt::format("the field {} has no value here", *text));
     turn_towards(walk, *vector, parameters[1] * glm::length(*vector));
 }

@@ -38,6 +38,7 @@ void StringWalk::begin(const WalkInput& input, Interpretation& result, const Wal
     offsets_.clear();
     walk_.begin(input.model, input.string, input.settings, input.plant, result, room);
     walk_.processes_ = &input.symbols.processes;
+    walk_.fields_ = input.fields;
 }
 
 void StringWalk::end() {

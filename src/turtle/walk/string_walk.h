@@ -15,6 +15,7 @@ struct WalkInput {
     const TurtleSettings& settings;
     const Derivation* derivation;  ///< null where no module has a picture
     std::uint32_t plant;
+    const FieldValues* fields;  ///< null: vector fields read none
 };
 
 /// Modules that neither act nor have a picture cost one look-up.

@@ -124,7 +124,11 @@ TEST_CASE("What is no graph at all is told by its first line alone", "[pgraph]")
 TEST_CASE("A World is refused that is no function of the place, an FFD whose moves do not fit its lattice",
           "[pgraph]") {
     const auto component = [](const std::string& lines) { return graph_mistakes(lines + "\ncamera -> thing\n"); };
-    CHECK(component("World thing\n  gravity 0, -1") == "3:11: 'gravity' is x, y, z");
+    CHECK(component("World thing\n  gravity 0, -1") ==
+          "3:11: 'gravity' is x, y, z, or gradient(FIELD) or vector(FIELD)");
+    CHECK(component("World thing\n  gravity gradient(water)\n  light vector( wind )").empty());
+    CHECK(component("World thing\n  gravity slope(water)") ==
+          "3:11: 'gravity' is x, y, z, or gradient(FIELD) or vector(FIELD)");
     CHECK(component("World thing\n  gravity 0, i, 0") == "3:11: 'gravity' is a function of the place x, y, z alone");
     CHECK_THAT(component("World thing\n  light 0, y +, 0"), Catch::Contains("3:9: 'y +' is no expression"));
     CHECK(component("FFD thing") == "2:5: an FFD needs 'moves': x, y, z for each of the points of its lattice");
