@@ -164,8 +164,7 @@ void write_tree(ComponentText& text) {
     const bool has_branches = !text.followers(LinkKind::branch).empty();
     const std::string axis = text.kept() + "Axis";
     const std::string start = has_branches ? fmt::format("branches > 0 ? {} : 0", highest) : "0";
-    const std::string branches =
-        has_branches ? fmt::format("{}(0, branches, branches{}, {}) ", each, text.depths(), names) : "";
+    const std::string branches = has_branches ? fmt::format("{}(0, branches{}, {}) ", each, text.depths(), names) : "";
     const bool may_go_on = text.structure().may_go_on(text.component().name);
     const std::string kept = text.declared(text.kept(), may_go_on ? joined(names, "joined") : names);
     text.decomposition.push_back(fmt::format("{} --> {} {}{}({}, 1, {}){}{}{}", whole, kept, branches, axis, start,
@@ -175,14 +174,12 @@ void write_tree(ComponentText& text) {
     write_axis(text, axis_names);
     if (!has_branches) return;
 
-    const std::string some = text.declared(each, joined("i, past, n" + text.depths(), names));
     const std::string rest = joined("n" + text.depths(), names);
-    text.decomposition.push_back(
-        fmt::format("{0} : past - i > 1 --> {1}(i, floor((i + past) / 2), {2}) {1}(floor((i + past) / 2), past, {2})",
-                    some, each, rest));
+    const std::string some = text.declared(each, "i, " + rest);
     const std::string placed = "/(divergence * i) " + text.direction_of_child();
-    text.decomposition.push_back(fmt::format("{} : past - i == 1 --> {}(i > 0 ? {} : 0, {}, {}){}", some, axis, below,
-                                             at, axis_names, text.followers(LinkKind::branch, placed)));
+    text.decomposition.push_back(fmt::format("{} : i < n --> {}(i > 0 ? {} : 0, {}, {}){} {}(i + 1, {})", some, axis,
+                                             below, at, axis_names, text.followers(LinkKind::branch, placed), each,
+                                             rest));
     text.decomposition.push_back(fmt::format("{} --> *", some));
 }
 

@@ -82,15 +82,12 @@ void write_multiplier(ComponentText& text) {
 
     const std::string rest = "n" + text.depths() + ", " + names;
     const std::string kept = text.declared(text.kept(), names);
-    text.decomposition.push_back(fmt::format("{} --> {} {}(0, count, count{}, {})",
+    text.decomposition.push_back(fmt::format("{} --> {} {}(0, count{}, {})",
                                              text.declared(of, text.place() + ", " + names), kept, each, text.depths(),
                                              names));
-    const std::string some = text.declared(each, "i, past, " + rest);
-    text.decomposition.push_back(
-        fmt::format("{0} : past - i > 1 --> {1}(i, floor((i + past) / 2), {2}) {1}(floor((i + past) / 2), past, {2})",
-                    some, each, rest));
-    text.decomposition.push_back(
-        fmt::format("{} : past - i == 1 -->{}", some, text.followers(LinkKind::child, place_of(text))));
+    const std::string some = text.declared(each, "i, " + rest);
+    text.decomposition.push_back(fmt::format("{} : i < n -->{} {}(i + 1, {})", some,
+                                             text.followers(LinkKind::child, place_of(text)), each, rest));
     text.decomposition.push_back(fmt::format("{} --> *", some));
     text.homomorphism.push_back(fmt::format("{} --> *", kept));
 }

@@ -60,7 +60,7 @@ const std::vector<Key>& tropisms() {
 
 std::vector<Key> multiplier(const std::string& count, const std::string& angle) {
     return {
-        {"count", instance, "", 0, 1e6, count, "children, rounded"},
+        {"count", instance, "", 0, 9e5, count, "children, rounded"},
         {"angle", children, "degrees", -unbounded, unbounded, angle, "of each child with the direction of its place"},
         {"child_scale", children, "", 1e-6, unbounded, "1", "of each child"},
     };

@@ -10,8 +10,9 @@
 namespace espalier::language::pgraph {
 namespace {
 
-// Enough for the halves of a million children, and for a horn of as many pieces as there may be.
-constexpr int decomposition_depth = 64, homomorphism_depth = 10100;
+// Enough for as many children and for a horn of as many pieces as there may be. Children are born one after the other,
+// so that a child's identity and its random numbers do not depend on how many others there are.
+constexpr int decomposition_depth = 1000000, homomorphism_depth = 10100;
 
 using Writer = void (*)(ComponentText&);
 

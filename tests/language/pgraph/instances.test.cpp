@@ -230,3 +230,26 @@ TEST_CASE("The depth of a recursion counts from 1", "[pgraph]") {
     CHECK(first_values("Horn stem\n  length 2 ^ depth\n  recursion 4\ncamera -> stem -> stem\n", "Stem") ==
           std::vector<double>{2, 4, 8, 16});
 }
+
+TEST_CASE("Children and branches keep their random numbers when there are more or fewer of them", "[pgraph]") {
+    const auto lengths = [](int count) {
+        const std::string number = std::to_string(count);
+        auto instances = instances_of("Tree stem\n  branches " + number + "\nHydra star\n  count " + number +
+                                      "\nLeaf petal\n  length 1 noise 0.5\nLeaf blade\n  length 1 noise 0.5\n" +
+                                      "camera -> stem -B-> blade\nstem -> star -> petal\n");
+        std::vector<double> all;
+        for (const char* symbol : {"Petal", "Blade"}) {
+            CHECK(instances[symbol].size() == std::size_t(count));
+            for (std::size_t i = 0; i < 5; ++i) all.push_back(instances[symbol].at(i).front());
+        }
+        return all;
+    };
+    const std::vector<double> five = lengths(5);
+    for (const int count : {6, 7, 8, 9, 100}) CHECK(lengths(count) == five);
+}
+
+TEST_CASE("A multiplier may have 900000 children", "[pgraph]") {
+    CHECK(instances_of("Hydra star\n  count 900000\nSimple dot\ncamera -> star -> dot\n")["Dot"].size() == 900000);
+    CHECK_THAT(graph_mistakes("Hydra star\n  count 900001\nSimple dot\ncamera -> star -> dot\n"),
+               Catch::Contains("'count' must be from 0 to 900000"));
+}
