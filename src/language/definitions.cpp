@@ -28,15 +28,6 @@ Expression read_expression(const MappedText& text, const Preprocessed& source) {
     return expression;
 }
 
-/// True for what keyframes of a scene put there: its values are checked where they are read.
-bool reads_step(std::string_view text) {
-    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
-        end = end_of_token(text, begin);
-        if (text.substr(begin, end - begin) == "Q") return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 double value_of(std::string_view expression, const Preprocessed& source) {
@@ -64,7 +55,8 @@ std::vector<std::string> macros_read_by(std::string_view expression, const Prepr
     return found;
 }
 
-std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources& sources, Mistakes& mistakes) {
+std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources& sources, Mistakes& mistakes,
+                                      const std::set<std::string>& in_time) {
     std::vector<ModelSetting> settings;
     for (const DocumentedMacro& documented : source.documented) {
         const Macro* macro = source.macros.find(documented.name);
@@ -72,7 +64,7 @@ std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources&
         const auto& [summary, lowest, highest, whole, unit] = documented.comment;
         ModelSetting setting{documented.name, macro->body, 0,    summary,          lowest,
                              highest,         whole,       unit, documented.group, sources.place(documented.at)};
-        bool allowed = reads_step(setting.text);
+        bool allowed = in_time.contains(setting.name);
         try {
             if (!allowed) setting.value = value_of(setting.text, source);
             allowed = allowed || setting.allows(setting.value);

@@ -6,6 +6,7 @@
 #include "language/preprocessor/preprocessor.h"
 #include "language/source.h"
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,9 @@ double value_of(std::string_view expression, const Preprocessed& source);
 /// The names of all macros that an expression expands, in the order in which it meets them.
 std::vector<std::string> macros_read_by(std::string_view expression, const Preprocessed& source);
 
-/// The documented macros with their values. Those whose value is no number of their range are mistakes.
-std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources& sources, Mistakes& mistakes);
+/// The documented macros with their values. Those whose value is no number of their range are mistakes, but for those
+/// that are functions of the step.
+std::vector<ModelSetting> settings_of(const Preprocessed& source, const Sources& sources, Mistakes& mistakes,
+                                      const std::set<std::string>& in_time = {});
 
 }  // namespace espalier::language

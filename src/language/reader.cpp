@@ -31,7 +31,7 @@ std::shared_ptr<const Model> read(TranslatedText text, const std::string& name, 
     try {
         const std::uint32_t file = sources.add(name, std::move(text));
         const language::Preprocessed source = language::preprocess(sources, file, folder, options, mistakes);
-        language::settings_of(source, sources, mistakes);
+        language::settings_of(source, sources, mistakes, options.in_time);
         language::parse_model(source, sources, mistakes, *model);
     } catch (const language::TooManyMistakes&) {
         // Those found so far are reported.

@@ -2,6 +2,7 @@
 
 #include "base/prefetch.h"
 #include "keyframes.h"
+#include "scene_keyframes.h"
 
 #include <algorithm>
 #include <utility>
@@ -98,13 +99,21 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
 void GrowingPlant::interpret(const FieldValues& fields) {
     Interpretation& result = interpretation.for_writing();
     const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
-    espalier::interpret(model(), *symbols_, *string, description->turtle, pictures, {number, &fields}, result);
+    const std::shared_ptr<const Drawing> now =
+        description->drawing_in_time ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
+    TurtleSettings turtle_now;
+    if (now) {
+        turtle_now = now->turtle;
+        turtle_now.pose = description->turtle.pose;
+    }
+    espalier::interpret(model(), *symbols_, *string, now ? turtle_now : description->turtle, pictures,
+                        {number, &fields}, result);
     asks_ = result.asks();
     if (description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
     StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading};
-    apply(description->stages, plant);
+    apply(now ? now->stages : description->stages, plant);
 }
 
 void GrowingPlant::prefetch_values() const {

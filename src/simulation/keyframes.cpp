@@ -17,19 +17,6 @@ std::string written(double number) {
     return number < 0 ? fmt::format("({})", number) : fmt::format("{}", number);
 }
 
-Keyframes read_table(const Settings& table) {
-    Keyframes keyframes{table.text("name"), table.numbers("times"), table.numbers("values"),
-                        table.flag_or("spline", false), table.place("name")};
-    table.reject_unread();
-    const std::vector<double>& times = keyframes.times;
-    if (times.empty() || std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end()) {
-        throw UserError(table.place("times"), "'times' must be one number or more, each greater than the one before");
-    }
-    if (times.size() == keyframes.values.size()) return keyframes;
-    throw UserError(table.place("values"), fmt::format("'values' must have a number for each of the {} 'times', not {}",
-                                                       times.size(), keyframes.values.size()));
-}
-
 void check_values(const Keyframes& keyframes, const ModelSettings& settings) {
     for (const ModelSetting& setting : settings.list()) {
         if (setting.name != keyframes.name) continue;
@@ -42,6 +29,19 @@ void check_values(const Keyframes& keyframes, const ModelSettings& settings) {
 }
 
 }  // namespace
+
+Keyframes read_keyframes_table(const Settings& table, const char* named) {
+    Keyframes keyframes{table.text(named), table.numbers("times"), table.numbers("values"),
+                        table.flag_or("spline", false), table.place(named)};
+    table.reject_unread();
+    const std::vector<double>& times = keyframes.times;
+    if (times.empty() || std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end()) {
+        throw UserError(table.place("times"), "'times' must be one number or more, each greater than the one before");
+    }
+    if (times.size() == keyframes.values.size()) return keyframes;
+    throw UserError(table.place("values"), fmt::format("'values' must have a number for each of the {} 'times', not {}",
+                                                       times.size(), keyframes.values.size()));
+}
 
 double Keyframes::slope(std::size_t k) const {
     const auto rise = [&](std::size_t i) { return (values[i + 1] - values[i]) / (times[i + 1] - times[i]); };
@@ -80,7 +80,7 @@ std::vector<Keyframes> read_keyframes(const Settings& plant, const std::filesyst
     std::vector<Keyframes> all;
     if (!plant.has("keyframes")) return all;
     const Defines defines;
-    for (const Settings& table : plant.tables("keyframes")) all.push_back(read_table(table));
+    for (const Settings& table : plant.tables("keyframes")) all.push_back(read_keyframes_table(table, "name"));
     const ModelSettings settings = ModelSettings::read(model, defines);
     for (const Keyframes& keyframes : all) check_values(keyframes, settings);
     return all;

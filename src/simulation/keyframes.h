@@ -12,9 +12,9 @@
 
 namespace espalier::simulation {
 
-/// One [[plant.keyframes]] table. Before the first time and after the last the value stays.
+/// One [[plant.keyframes]] or [[keyframes]] table. Before the first time and after the last the value stays.
 struct Keyframes {
-    std::string name;           ///< of a #define
+    std::string name;           ///< of a #define, or the key of a setting of the scene
     std::vector<double> times;  ///< rising
     std::vector<double> values;
     bool spline = false;  ///< a smooth curve, which stays between its values (Steffen 1990)
@@ -27,6 +27,9 @@ struct Keyframes {
 private:
     double slope(std::size_t k) const;
 };
+
+/// Reads one table, whose key `named` says what has the values.
+Keyframes read_keyframes_table(const Settings& table, const char* named);
 
 /// All of a plant; throws UserError for times that do not rise, and for values that a setting of the model refuses.
 std::vector<Keyframes> read_keyframes(const Settings& plant, const std::filesystem::path& model);

@@ -4,6 +4,7 @@
 
 #include "insertion.h"
 #include "keyframes.h"
+#include "scene_keyframes.h"
 #include "side_files.h"
 
 #include <fmt/format.h>
@@ -131,7 +132,7 @@ public:
     PlantReader(std::uint64_t seed, double dt, std::vector<Plant>& plants, SceneNotes& notes)
         : seed_(seed), dt_(dt), plants_(plants), notes_(notes), side_files_(notes) {}
 
-    void read(const Settings& table) {
+    void read(const Settings& table, const std::vector<Keyframes>& keyframes) {
         Plant plant;
         const Defines defines = read_defines(table.table("define"));
         const std::filesystem::path folder = table.path_if_any("folder").value_or("");
@@ -146,9 +147,10 @@ public:
             plant.insertions.push_back(read_insertion(text, table.place("insert")));
         }
         [[maybe_unused]] const Insertions must_fit(plant);
-        plant.turtle = read_turtle(table.table("turtle"), plant.view ? plant.view->turtle : TurtleSettings());
-        plant.turtle.pose = read_pose(table);
+        plant.turtle = read_turtle(table.table("turtle"), viewed(plant));
         plant.stages = read_stages(table);
+        if (!keyframes.empty()) read_drawing_in_time(table, keyframes, plant);
+        plant.turtle.pose = read_pose(table);
         const auto stream = static_cast<std::uint32_t>(
             table.integer_or("stream", static_cast<std::int64_t>(plants_.size()), Range::between(0, 4294967295.0)));
         const std::vector<glm::dvec3> places = read_places(table, seed_, stream);
@@ -185,10 +187,13 @@ private:
             throw UserError(each.place, fmt::format("'{}' has a value in 'define' already", each.name));
         }
         Defines defines = at_time(given, keyframes, age);
-        if (!has_age && !regrows) {
-            for (const Keyframes& each : keyframes) defines[each.name] = each.expression(fmt::format("(Q * {})", dt_));
+        std::set<std::string> in_time;
+        for (const Keyframes& each : keyframes) {
+            if (has_age || regrows) continue;
+            defines[each.name] = each.expression(fmt::format("(Q * {})", dt_));
+            in_time.insert(each.name);
         }
-        plant.model = compiled_model(table, defines, plant.view.get());
+        plant.model = compiled_model(table, defines, in_time, plant.view.get());
         if (!regrows) return;
         const std::filesystem::path path = table.path("model");
         const ReadOptions options = read_options(defines, read_arithmetic(table), plant.view.get());
@@ -199,6 +204,40 @@ private:
                 return compile(read_model(path, at_that_time));
             },
             dt_);
+    }
+
+    static TurtleSettings viewed(const Plant& plant) { return plant.view ? plant.view->turtle : TurtleSettings(); }
+
+    /// The drawing of each time is read from a table with the values of that time. Throws UserError where it would not
+    /// be sound at its key times or between them.
+    void read_drawing_in_time(const Settings& table, const std::vector<Keyframes>& keyframes, Plant& plant) const {
+        const auto make = [keyframes, table, turtle = viewed(plant)](double time) {
+            Settings then = table.copy(table.place().file);
+            for (const Keyframes& each : keyframes) then.set(each.name, fmt::format("{}", each.at(time)));
+            return Drawing{read_turtle(then.table("turtle"), turtle), read_stages(then)};
+        };
+        for (const auto& [time, place] : times_to_try(keyframes)) {
+            try {
+                make(time);
+            } catch (const UserError& error) {
+                throw UserError(place, fmt::format("at the time {}: {}", time, error.diagnostics().front().message));
+            }
+        }
+        plant.turtle = make(0).turtle;
+        plant.stages = make(0).stages;
+        plant.drawing_in_time = std::make_shared<const DrawingInTime>(make, dt_);
+    }
+
+    /// The key times and the middles between them.
+    static std::vector<std::pair<double, Place>> times_to_try(const std::vector<Keyframes>& keyframes) {
+        std::vector<std::pair<double, Place>> times;
+        for (const Keyframes& each : keyframes) {
+            for (std::size_t k = 0; k < each.times.size(); ++k) {
+                times.emplace_back(each.times[k], each.place);
+                if (k > 0) times.emplace_back((each.times[k - 1] + each.times[k]) / 2, each.place);
+            }
+        }
+        return times;
     }
 
     static ReadOptions read_options(const Defines& defines, Arithmetic arithmetic, const View* view) {
@@ -213,11 +252,12 @@ private:
     }
 
     std::shared_ptr<const CompiledModel> compiled_model(const Settings& table, const Defines& defines,
-                                                        const View* view) {
+                                                        const std::set<std::string>& in_time, const View* view) {
         const ModelKey key{table.path("model"), defines, read_arithmetic(table), view};
         std::shared_ptr<const CompiledModel>& model = models_[key];
         if (model) return model;
         ReadOptions options = read_options(defines, key.arithmetic, view);
+        options.in_time = in_time;
         options.warnings = &notes_.diagnostics;
         model = compile(read_model(key.path, options));
         return model;
@@ -254,14 +294,15 @@ Defines read_defines(const Settings& table) {
 }
 
 std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, double dt, Mistakes& mistakes,
-                               SceneNotes& notes) {
+                               SceneNotes& notes, const std::vector<std::vector<Keyframes>>& keyframes) {
     std::vector<Plant> plants;
     mistakes.attempt([&] {
         const std::vector<Settings> tables = root.tables("plant");
         if (tables.empty()) throw UserError(root.place(), "no [[plant]] in this scene: at least one is needed");
         PlantReader reader(seed, dt, plants, notes);
-        for (const Settings& table : tables) {
-            mistakes.attempt([&] { reader.read(table); });
+        for (std::size_t k = 0; k < tables.size(); ++k) {
+            const std::vector<Keyframes> none;
+            mistakes.attempt([&] { reader.read(tables[k], k < keyframes.size() ? keyframes[k] : none); });
         }
     });
     return plants;

@@ -3,6 +3,8 @@
 
 #include "espalier/simulation/scene.h"
 
+#include "keyframes.h"
+
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -32,8 +34,8 @@ private:
 Defines read_defines(const Settings& table);
 
 /// Reads every plant of the scene, in order. Plants with the same model, defines and view share one CompiledModel.
-/// `dt`: from one step to the next, for keyframes.
+/// `dt`: from one step to the next, for keyframes; `keyframes`: of the scene, by table.
 std::vector<Plant> read_plants(const Settings& root, std::uint64_t seed, double dt, Mistakes& mistakes,
-                               SceneNotes& notes);
+                               SceneNotes& notes, const std::vector<std::vector<Keyframes>>& keyframes = {});
 
 }  // namespace espalier::simulation

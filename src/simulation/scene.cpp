@@ -8,6 +8,7 @@
 #include "environment_file.h"
 #include "expressions.h"
 #include "plant_table.h"
+#include "scene_keyframes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -129,13 +130,13 @@ void read_timeline(const Settings& table, Scene& scene) {
 }
 
 void reject_unknown_tables(const Settings& root) {
-    const std::vector<std::string> known{"simulation", "plant", "environment", "timeline"};
+    const std::vector<std::string> known{"simulation", "plant", "environment", "timeline", "keyframes"};
     std::vector<Diagnostic> unknown;
     for (const std::string& key : root.keys()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         unknown.push_back({Diagnostic::Severity::error, root.place(key),
                            fmt::format("'{}' means nothing here{}; a scene has [simulation], [[plant]], "
-                                       "[environment.<name>] and [timeline]",
+                                       "[environment.<name>], [[keyframes]] and [timeline]",
                                        key, did_you_mean(key, known))});
     }
     if (!unknown.empty()) throw UserError(unknown);
@@ -170,7 +171,12 @@ Scene read(Settings root, Scene scene, const SceneOptions& options) {
     mistakes.attempt([&] { read_simulation(root.table("simulation"), scene); });
     mistakes.attempt([&] { read_environment(root.table("environment"), scene); });
     mistakes.attempt([&] { read_timeline(root.table("timeline"), scene); });
-    scene.plants = read_plants(root, scene.seed, scene.dt, mistakes, scene.notes);
+    SceneKeyframes keyframes;
+    mistakes.attempt([&] { keyframes = read_scene_keyframes(root); });
+    if (!keyframes.of_processes.empty()) {
+        scene.environment.in_time = std::make_shared<const EnvironmentInTime>(keyframes.of_processes);
+    }
+    scene.plants = read_plants(root, scene.seed, scene.dt, mistakes, scene.notes, keyframes.of_plants);
     try {
         mistakes.throw_if_any();
     } catch (const UserError& error) {
@@ -269,6 +275,10 @@ const char* scene_help() {
   turtle       { position = "%.4f %.4f %.4f", heading, left, up, line_width, scale_factor }: printf formats that
                round the state of the turtle for the process
   following_module  true; the process sees the module that follows the query
+
+[[keyframes]]  { key = "environment.light.strength", times = [0, 20], values = [0.1, 0.3], spline = false }: a number of
+               a process, of a plant's turtle (plant.0.turtle.line_width) or of a stage (plant.0.stage.1.tip) has these
+               values at these times
 
 [timeline]     `espalier list recorders`
   first        0; the first frame

@@ -7,6 +7,7 @@
 #include "expressions.h"
 #include "growing_plant.h"
 #include "memory_budget.h"
+#include "scene_keyframes.h"
 #include "string_checkpoint.h"
 #include "turtle/asking.h"
 
@@ -179,6 +180,7 @@ void World::exchange() {
         views.push_back(plant.view());
         strings.push_back(&*plant.string);
     }
+    if (const auto& in_time = state_->scene.environment.in_time) in_time->set(*state_->environment, state_->time());
     state_->environment->exchange({state_->step, state_->time(), state_->scene.dt, views}, strings);
     // Answers are kept as all parameters are.
     for (const PlantView& plant : views) {
@@ -230,6 +232,7 @@ void World::State::make_environment() {
         throw explained(error, scene.computed);
     }
     for (const auto& process : described.processes) process.second.reject_unread();
+    if (described.in_time) described.in_time->check(*environment);
     if (!described.default_process.empty()) environment->set_default(described.default_process);
     if (described.routed) environment->route_by_first_parameter();
     if (described.keeps_unanswered) environment->keep_unanswered();

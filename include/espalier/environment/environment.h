@@ -37,6 +37,11 @@ public:
     /// Queries that no process answers keep their parameters, instead of being mistakes.
     void keep_unanswered() { keeps_unanswered_ = true; }
 
+    /// What may change between steps of a process.
+    std::vector<ChangingSetting> changing_settings(std::size_t process) {
+        return processes_[process]->changing_settings();
+    }
+
     /// Throws UserError if `model` declares a process the scene lacks, or asks ?E where none is default.
     void require_answers(const Model& model, const std::string& plant_name) const;
 

@@ -52,6 +52,13 @@ struct Quantity {
     std::string unit = {};  ///< "": a number without one
 };
 
+/// A number of a process's table that may change between steps.
+struct ChangingSetting {
+    std::string key;  ///< "strength"
+    Range range;
+    std::function<void(double)> set;
+};
+
 /// Constructors take (Settings&, const EnvironmentContext&, Fields&), read their parameters (the scene rejects unread
 /// ones) and provide their fields. Order inside a step: `advance`, then `answer`, each once; then fields and statistics
 /// are recorded. Answers do not depend on the order of the queries, nor on the number of threads.
@@ -65,6 +72,9 @@ public:
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
     virtual void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers,
                         Fields& fields) = 0;
+
+    /// What keyframes of a scene may change: they set it before `advance`. All other settings stay.
+    virtual std::vector<ChangingSetting> changing_settings() { return {}; }
 
     /// This step's figures for a plant, by number. Quantities of the whole world repeat for every plant.
     virtual std::vector<Quantity> statistics(std::uint32_t) const { return {}; }
@@ -91,6 +101,7 @@ struct ProcessType {
 
 namespace espalier {
 
+using environment::ChangingSetting;
 using environment::EnvironmentContext;
 using environment::EnvironmentProcess;
 using environment::PlantView;

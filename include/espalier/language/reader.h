@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,8 @@ using Defines = std::map<std::string, std::string>;
 
 struct ReadOptions {
     Defines defines;
+    /// Those of `defines` that stand for functions of the step, whose values the reader does not know.
+    std::set<std::string> in_time = {};
     Arithmetic arithmetic = Arithmetic::double_precision;
     /// Names defined before the file is read, whether it mentions them or not (the functions of a function set).
     Defines predefined = {};

@@ -28,6 +28,8 @@ struct Insertion {
     Place place = {};         ///< where somebody says so
 };
 
+class DrawingInTime;
+class EnvironmentInTime;
 class ModelInTime;
 
 /// One plant of a scene: a model growing at a place with a seed. The world makes a GrowingPlant of it.
@@ -42,6 +44,8 @@ struct Plant {
     GeometryStages stages = {};                   ///< what is drawn goes through them before it is recorded
     /// The plant grows anew in every step, from the model of that time; null: it grows from step to step.
     std::shared_ptr<const ModelInTime> in_time = {};
+    /// Settings of the turtle and stages of each time; null: those above hold for all times.
+    std::shared_ptr<const DrawingInTime> drawing_in_time = {};
 };
 
 /// The model of a file, or of a text in the same language, ready to grow. Throws UserError with every mistake found.
@@ -57,6 +61,8 @@ struct SceneEnvironment {
     std::string default_process;                              ///< answers ?E; "": the only one
     bool routed = false;                                      ///< the first parameter of ?E counts the processes from 0
     bool keeps_unanswered = false;                            ///< queries without a process keep their parameters
+    /// What changes between steps; null: nothing does.
+    std::shared_ptr<const EnvironmentInTime> in_time = {};
 };
 
 /// A value of a scene file that an expression gave.

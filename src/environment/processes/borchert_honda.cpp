@@ -3,6 +3,8 @@
 // Self-organizing tree models for image synthesis, section 5.1; shedding: section 5.3.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/changing_settings.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -33,6 +35,10 @@ public:
             const auto count = static_cast<std::size_t>(end - first);
             answer_plant(world.plants[i], queries.subspan(at, count), answers.subspan(at, count), totals_[i]);
         });
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        return {changing("alpha", Range::not_negative(), alpha_), changing("lambda", Range::between(0, 1), lambda_)};
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {

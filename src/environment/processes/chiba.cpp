@@ -3,6 +3,7 @@
 // and dormancy break.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/changing_settings.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 #include "environment/shade/ball_shadows.h"
@@ -78,6 +79,11 @@ public:
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (asks(queries[i])) statistics_.add(queries[i].plant, answers[i][0]);
         }
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        return {changing("transmittance", Range::between(0, 1), transmittance_),
+                changing("radius", Range::positive(), radius_), changing("beam_radius", Range::between(0, 1e6), beam_)};
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }

@@ -4,6 +4,7 @@
 // distance from the last fork and the density. The paper gives the rules; the functions below are ours.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/changing_settings.h"
 #include "environment/exchange/answer_statistics.h"
 
 #include <glm/geometric.hpp>
@@ -71,6 +72,16 @@ public:
         for (std::size_t i = 0; i < queries.size(); ++i) {
             if (is_tip(queries[i])) statistics_.add(queries[i].plant, answers[i][0]);
         }
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        return {changing("reach", Range::positive(), reach_),
+                changing("resistance", Range::not_negative(), resistance_),
+                changing("branching", Range::between(0, 1), branching_),
+                changing("fork_distance", Range::not_negative(), fork_distance_),
+                changing("fork_rise", Range::not_negative(), fork_rise_),
+                changing("crowding", Range::positive(), crowding_),
+                changing("tip_weight", Range::not_negative(), tip_weight_)};
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }

@@ -3,6 +3,7 @@
 #include "espalier/environment/environment_process.h"
 
 #include "base/text.h"
+#include "environment/changing_settings.h"
 #include "environment/water/diffusion.h"
 #include "environment/water/direction.h"
 #include "environment/water/field.h"
@@ -90,6 +91,18 @@ public:
         }
         stock_->measure();
         field_.change();
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        std::vector<ChangingSetting> settings{
+            changing("range", Range::positive(), parameters_.range),
+            changing("gradient_length", Range::positive(), parameters_.gradient_length)};
+        for (std::size_t k = 0; k < parameters_.sources.size(); ++k) {
+            const bool holds = parameters_.sources[k].hold.has_value();
+            settings.push_back({fmt::format("sources.{}.{}", k, holds ? "hold" : "rate"), content_range,
+                                [this, k](double value) { stock_->set_source(k, value); }});
+        }
+        return settings;
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {

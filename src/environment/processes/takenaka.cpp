@@ -3,6 +3,7 @@
 // environment.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/changing_settings.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 #include "environment/shade/sphere_tree.h"
@@ -81,6 +82,13 @@ public:
             if (answers[i].size() > 1) answers[i][1] = product(tree, clusters[i], queries[i].parameters);
         });
         statistics_.sum_up(queries, answers, 1);
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        return {changing("parameter_s", Range::between(1, 1e6), s_),
+                changing("transmittance", Range::between(0, 1), transmittance_),
+                changing("efficiency", Range::between(0, 1e9), efficiency_),
+                changing("beam_radius", Range::between(0, 1e6), beam_)};
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }

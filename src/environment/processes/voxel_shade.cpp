@@ -2,6 +2,7 @@
 // Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3.
 #include "espalier/environment/environment_process.h"
 
+#include "environment/changing_settings.h"
 #include "environment/shade/grids.h"
 #include "environment/shade/light.h"
 
@@ -136,7 +137,9 @@ public:
         casts_begin_.clear();
         for (const Query& query : queries) {
             casts_begin_.push_back(casts_.casts().size());
-            if (query.parameters[0] > 0) cast(lattice_.voxel_of(query.pose.position), query.parameters[0]);
+            if (query.parameters[0] > 0) {
+                cast(lattice_.voxel_of(query.pose.position), query.parameters[0] * strength_now_);
+            }
         }
         casts_begin_.push_back(casts_.casts().size());
         field_.show(casts_, [this] { return grids_.light_to_write(field_.bricks(), shown()); });
@@ -152,6 +155,15 @@ public:
         };
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), answer_some);
         sum_up(queries, answers);
+    }
+
+    std::vector<ChangingSetting> changing_settings() override {
+        std::vector<ChangingSetting> settings{changing("gradient_radius", Range::positive(), gradient_radius_)};
+        if (rule_.strength > 0) {
+            settings.push_back({"strength", Range::between(0, 1e6),
+                                [this](double strength) { strength_now_ = strength / rule_.strength; }});
+        }
+        return settings;
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
@@ -215,6 +227,7 @@ private:
     ShadeRule rule_;
     ShadeLattice lattice_;
     double gradient_radius_;
+    double strength_now_ = 1;  ///< by that of the rule
     ShadeCasts casts_;
     ShadeField field_;
     ShadeGrids grids_;

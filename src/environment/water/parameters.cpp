@@ -10,9 +10,6 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double max_content = 1e30;  ///< keeps every sum finite
-const Range content_range = Range::between(0, max_content);
-
 Box read_domain(Settings& settings, const EnvironmentContext& context) {
     if (!settings.has("domain")) {
         if (context.domain) return *context.domain;

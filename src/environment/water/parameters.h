@@ -14,6 +14,9 @@ namespace espalier::environment {
 
 enum class WaterMode { diffusion, relaxation };
 
+/// What contents and rates may be: every sum stays finite.
+inline const Range content_range = Range::between(0, 1e30);
+
 /// A side of the domain: closed, or held at a content on its face.
 struct WaterSide {
     bool fixed = false;

@@ -101,6 +101,12 @@ void WaterStock::find_sources() {
     }
 }
 
+void WaterStock::set_source(std::size_t source, double value) {
+    for (WaterSource* changed : {&parameters_.sources[source], &sources_[source].source}) {
+        (changed->hold ? *changed->hold : changed->rate) = value;
+    }
+}
+
 void WaterStock::set_free(std::vector<std::uint8_t> free) {
     free_ = std::move(free);
     faces_ = WaterFaces(grid_, free_);

@@ -38,6 +38,9 @@ public:
     /// Obstacles have moved: what stood in their new voxels is displaced; voxels they left begin empty.
     void set_free(std::vector<std::uint8_t> free);
 
+    /// The content that a source holds, or the rate at which it gains.
+    void set_source(std::size_t source, double value);
+
     /// Restarts at the steady state of diffusion.
     void settle(const WaterDiffusion& diffusion);
 
