@@ -2,10 +2,13 @@
 
 #include "espalier/simulation/simulation.h"
 
+#include "studio/derivation_length.h"
+
 #include <fmt/format.h>
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -36,12 +39,19 @@ std::string rows_behind(const fs::path& file, std::size_t offset) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// A growth that may be extended ends where the studio says.
+Scene without_end(Scene scene) {
+    scene.steps = std::numeric_limits<int>::max() / 2;
+    return scene;
+}
+
 }  // namespace
 
 Growth::Growth(GrowthOrder order, GrowthListener& listener)
     : order_(std::move(order)),
       listener_(listener),
       steps_(order_.number, order_.scratch / fmt::format("growth-{}", order_.number)),
+      version_(order_.version),
       thread_([this] { live(); }) {}
 
 Growth::~Growth() {
@@ -64,6 +74,16 @@ void Growth::cancel() {
     cancelled_ = true;
     const std::lock_guard lock(mutex_);
     changed_.notify_all();
+}
+
+bool Growth::extend(int last_step, std::uint64_t version) {
+    if (!may_extend_ || last_step < last_step_) return false;
+    const std::lock_guard lock(mutex_);
+    version_ = version;
+    last_step_ = last_step;
+    stopped_ = false;
+    changed_.notify_all();
+    return true;
 }
 
 void Growth::ask(std::function<void(const World&)> question) {
@@ -92,6 +112,9 @@ void Growth::grow(const Scene& scene, GrowthStart start) {
     const fs::path folder = order_.scratch / fmt::format("files-{}", number());
     fs::create_directories(folder);
     World world(scene, default_memory(), folder);
+    last_step_ = world.last_step();
+    may_extend_ = !depends_on_length(scene);
+    if (may_extend_) world = World(without_end(scene), default_memory(), folder);
     const std::unique_ptr<Recorder> statistics = statistics_of(world, folder);
     world.attach(*statistics);
     {
@@ -102,31 +125,34 @@ void Growth::grow(const Scene& scene, GrowthStart start) {
     for (const auto& [name, field] : world.environment().fields().all()) {
         start.fields.push_back({name, field.unit, field.meaning});
     }
-    start.last_step = world.last_step();
+    start.last_step = last_step_;
     start.seed = world.scene().seed;
     listener_.started(number(), std::move(start));
     world.start();
     note(world, folder / "statistics.csv");
-    while (!cancelled_ && !stopped_ && !world.at_end()) {
-        world.step();
-        note(world, folder / "statistics.csv");
+    while (!cancelled_) {
+        while (!cancelled_ && !stopped_ && !is_over(world)) {
+            world.step();
+            note(world, folder / "statistics.csv");
+            answer(world);
+        }
+        if (!is_over(world) && !cancelled_) listener_.stopped(number());
+        wait_for_more();
         answer(world);
     }
-    if (!world.at_end() && !cancelled_) listener_.stopped(number());
-    answer_to_the_end(world);
 }
 
 void Growth::note(const World& world, const fs::path& statistics) {
     const std::size_t internodes = steps_.add(world.frame());
     GrownStep step;
     step.step = world.steps_done();
-    step.last_step = world.last_step();
+    step.last_step = last_step_;
     step.modules = world.modules();
     step.internodes = internodes;
     step.seconds = seconds();
     step.statistics = rows_behind(statistics, statistics_read_);
     statistics_read_ += step.statistics.size();
-    step.is_end = world.at_end();
+    step.is_end = is_over(world);
     if (!cancelled_) listener_.grown(number(), std::move(step));
 }
 
@@ -139,12 +165,12 @@ void Growth::answer(const World& world) {
     for (const auto& question : questions) question(world);
 }
 
-void Growth::answer_to_the_end(const World& world) {
-    while (!cancelled_) {
-        answer(world);
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return cancelled_ || !questions_.empty(); });
-    }
+// A question, an end, or more steps to grow.
+void Growth::wait_for_more() {
+    std::unique_lock lock(mutex_);
+    const int last = last_step_;
+    const bool stopped = stopped_;
+    changed_.wait(lock, [&] { return cancelled_ || !questions_.empty() || last_step_ != last || stopped_ != stopped; });
 }
 
 }  // namespace espalier::studio

@@ -74,7 +74,7 @@ public:
     Growth& operator=(const Growth&) = delete;
 
     std::uint32_t number() const { return order_.number; }
-    std::uint64_t version() const { return order_.version; }
+    std::uint64_t version() const { return version_; }
     const Opened& opened() const { return order_.opened; }
     const KeptSteps& steps() const { return steps_; }
     double seconds() const;  ///< since it began
@@ -87,6 +87,9 @@ public:
     bool has_ended() const { return ended_; }
     /// No more steps, but it still answers questions.
     void stop() { stopped_ = true; }
+    /// Goes on to a later step, for a later version of the document that asks for nothing else. False if what grows
+    /// depends on how far it is to grow: then it must grow anew.
+    bool extend(int last_step, std::uint64_t version);
 
     /// Called with the world on the thread of the growth: between two steps, or after the last.
     void ask(std::function<void(const World&)> question);
@@ -96,13 +99,17 @@ private:
     void grow(const Scene& scene, GrowthStart start);
     void note(const World& world, const std::filesystem::path& statistics);
     void answer(const World& world);
-    void answer_to_the_end(const World& world);
+    void wait_for_more();
+    bool is_over(const World& world) const { return world.stopped() || world.steps_done() >= last_step_; }
 
     const GrowthOrder order_;
     GrowthListener& listener_;
     KeptSteps steps_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::size_t statistics_read_ = 0;
+    std::uint64_t version_ = 0;
+    std::atomic<int> last_step_ = -1;
+    std::atomic<bool> may_extend_ = false;
     std::atomic<bool> cancelled_ = false, stopped_ = false, ended_ = false;
     mutable std::mutex mutex_;
     std::condition_variable changed_;

@@ -264,7 +264,19 @@ Json Session::grow(Viewer&, const Json& request) {
     DocumentState state = document_.now();
     state.opened.steps = to;
     const int known = newest_.step;
-    apply(std::move(state), fmt::format("grow to step {}", to), false);
+    const std::string label = fmt::format("grow to step {}", to);
+    const bool is_present = !next_ && !waits_ && growth_->version() == document_.version();
+    if (is_present && to > known && growth_->extend(to, document_.version() + 1)) {
+        document_.change(std::move(state), label, false);
+        unkept_ = true;
+        newest_.last_step = to;
+        state_ = "growing";
+        is_busy_ = true;
+        tell(document_json());
+        tell(growth_json());
+    } else {
+        apply(std::move(state), label, false);
+    }
     follow_from_ = known + 1;
     return {{"version", document_.version()}};
 }

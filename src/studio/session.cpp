@@ -224,10 +224,8 @@ void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
     newest_ = step;
     newest_.statistics.clear();
     add_statistics(step.statistics);
-    if (step.is_end) {
-        state_ = "done";
-        is_busy_ = false;
-    }
+    state_ = step.is_end ? "done" : "growing";
+    if (step.is_end) is_busy_ = false;
     const bool is_over = state_ != "growing";
     const auto now = std::chrono::steady_clock::now();
     if (is_over || now - told_ > std::chrono::milliseconds(40)) {

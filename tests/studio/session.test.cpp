@@ -179,7 +179,27 @@ TEST_CASE("the same step is shown again after an edit, and none is grown twice",
     CHECK(internodes(page.packets.back()) == 3);
 }
 
-TEST_CASE("growth can be stopped, and goes on from the beginning to a later step", "[studio]") {
+TEST_CASE("growing on does not grow again what is there, unless the model asks how far it is to grow", "[studio]") {
+    for (const bool asks : {false, true}) {
+        std::string model = tree;
+        if (asks) model.replace(model.find("F(LENGTH)"), 9, "F(LENGTH * (1 + Z))");
+        OpenStudio studio(model);
+        ListeningPage& page = studio.begin();
+        studio.wait_until_grown();
+        const Json before = page.last("growth")["growth"];
+        studio.ask({{"do", "grow"}, {"to", 6}});
+        studio.wait_until_grown();
+        CHECK(page.last("growth")["step"] == 6);
+        CHECK((page.last("growth")["growth"] == before) == !asks);
+        CHECK(internodes(page.packets.back()) == 63);
+        CHECK(page.last("statistics")["rows"].back()[0] == 6);
+        studio.ask({{"do", "undo"}});
+        studio.wait_until_grown();
+        CHECK(page.last("growth")["step"] == 4);
+    }
+}
+
+TEST_CASE("growth can be stopped", "[studio]") {
     OpenStudio studio(random_tree);
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
