@@ -328,5 +328,5 @@ TEST_CASE("maple: the areas of two limbs add up to that of their parent", "[tree
         CHECK(area == Approx(geometry.internodes[i].tip_radius * geometry.internodes[i].tip_radius));
         ++forks;
     }
-    CHECK(forks == 31);
+    CHECK(forks == 15);
 }

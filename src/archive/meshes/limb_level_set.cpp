@@ -97,6 +97,8 @@ struct LimbLevelSet::Body {
 
     void find_blocks() {
         for (const LimbPiece& piece : limbs.pieces()) origin = glm::min(origin, glm::min(piece.base, piece.tip));
+        // A flat base must not lie on voxels' centres, where the mesh would have triangles without area.
+        origin -= voxel * glm::dvec3(0.37, 0.41, 0.43);
         for (std::uint32_t i = 0; i < limbs.pieces().size(); ++i) add_piece(i);
         std::vector<char> matters(blocks.size());
         tbb::parallel_for(std::size_t{0}, blocks.size(),
