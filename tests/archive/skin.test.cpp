@@ -329,6 +329,14 @@ TEST_CASE("twigs stay closed tubes that begin inside, and a limb keeps its rows"
     for (const TubeVertex& vertex : tubes[0].vertices) CHECK(vertex.node == (vertex.position.y > 0.5f ? 2 : 1));
 }
 
+TEST_CASE("many short pieces give the same skin as a long one", "[skin]") {
+    std::vector<glm::vec3> points;
+    for (int i = 0; i <= 20000; ++i) points.emplace_back(0, 0.0001f * float(i), 0);
+    const Whole fine(covered({axis(points, {0.2f})})), coarse(covered({axis({{0, 0, 0}, {0, 2, 0}}, {0.2f})}));
+    CHECK(fine.volume() == Approx(coarse.volume()).epsilon(1e-3));
+    CHECK(fine.open_edges() == 0);
+}
+
 TEST_CASE("a trunk stands on a flat base", "[skin]") {
     const Whole whole(covered(fork(60)));
     for (const glm::dvec3& point : whole.points) CHECK(point.y > -1e-3);

@@ -39,34 +39,41 @@ struct Block {
     BlockPlace place;
     std::vector<std::uint32_t> pieces;
     std::vector<double> distances;  ///< of its centre from them
+    std::uint32_t limb = 0;         ///< of the last pieces, from `first` on
+    std::size_t first = 0;
+    double least = 0;  ///< distance of these
+
+    /// Pieces of one limb follow each other. Those that cannot be the nearest of their limb anywhere in the block stay
+    /// out.
+    void add(std::uint32_t piece, std::uint32_t of_limb, double distance, double slack) {
+        if (pieces.empty() || of_limb != limb) {
+            limb = of_limb;
+            first = pieces.size();
+            least = distance;
+        }
+        if (distance > least + 2 * slack) return;
+        pieces.push_back(piece);
+        distances.push_back(distance);
+        if (distance >= least) return;
+        least = distance;
+        std::size_t kept = first;
+        for (std::size_t i = first; i < pieces.size(); ++i) {
+            if (distances[i] > least + 2 * slack) continue;
+            pieces[kept] = pieces[i];
+            distances[kept++] = distances[i];
+        }
+        pieces.resize(kept);
+        distances.resize(kept);
+    }
 };
 
-/// Sorts out the pieces that are too far from a block's centre to change anything in it. Returns false if the surface
-/// is not near.
-bool prune(Block& block, const LimbUnion& limbs, double voxel) {
-    const std::vector<LimbPiece>& all = limbs.pieces();
-    const double slack = block_radius * voxel, band = half_band * voxel;
-    std::unordered_map<std::uint32_t, double> least_of;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < block.pieces.size(); ++i) {
-        const auto [at, is_new] = least_of.emplace(all[block.pieces[i]].limb, block.distances[i]);
-        if (!is_new) at->second = std::min(at->second, block.distances[i]);
-        least = std::min(least, block.distances[i]);
-    }
-    if (least < -(band + slack)) return false;
-    std::vector<std::uint32_t> kept;
-    double deepest = 0;
-    for (std::size_t i = 0; i < block.pieces.size(); ++i) {
-        const LimbPiece& piece = all[block.pieces[i]];
-        const double of_limb = least_of.at(piece.limb);
-        if (block.distances[i] > of_limb + 2 * slack || of_limb > least + 2 * slack + limbs.reach(piece)) continue;
-        kept.push_back(block.pieces[i]);
-        deepest = std::max(deepest, limbs.reach(piece) / 6);
-    }
-    block.pieces = std::move(kept);
-    block.distances = {};
-    return least < band + slack + deepest;
-}
+/// What is known of a place before it becomes a block.
+struct Surroundings {
+    std::uint32_t limb;
+    bool is_near = false;    ///< the surface of a limb may be in it
+    bool is_shared = false;  ///< what fills a joint may be in it
+    bool is_inside = false;
+};
 
 }  // namespace
 
@@ -96,27 +103,36 @@ struct LimbLevelSet::Body {
     }
 
     void find_blocks() {
-        for (const LimbPiece& piece : limbs.pieces()) origin = glm::min(origin, glm::min(piece.base, piece.tip));
+        const std::vector<LimbPiece>& pieces = limbs.pieces();
+        for (const LimbPiece& piece : pieces) origin = glm::min(origin, glm::min(piece.base, piece.tip));
         // A flat base must not lie on voxels' centres, where the mesh would have triangles without area.
         origin -= voxel * glm::dvec3(0.37, 0.41, 0.43);
-        for (std::uint32_t i = 0; i < limbs.pieces().size(); ++i) add_piece(i);
-        std::vector<char> matters(blocks.size());
-        tbb::parallel_for(std::size_t{0}, blocks.size(),
-                          [&](std::size_t i) { matters[i] = prune(blocks[i], limbs, voxel); });
-        std::size_t next = 0;
-        number_at.clear();
-        for (std::size_t i = 0; i < blocks.size(); ++i) {
-            if (!matters[i]) continue;
-            number_at.emplace(blocks[i].place, next);
-            if (next != i) blocks[next] = std::move(blocks[i]);
-            ++next;
+        const double slack = block_radius * voxel, near = half_band * voxel + slack;
+        std::unordered_map<BlockPlace, Surroundings, PlaceHash> places;
+        for (const LimbPiece& piece : pieces) {
+            each_place(piece, near + limbs.deepest_fill(piece), [&](const BlockPlace& place, double distance) {
+                Surroundings& here = places.try_emplace(place, Surroundings{piece.limb}).first->second;
+                here.is_shared = here.is_shared || here.limb != piece.limb;
+                here.is_near = here.is_near || distance <= near;
+                here.is_inside = here.is_inside || distance < -near;
+            });
         }
-        blocks.resize(next);
+        for (const auto& [place, here] : places) {
+            if (here.is_inside || !(here.is_near || here.is_shared)) continue;
+            number_at.emplace(place, blocks.size());
+            blocks.push_back({place, {}, {}});
+        }
+        for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+            each_place(pieces[i], near + limbs.reach(pieces[i]), [&](const BlockPlace& place, double distance) {
+                const auto at = number_at.find(place);
+                if (at != number_at.end()) blocks[at->second].add(i, pieces[i].limb, distance, slack);
+            });
+        }
     }
 
-    void add_piece(std::uint32_t number) {
-        const LimbPiece& piece = limbs.pieces()[number];
-        const double most = (half_band + block_radius) * voxel + limbs.reach(piece);
+    /// The blocks whose centres lie no farther than `most` from a piece.
+    template <class Visit>
+    void each_place(const LimbPiece& piece, double most, const Visit& visit) const {
         const double around = std::max(piece.base_radius, piece.tip_radius) + most;
         const BlockPlace lower = place_of(glm::min(piece.base, piece.tip) - around);
         const BlockPlace upper = place_of(glm::max(piece.base, piece.tip) + around);
@@ -125,11 +141,7 @@ struct LimbLevelSet::Body {
                 for (int z = lower[2]; z <= upper[2]; ++z) {
                     const BlockPlace place{x, y, z};
                     const double distance = distance_to(piece, centre_of(place));
-                    if (distance > most) continue;
-                    const auto [at, is_new] = number_at.emplace(place, blocks.size());
-                    if (is_new) blocks.push_back({place, {}, {}});
-                    blocks[at->second].pieces.push_back(number);
-                    blocks[at->second].distances.push_back(distance);
+                    if (distance <= most) visit(place, distance);
                 }
             }
         }

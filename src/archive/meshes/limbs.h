@@ -34,6 +34,8 @@ public:
     const std::vector<LimbPiece>& pieces() const { return pieces_; }
     /// How far beyond its surface a piece may change the union.
     double reach(const LimbPiece& piece) const;
+    /// How far beyond its surface that of the union may lie.
+    double deepest_fill(const LimbPiece& piece) const { return reach(piece) / 6; }
 
     /// The nearest piece of one limb.
     struct Nearest {

@@ -62,20 +62,40 @@ glm::dvec3 on_curve(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
     return u * u * (1 + 2 * t) * a + t * t * (3 - 2 * t) * b + length * t * u * (u * tangent_a - t * tangent_b);
 }
 
-Limb limb_of(const TubeLine& line, double voxel) {
+/// The first nodes of a line without those that follow another too closely for anything to be seen of it: many short
+/// pieces of a thick limb would all matter at the same places.
+std::vector<std::uint32_t> distant_nodes(const TubeLine& line, std::size_t count, double voxel) {
+    std::vector<std::uint32_t> kept{0};
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const TubeNode &before = line.nodes[kept.back()], &here = line.nodes[i];
+        const double least = std::max(2 * voxel, 0.25 * here.radius);
+        const bool is_close = glm::distance(before.position, here.position) < least;
+        if (i + 1 < count && is_close) continue;
+        if (is_close && kept.size() > 1) kept.pop_back();  // the last node stays where it is
+        kept.push_back(i);
+    }
+    return kept;
+}
+
+Limb limb_of(const TubeLine& whole, double voxel) {
     constexpr double bend_of_piece = 0.1;  // radians
-    const std::vector<TubeNode>& nodes = line.nodes;
-    const std::size_t count = thick_nodes(line, voxel);
-    Limb limb{line, {}, {}};
+    const std::size_t count = thick_nodes(whole, voxel);
+    Limb limb{whole, {}, {}};
     limb.curve.nodes.clear();
     if (count == 0) return limb;
+    const std::vector<std::uint32_t> number = distant_nodes(whole, count, voxel);
+    TubeLine line = whole;
+    line.nodes.clear();
+    for (const std::uint32_t node : number) line.nodes.push_back(whole.nodes[node]);
+    if (count < whole.nodes.size()) line.nodes.push_back(whole.nodes[count]);  // for the tangent at the end
+    const std::vector<TubeNode>& nodes = line.nodes;
     const std::vector<TubeFrame> frames = frames_along(line);
     const auto bend = [](const glm::dvec3& a, const glm::dvec3& b) {
         return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
     };
     limb.curve.nodes.push_back(nodes.front());
-    limb.node_of.push_back(1);
-    for (std::uint32_t i = 1; i < count; ++i) {
+    limb.node_of.push_back(number[1]);
+    for (std::uint32_t i = 1; i < number.size(); ++i) {
         const glm::dvec3 a = nodes[i - 1].position, b = nodes[i].position, along = glm::normalize(b - a);
         const glm::dvec3 &before = frames[i - 1].tangent, &behind = frames[i].tangent;
         const double turns = bend(before, along) + bend(along, behind);
@@ -85,7 +105,7 @@ Limb limb_of(const TubeLine& line, double voxel) {
             const double radius = nodes[i - 1].radius + t * (double(nodes[i].radius) - nodes[i - 1].radius);
             const glm::vec3 place = k == pieces ? nodes[i].position : glm::vec3(on_curve(a, b, before, behind, t));
             limb.curve.nodes.push_back({place, static_cast<float>(radius), nodes[i].row});
-            limb.node_of.push_back(i);
+            limb.node_of.push_back(number[i]);
         }
     }
     limb.frames = frames_along(limb.curve);
