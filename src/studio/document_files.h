@@ -1,0 +1,29 @@
+// The files of a document as pages know them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace espalier::studio {
+
+constexpr std::size_t most_text = std::size_t(1) << 20;  ///< bytes of a text that pages edit
+
+/// What pages can show as text.
+bool is_text(std::string_view bytes);
+/// Colour maps are bytes, which travel in base64.
+bool is_map(const std::filesystem::path& file);
+/// The bytes of a file, from what a page sends. Throws UserError for a map that is not in base64.
+std::string bytes_of(const std::filesystem::path& file, const std::string& content);
+
+// As docs/studio-protocol.md has them.
+std::string language_of(const std::filesystem::path& file);
+std::string role_of(const std::filesystem::path& file, const std::filesystem::path& main);
+std::string kind_of(const std::filesystem::path& path);
+
+/// None if there is no such file.
+std::optional<std::string> text_on_disk(const std::filesystem::path& file);
+
+}  // namespace espalier::studio
