@@ -8,7 +8,8 @@ function(compile_together target)
 endfunction()
 # What these define in unnamed namespaces has the names of their neighbours'. Files of open folders are always alone.
 file(GLOB alone src/language/notations/*.cpp src/timeline/recorders/*.cpp src/formats/exporters/*.cpp)
-set_source_files_properties(${alone} src/language/side_files/curve_file.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${alone} src/language/side_files/curve_file.cpp src/archive/meshes/limb_level_set.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # A test spends its time in the libraries.
 function(compile_quickly target)
