@@ -10,6 +10,16 @@ interface Row {
   update: (setting: Setting) => void;
 }
 
+/** "environment.light.voxel" is voxel, "WIDTH_RATIO" is Width ratio. */
+function readable({ name }: Setting): string {
+  const own = (name.split(/[.:]/).at(-1) ?? name).replaceAll("_", " ");
+  return own === own.toUpperCase() && own.length > 2 ? own[0] + own.slice(1).toLowerCase() : own;
+}
+
+function tellsMore(setting: Setting): boolean {
+  return ![setting.name, readable(setting), setting.name.split(/[.:]/).at(-1)].includes(setting.label);
+}
+
 type Send = (text: string | null, lasting: boolean) => void;
 
 function isSwitch(setting: Setting): boolean {
@@ -108,7 +118,8 @@ export class SettingsPanel {
     };
     const control = controlOf(setting, send);
     const reset = iconButton("reset", `Back to ${setting.default}`, () => send(null, true));
-    const name = h("label", "", { for: `setting-${setting.name}`, title: setting.name }, setting.label || setting.name);
+    const name = h("label", "", { for: `setting-${setting.name}`, title: setting.name },
+      readable(setting), h("small", "", {}, tellsMore(setting) ? ` ${setting.label}` : ""));
     const row = h("div", "setting", {}, h("div", "setting-head", {}, name, reset), control.element);
     this.rows.set(setting.name, {
       element: row,

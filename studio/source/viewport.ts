@@ -90,7 +90,7 @@ export class Viewport {
   /** What one can do here, until it has been done once. */
   private hint(): HTMLElement {
     const hint = h("p", "picture-hint", { hidden: remembered("hinted", false) },
-      "Drag to turn, scroll to zoom, click an organ to ask it. Move a slider on the right and watch.");
+      "Drag to turn, scroll to zoom, click an organ to ask it.");
     this.canvas.addEventListener("pointerdown", () => {
       hint.hidden = true;
       remember("hinted", true);
