@@ -10,14 +10,11 @@ interface Row {
   update: (setting: Setting) => void;
 }
 
-/** "environment.light.voxel" is voxel, "WIDTH_RATIO" is Width ratio. */
-function readable({ name }: Setting): string {
-  const own = (name.split(/[.:]/).at(-1) ?? name).replaceAll("_", " ");
-  return own === own.toUpperCase() && own.length > 2 ? own[0] + own.slice(1).toLowerCase() : own;
-}
-
-function tellsMore(setting: Setting): boolean {
-  return ![setting.name, readable(setting), setting.name.split(/[.:]/).at(-1)].includes(setting.label);
+/** The name of a setting, and what it says beside: "crown width: of the ellipsoid" has both. */
+function partsOf({ label, name }: Setting): [string, string] {
+  const at = label.indexOf(": ");
+  const own = (at < 0 ? label : label.slice(0, at)) || name;
+  return [own[0].toUpperCase() + own.slice(1), at < 0 ? "" : label.slice(at + 2)];
 }
 
 type Send = (text: string | null, lasting: boolean) => void;
@@ -118,8 +115,9 @@ export class SettingsPanel {
     };
     const control = controlOf(setting, send);
     const reset = iconButton("reset", `Back to ${setting.default}`, () => send(null, true));
+    const [own, more] = partsOf(setting);
     const name = h("label", "", { for: `setting-${setting.name}`, title: setting.name },
-      readable(setting), h("small", "", {}, tellsMore(setting) ? ` ${setting.label}` : ""));
+      own, h("small", "", {}, more ? ` ${more}` : ""));
     const row = h("div", "setting", {}, h("div", "setting-head", {}, name, reset), control.element);
     this.rows.set(setting.name, {
       element: row,

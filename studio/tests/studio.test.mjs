@@ -43,14 +43,21 @@ after(async () => {
   await program?.kill();
 });
 
+test("it opens with a tree that grows at once", async () => {
+  await page.waitForSelector(".viewport[data-step]");
+  await grown();
+  await shot(page, "first");
+});
+
 test("the gallery offers models with pictures, and a search finds one that grows at once", async () => {
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
   await page.waitForSelector(".card");
   assert.ok((await page.locator(".card").count()) > 20);
   await page.waitForSelector(".card img");
   await shot(page, "gallery");
   await page.fill(".gallery .search", "honda");
   await page.locator(".card").first().click();
-  await page.waitForSelector(".viewport[data-step]");
+  await page.waitForFunction(() => document.title.startsWith("honda"));
   await grown();
   assert.match(await counts(), /internodes/);
   await shot(page, "honda");
