@@ -1,0 +1,54 @@
+// Makes the pictures of docs/studio.md anew: node tests/pictures.mjs PROGRAM. ffmpeg gives them a palette, which makes them small.
+import { execFileSync } from "node:child_process";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { openBrowser, openPage } from "./browser.mjs";
+import { startProgram, workFolder } from "./program.mjs";
+
+const pictures = join(dirname(fileURLToPath(import.meta.url)), "../../docs/pictures");
+const place = workFolder();
+const program = await startProgram(resolve(process.argv[2] ?? "build/release/espalier"), place);
+const browser = await openBrowser();
+const page = await openPage(browser, program.address, { viewport: { width: 1180, height: 664 } });
+
+async function save(name) {
+  await page.waitForTimeout(1200);
+  const whole = join(place.base, name);
+  await page.screenshot({ path: whole });
+  const palette = "split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none";
+  execFileSync("ffmpeg", ["-loglevel", "error", "-y", "-i", whole, "-filter_complex", palette, "-fflags", "+bitexact", join(pictures, name)]);
+}
+
+async function open(name) {
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  await page.locator(".gallery .search").fill(name);
+  await page.locator(`.card[title*="${name}"]`).first().click();
+  await page.waitForFunction((part) => document.title.includes(part), name);
+  await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+}
+
+async function pick(symbol) {
+  const box = await page.locator(".viewport canvas").boundingBox();
+  for (let y = 0.85; y > 0.2; y -= 0.015)
+    for (const x of [0.5, 0.48, 0.52, 0.46, 0.54]) {
+      await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+      await page.waitForTimeout(120);
+      const text = (await page.locator(".pick-head code").count()) ? await page.locator(".pick-head code").textContent() : "";
+      if (text.startsWith(symbol)) return;
+    }
+}
+
+await page.waitForSelector(".viewport[data-step]");
+await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+await page.locator(".viewport canvas").click({ position: { x: 5, y: 300 } });
+await page.getByRole("tab", { name: "Settings" }).click();
+await save("studio.png");
+await open("lychnis");
+await pick("I(");
+await save("studio-organ.png");
+await open("wind-pine");
+await page.getByRole("tab", { name: "Graph" }).click();
+await page.getByRole("button", { name: /, Tree$/ }).first().click();
+await save("studio-graph.png");
+await browser.close();
+await program.kill();
