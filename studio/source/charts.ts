@@ -14,6 +14,7 @@ export class ChartsPanel {
   private readonly choice = h("div", "chips", { role: "group", "aria-label": "Columns" });
   private readonly place = h("div", "chart-list");
   private readonly pinButton: HTMLButtonElement;
+  private chips = new Map<string, HTMLButtonElement>();
   private pinned: Statistics | null = null;
   private plots: uPlot[] = [];
   private chosen = remembered<string[]>("charts", []);
@@ -48,23 +49,28 @@ export class ChartsPanel {
     const usual = ["height", "internodes", "length"].filter((name) => columns.includes(name));
     const known = this.chosen.filter((name) => columns.includes(name));
     this.chosen = known.length > 0 ? known : usual.length > 0 ? usual : columns.slice(0, 2);
-    this.choice.replaceChildren(...columns.map((name) => {
-      const chip = h("button", "chip", { type: "button", "aria-pressed": String(this.chosen.includes(name)) }, name.replaceAll("_", " "));
-      chip.addEventListener("click", () => {
-        this.chosen = this.chosen.includes(name) ? this.chosen.filter((other) => other !== name) : [...this.chosen, name].slice(-mostCharts);
-        remember("charts", this.chosen);
-        for (const other of this.choice.querySelectorAll("button"))
-          other.setAttribute("aria-pressed", String(this.chosen.includes((other.textContent ?? "").replaceAll(" ", "_")) || this.chosen.includes(other.textContent ?? "")));
-        this.draw();
-      });
-      return chip;
-    }));
+    this.chips = new Map(columns.map((name) =>
+      [name, h("button", "chip", { type: "button", onclick: () => this.toggle(name) }, name.replaceAll("_", " "))]));
+    this.choice.replaceChildren(...this.chips.values());
+    this.showChosen();
+  }
+
+  private toggle(name: string): void {
+    const others = this.chosen.filter((other) => other !== name);
+    this.chosen = others.length < this.chosen.length ? others : [...others, name].slice(-mostCharts);
+    remember("charts", this.chosen);
+    this.showChosen();
+    this.draw();
+  }
+
+  private showChosen(): void {
+    for (const [name, chip] of this.chips) chip.setAttribute("aria-pressed", String(this.chosen.includes(name)));
   }
 
   private pin(): void {
     this.pinned = this.pinned ? null : structuredClone(this.studio.statistics);
     this.pinButton.setAttribute("aria-pressed", String(this.pinned !== null));
-    this.pinButton.lastChild!.textContent = this.pinned ? "Remove the pin" : "Pin this growth";
+    this.pinButton.replaceChildren(icon("pin"), this.pinned ? "Remove the pin" : "Pin this growth");
     this.draw();
   }
 
