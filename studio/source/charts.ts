@@ -21,10 +21,28 @@ export class ChartsPanel {
   private offered = "";
   private stale = false;
 
-  constructor(private readonly studio: Studio, private readonly timeline: Timeline) {
-    this.pinButton = h("button", "button small", { type: "button", "aria-pressed": "false", onclick: () => this.pin() }, icon("pin"), "Pin this growth");
-    this.element.append(h("div", "chart-bar", {}, this.pinButton,
-      h("button", "button small", { type: "button", onclick: () => this.save() }, "Copy as CSV")), this.choice, this.place);
+  constructor(
+    private readonly studio: Studio,
+    private readonly timeline: Timeline,
+  ) {
+    this.pinButton = h(
+      "button",
+      "button small",
+      { type: "button", "aria-pressed": "false", onclick: () => this.pin() },
+      icon("pin"),
+      "Pin this growth",
+    );
+    this.element.append(
+      h(
+        "div",
+        "chart-bar",
+        {},
+        this.pinButton,
+        h("button", "button small", { type: "button", onclick: () => this.save() }, "Copy as CSV"),
+      ),
+      this.choice,
+      this.place,
+    );
     studio.on("statistics", () => this.later());
     studio.on("theme", () => this.later());
     studio.on("shown", () => this.plots.forEach((plot) => plot.redraw(false)));
@@ -49,8 +67,12 @@ export class ChartsPanel {
     const usual = ["height", "internodes", "length"].filter((name) => columns.includes(name));
     const known = this.chosen.filter((name) => columns.includes(name));
     this.chosen = known.length > 0 ? known : usual.length > 0 ? usual : columns.slice(0, 2);
-    this.chips = new Map(columns.map((name) =>
-      [name, h("button", "chip", { type: "button", onclick: () => this.toggle(name) }, name.replaceAll("_", " "))]));
+    this.chips = new Map(
+      columns.map((name) => [
+        name,
+        h("button", "chip", { type: "button", onclick: () => this.toggle(name) }, name.replaceAll("_", " ")),
+      ]),
+    );
     this.choice.replaceChildren(...this.chips.values());
     this.showChosen();
   }
@@ -89,14 +111,23 @@ export class ChartsPanel {
   }
 
   private chart(name: string, width: number): void {
-    const steps = [...new Set([...stepsOf(this.studio.statistics), ...(this.pinned ? stepsOf(this.pinned) : [])])].sort((a, b) => a - b);
-    const curves = [...curvesOf(this.studio.statistics, name, steps, false),
-      ...(this.pinned ? curvesOf(this.pinned, name, steps, true) : [])];
+    const steps = [...new Set([...stepsOf(this.studio.statistics), ...(this.pinned ? stepsOf(this.pinned) : [])])].sort(
+      (a, b) => a - b,
+    );
+    const curves = [
+      ...curvesOf(this.studio.statistics, name, steps, false),
+      ...(this.pinned ? curvesOf(this.pinned, name, steps, true) : []),
+    ];
     const place = h("figure", "chart", {}, h("figcaption", "", {}, name.replaceAll("_", " ")));
     this.place.append(place);
-    this.plots.push(plotOverSteps(place, steps, curves, {
-      width, height: 150, step: () => this.timeline.step, clicked: (step) => this.timeline.goTo(step),
-    }));
+    this.plots.push(
+      plotOverSteps(place, steps, curves, {
+        width,
+        height: 150,
+        step: () => this.timeline.step,
+        clicked: (step) => this.timeline.goTo(step),
+      }),
+    );
   }
 
   private save(): void {
@@ -104,7 +135,8 @@ export class ChartsPanel {
     const text = [columns, ...rows].map((row) => row.join(",")).join("\n");
     navigator.clipboard.writeText(`${text}\n`).then(
       () => this.studio.tell("note", "The statistics of all steps are in the clipboard."),
-      () => this.studio.tell("error", "The browser refused the clipboard. Export the run to get statistics.csv."));
+      () => this.studio.tell("error", "The browser refused the clipboard. Export the run to get statistics.csv."),
+    );
   }
 }
 
@@ -124,7 +156,9 @@ function curvesOf(statistics: Statistics, name: string, steps: number[], pinned:
     const values = new Map(rows.map((row) => [Number(row[0]), typeof row[at] === "number" ? row[at] : null]));
     const label = plants.length === 1 ? name.replaceAll("_", " ") : String(rows[0][names] ?? `plant ${which}`);
     return {
-      name: pinned ? `${label}, pinned` : label, dashed: pinned, colour: pinned && plants.length === 1 ? 1 : index,
+      name: pinned ? `${label}, pinned` : label,
+      dashed: pinned,
+      colour: pinned && plants.length === 1 ? 1 : index,
       values: steps.map((step) => values.get(step) ?? null),
     };
   });

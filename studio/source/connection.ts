@@ -29,7 +29,10 @@ export class Connection {
   private timer = 0;
   private readonly waiting = new Map<number, Waiting>();
 
-  constructor(private readonly token: string, private readonly events: ConnectionEvents) {}
+  constructor(
+    private readonly token: string,
+    private readonly events: ConnectionEvents,
+  ) {}
 
   connect(): void {
     clearTimeout(this.timer);
@@ -92,7 +95,7 @@ export class Connection {
       this.receiveBytes(data);
       return;
     }
-    const message = JSON.parse(data) as Said | ({ reply: number; error?: string });
+    const message = JSON.parse(data) as Said | { reply: number; error?: string };
     if ("say" in message) this.events.said(message);
     else this.answer(message);
   }

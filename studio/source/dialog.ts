@@ -2,9 +2,19 @@
 import { h, iconButton } from "./elements.js";
 
 export function openDialog(title: string, ...content: Node[]): HTMLDialogElement {
-  const dialog: HTMLDialogElement = h("dialog", "dialog", { "aria-label": title },
-    h("header", "", {}, h("h2", "", {}, title), iconButton("close", "Close", () => dialog.close())),
-    h("div", "dialog-body", {}, ...content));
+  const dialog: HTMLDialogElement = h(
+    "dialog",
+    "dialog",
+    { "aria-label": title },
+    h(
+      "header",
+      "",
+      {},
+      h("h2", "", {}, title),
+      iconButton("close", "Close", () => dialog.close()),
+    ),
+    h("div", "dialog-body", {}, ...content),
+  );
   dialog.addEventListener("close", () => dialog.remove());
   document.body.append(dialog);
   dialog.showModal();
@@ -12,16 +22,34 @@ export function openDialog(title: string, ...content: Node[]): HTMLDialogElement
 }
 
 /** A menu below a button. */
-export function menuButton(button: HTMLButtonElement, entries: () => { name: string; hint?: string; run: () => void }[]): HTMLElement {
+export function menuButton(
+  button: HTMLButtonElement,
+  entries: () => { name: string; hint?: string; run: () => void }[],
+): HTMLElement {
   const list = h("div", "menu", { role: "menu", hidden: true });
   const close = () => {
     list.hidden = true;
     button.setAttribute("aria-expanded", "false");
   };
   const open = () => {
-    list.replaceChildren(...entries().map(({ name, hint, run }) =>
-      h("button", "menu-entry", { type: "button", role: "menuitem", onclick: () => { close(); run(); } },
-        h("span", "", {}, name), hint ? h("small", "", {}, hint) : null)));
+    list.replaceChildren(
+      ...entries().map(({ name, hint, run }) =>
+        h(
+          "button",
+          "menu-entry",
+          {
+            type: "button",
+            role: "menuitem",
+            onclick: () => {
+              close();
+              run();
+            },
+          },
+          h("span", "", {}, name),
+          hint ? h("small", "", {}, hint) : null,
+        ),
+      ),
+    );
     list.hidden = false;
     button.setAttribute("aria-expanded", "true");
     list.querySelector("button")?.focus();
@@ -30,7 +58,10 @@ export function menuButton(button: HTMLButtonElement, entries: () => { name: str
   button.addEventListener("click", () => (list.hidden ? open() : close()));
   const holder = h("div", "menu-holder", {}, button, list);
   holder.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") { close(); button.focus(); }
+    if (event.key === "Escape") {
+      close();
+      button.focus();
+    }
     const by = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
     if (by === 0 || list.hidden) return;
     event.preventDefault();

@@ -8,7 +8,10 @@ type Child = Node | string | null | undefined | false;
  * false and null are absent.
  */
 export function h<Tag extends keyof HTMLElementTagNameMap>(
-  tag: Tag, classes: string, attributes: Attributes = {}, ...children: Child[]
+  tag: Tag,
+  classes: string,
+  attributes: Attributes = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[Tag] {
   const element = document.createElement(tag);
   if (classes) element.className = classes;

@@ -12,29 +12,45 @@ export class Exporting {
       if (!this.asked) return;
       this.asked = false;
       for (const file of files)
-        studio.connection.file(file.number).then((blob) => download(blob, file.name), (error: unknown) => studio.tell("error", errorText(error)));
+        studio.connection.file(file.number).then(
+          (blob) => download(blob, file.name),
+          (error: unknown) => studio.tell("error", errorText(error)),
+        );
       if (files.length > 0) studio.tell("note", `Exported ${files.map(({ name }) => name).join(", ")}.`);
     });
   }
 
   open(): void {
     const formats = this.studio.help?.exporters ?? [];
-    const select = h("select", "wide", { id: "export-format", size: Math.min(12, Math.max(4, formats.length)) },
-      ...formats.map(({ name, summary }, index) => h("option", "", { value: name, selected: index === 0 }, `${name} – ${summary}`)));
+    const select = h(
+      "select",
+      "wide",
+      { id: "export-format", size: Math.min(12, Math.max(4, formats.length)) },
+      ...formats.map(({ name, summary }, index) =>
+        h("option", "", { value: name, selected: index === 0 }, `${name} – ${summary}`),
+      ),
+    );
     const about = h("pre", "about");
     const film = h("input", "", { type: "checkbox", id: "export-film" });
     const state = h("p", "hint", { role: "status" });
     const describe = () => (about.textContent = formats.find(({ name }) => name === select.value)?.help ?? "");
     select.addEventListener("change", describe);
     describe();
-    const form = h("form", "form", {
-      onsubmit: (event) => {
-        event.preventDefault();
-        void this.run(select.value, film.checked, state).then((begun) => begun && dialog.close());
+    const form = h(
+      "form",
+      "form",
+      {
+        onsubmit: (event) => {
+          event.preventDefault();
+          void this.run(select.value, film.checked, state).then((begun) => begun && dialog.close());
+        },
       },
-    }, h("label", "", { for: "export-format" }, "Format"), select, about,
+      h("label", "", { for: "export-format" }, "Format"),
+      select,
+      about,
       h("label", "check", { for: "export-film" }, film, `All steps, not only step ${this.studio.frames.step}`),
-      h("div", "form-end", {}, state, h("button", "button primary", { type: "submit" }, "Export")));
+      h("div", "form-end", {}, state, h("button", "button primary", { type: "submit" }, "Export")),
+    );
     const dialog = openDialog("Export", form);
   }
 

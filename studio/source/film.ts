@@ -7,7 +7,11 @@ import type { PlantScene } from "./view/index.js";
 export class Film {
   running = false;
 
-  constructor(private readonly studio: Studio, private readonly scene: PlantScene, private readonly timeline: Timeline) {}
+  constructor(
+    private readonly studio: Studio,
+    private readonly scene: PlantScene,
+    private readonly timeline: Timeline,
+  ) {}
 
   async toggle(): Promise<void> {
     if (this.running) {
@@ -26,7 +30,9 @@ export class Film {
 
   /** Shows each step for the time that playing gives it. */
   private async record(): Promise<Blob> {
-    const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((name) => MediaRecorder.isTypeSupported(name));
+    const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((name) =>
+      MediaRecorder.isTypeSupported(name),
+    );
     if (!kind) throw new Error("This browser cannot record films in the format WebM.");
     this.timeline.pause();
     this.scene.keepSize(true);

@@ -65,7 +65,10 @@ export class Frames {
       this.newest = Math.max(this.newest, packet.step);
       this.keep(packet);
     }
-    const isWanted = this.wanted === "last" ? packet.growth > (this.shown?.growth ?? -1) || packet.step >= this.shownStep() : packet.step === this.wanted;
+    const isWanted =
+      this.wanted === "last"
+        ? packet.growth > (this.shown?.growth ?? -1) || packet.step >= this.shownStep()
+        : packet.step === this.wanted;
     const first = packet.growth !== this.shown?.growth && !this.isOnlyFetched(packet.step);
     if (isWanted || first) this.show(packet);
     this.pump();

@@ -13,7 +13,11 @@ const shelves: { key: Shelf; name: string }[] = [
 
 export class Gallery {
   readonly element = h("section", "gallery", { "aria-label": "Gallery", hidden: true });
-  private readonly search = h("input", "search", { type: "search", placeholder: "Search, or paste a link", "aria-label": "Search the gallery" });
+  private readonly search = h("input", "search", {
+    type: "search",
+    placeholder: "Search, or paste a link",
+    "aria-label": "Search the gallery",
+  });
   private readonly list = h("div", "cards");
   private readonly close: HTMLButtonElement;
   private library: Library | null = null;
@@ -22,15 +26,37 @@ export class Gallery {
   private readonly lazily: IntersectionObserver;
   private readonly buttons: Map<Shelf, HTMLButtonElement>;
 
-  constructor(private readonly studio: Studio, private readonly opened: () => void) {
+  constructor(
+    private readonly studio: Studio,
+    private readonly opened: () => void,
+  ) {
     this.close = iconButton("close", "Back to the plant", () => this.hide());
-    this.buttons = new Map(shelves.map(({ key, name }) =>
-      [key, h("button", "tab", { type: "button", onclick: () => this.choose(key) }, name)]));
+    this.buttons = new Map(
+      shelves.map(({ key, name }) => [key, h("button", "tab", { type: "button", onclick: () => this.choose(key) }, name)]),
+    );
     this.element.append(
-      h("header", "", {}, h("div", "", {}, h("h1", "", {}, "What shall grow?"),
-        h("p", "", {}, "Open a model or a scene: it grows at once, and you can change everything in it.")), this.close),
-      h("div", "gallery-bar", {}, h("div", "tabs", {}, ...this.buttons.values()), h("label", "search-box", {}, icon("search"), this.search)),
-      this.list);
+      h(
+        "header",
+        "",
+        {},
+        h(
+          "div",
+          "",
+          {},
+          h("h1", "", {}, "What shall grow?"),
+          h("p", "", {}, "Open a model or a scene: it grows at once, and you can change everything in it."),
+        ),
+        this.close,
+      ),
+      h(
+        "div",
+        "gallery-bar",
+        {},
+        h("div", "tabs", {}, ...this.buttons.values()),
+        h("label", "search-box", {}, icon("search"), this.search),
+      ),
+      this.list,
+    );
     this.search.addEventListener("input", () => {
       if (this.search.value.includes("#model=")) void this.openLink(this.search.value);
       else this.draw();
@@ -38,9 +64,12 @@ export class Gallery {
     this.element.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.studio.document) this.hide();
     });
-    this.lazily = new IntersectionObserver((entries) => {
-      for (const entry of entries) if (entry.isIntersecting) void this.fill(entry.target as HTMLElement);
-    }, { rootMargin: "300px" });
+    this.lazily = new IntersectionObserver(
+      (entries) => {
+        for (const entry of entries) if (entry.isIntersecting) void this.fill(entry.target as HTMLElement);
+      },
+      { rootMargin: "300px" },
+    );
   }
 
   async show(): Promise<void> {
@@ -75,17 +104,33 @@ export class Gallery {
     for (const entry of entries) folders.set(entry.folder, [...(folders.get(entry.folder) ?? []), entry]);
     const pictured = (list: LibraryEntry[]) => list.filter(({ picture }) => picture !== null);
     const ordered = [...folders].sort(([, a], [, b]) => Number(pictured(b).length > 0) - Number(pictured(a).length > 0));
-    this.list.replaceChildren(...ordered.map(([folder, inside]) => h("section", "", {}, h("h2", "", {}, folder || "Folder"),
-      h("div", "card-grid", {}, ...pictured(inside).map((entry) => this.card(entry))),
-      h("div", "card-grid plain", {}, ...inside.filter(({ picture }) => picture === null).map((entry) => this.card(entry))))));
-    if (entries.length === 0) this.list.append(h("p", "hint", {}, words.length > 0 ? "Nothing has these words." : "There is nothing here."));
+    this.list.replaceChildren(
+      ...ordered.map(([folder, inside]) =>
+        h(
+          "section",
+          "",
+          {},
+          h("h2", "", {}, folder || "Folder"),
+          h("div", "card-grid", {}, ...pictured(inside).map((entry) => this.card(entry))),
+          h("div", "card-grid plain", {}, ...inside.filter(({ picture }) => picture === null).map((entry) => this.card(entry))),
+        ),
+      ),
+    );
+    if (entries.length === 0)
+      this.list.append(h("p", "hint", {}, words.length > 0 ? "Nothing has these words." : "There is nothing here."));
   }
 
   private card(entry: LibraryEntry): HTMLElement {
     const picture = entry.picture === null ? null : h("div", "card-picture", { "data-picture": entry.picture }, icon("layers"));
     if (picture) this.lazily.observe(picture);
-    return h("button", "card", { type: "button", title: entry.path, onclick: () => void this.open(entry) },
-      picture, h("strong", "", {}, entry.name), h("span", "", {}, entry.summary));
+    return h(
+      "button",
+      "card",
+      { type: "button", title: entry.path, onclick: () => void this.open(entry) },
+      picture,
+      h("strong", "", {}, entry.name),
+      h("span", "", {}, entry.summary),
+    );
   }
 
   private async fill(place: HTMLElement): Promise<void> {

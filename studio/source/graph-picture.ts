@@ -30,14 +30,21 @@ function spotsOf(layers: readonly string[][], width: number): Map<string, Spot> 
   const spots = new Map<string, Spot>();
   layers.forEach((layer, row) => {
     const span = layer.length * (box.width + box.across) - box.across;
-    layer.forEach((name, i) => spots.set(name, {
-      x: (width - span) / 2 + i * (box.width + box.across), y: 6 + row * (box.height + box.down),
-    }));
+    layer.forEach((name, i) =>
+      spots.set(name, {
+        x: (width - span) / 2 + i * (box.width + box.across),
+        y: 6 + row * (box.height + box.down),
+      }),
+    );
   });
   return spots;
 }
 
-function element<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Record<string, string | number>, ...children: Node[]) {
+function element<Tag extends keyof SVGElementTagNameMap>(
+  tag: Tag,
+  attributes: Record<string, string | number>,
+  ...children: Node[]
+) {
   const made = document.createElementNS(space, tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
   made.append(...children);
@@ -56,14 +63,27 @@ function arrow(link: GraphLink, spots: ReadonlyMap<string, Spot>): SVGElement | 
   const d = loop
     ? `M${from.x + box.width} ${from.y + box.height / 2}C${from.x + box.width + 26} ${from.y},${to.x + box.width + 26} ${to.y + box.height},${to.x + box.width + 2} ${to.y + box.height / 2}`
     : `M${x1} ${y1}C${x1} ${y1 + 18},${x2} ${y2 - 18},${x2} ${y2 - 3}`;
-  return element("path", { d, class: `graph-link ${link.kind}`, "marker-end": "url(#graph-arrow)" },
-    element("title", {}, document.createTextNode(`${link.from} – ${link.kind} → ${link.to}`)));
+  return element(
+    "path",
+    { d, class: `graph-link ${link.kind}`, "marker-end": "url(#graph-arrow)" },
+    element("title", {}, document.createTextNode(`${link.from} – ${link.kind} → ${link.to}`)),
+  );
 }
 
 function arrowHead(): SVGElement {
-  const marker = element("marker", {
-    id: "graph-arrow", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, orient: "auto-start-reverse",
-  }, element("path", { d: "M0 0L8 4L0 8z", class: "graph-head" }));
+  const marker = element(
+    "marker",
+    {
+      id: "graph-arrow",
+      viewBox: "0 0 8 8",
+      refX: 7,
+      refY: 4,
+      markerWidth: 7,
+      markerHeight: 7,
+      orient: "auto-start-reverse",
+    },
+    element("path", { d: "M0 0L8 4L0 8z", class: "graph-head" }),
+  );
   return element("defs", {}, marker);
 }
 
@@ -72,7 +92,11 @@ export function graphPicture(graph: ComponentGraph, chosen: string | null, choos
   const width = Math.max(300, ...layers.map((layer) => layer.length * (box.width + box.across) + 40));
   const height = layers.length * (box.height + box.down) - box.down + 14;
   const spots = spotsOf(layers, width);
-  const picture = element("svg", { viewBox: `0 0 ${width} ${height}`, class: "graph-picture", role: "group", "aria-label": "Graph of components" }, arrowHead());
+  const picture = element(
+    "svg",
+    { viewBox: `0 0 ${width} ${height}`, class: "graph-picture", role: "group", "aria-label": "Graph of components" },
+    arrowHead(),
+  );
   picture.style.minWidth = `${Math.min(width, 900) * 0.8}px`;
   for (const link of graph.links) {
     const drawn = arrow(link, spots);
@@ -81,11 +105,20 @@ export function graphPicture(graph: ComponentGraph, chosen: string | null, choos
   for (const { name, type } of graph.components) {
     const spot = spots.get(name);
     if (!spot) continue;
-    const group = element("g", {
-      class: `graph-box${name === chosen ? " chosen" : ""}`, transform: `translate(${spot.x} ${spot.y})`, tabindex: 0, role: "button",
-      "aria-label": `${name}, ${type}`, "aria-pressed": String(name === chosen),
-    }, element("rect", { width: box.width, height: box.height, rx: 7 }),
-      text(name.length > 15 ? `${name.slice(0, 14)}…` : name, { x: 9, y: 15, class: "graph-name" }), text(type, { x: 9, y: 29, class: "graph-type" }));
+    const group = element(
+      "g",
+      {
+        class: `graph-box${name === chosen ? " chosen" : ""}`,
+        transform: `translate(${spot.x} ${spot.y})`,
+        tabindex: 0,
+        role: "button",
+        "aria-label": `${name}, ${type}`,
+        "aria-pressed": String(name === chosen),
+      },
+      element("rect", { width: box.width, height: box.height, rx: 7 }),
+      text(name.length > 15 ? `${name.slice(0, 14)}…` : name, { x: 9, y: 15, class: "graph-name" }),
+      text(type, { x: 9, y: 29, class: "graph-type" }),
+    );
     group.addEventListener("click", () => choose(name));
     group.addEventListener("keydown", (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;

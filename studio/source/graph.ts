@@ -21,7 +21,9 @@ export class GraphPanel {
   private shape = "";
 
   constructor(
-    private readonly studio: Studio, private readonly changes: Changes, private readonly editor: Editor,
+    private readonly studio: Studio,
+    private readonly changes: Changes,
+    private readonly editor: Editor,
     private readonly offer: (offered: boolean) => void,
   ) {
     this.element.append(this.place, this.form);
@@ -78,11 +80,23 @@ export class GraphPanel {
     }
     const type = this.types.find(({ name }) => name === component.type);
     this.form.replaceChildren(
-      h("div", "pick-head", {}, h("code", "", {}, component.name),
-        h("button", "button small", { type: "button", onclick: () => this.edit({ edit: "remove", component: component.name }, `Remove ${component.name}`) }, "Remove")),
+      h(
+        "div",
+        "pick-head",
+        {},
+        h("code", "", {}, component.name),
+        h(
+          "button",
+          "button small",
+          { type: "button", onclick: () => this.edit({ edit: "remove", component: component.name }, `Remove ${component.name}`) },
+          "Remove",
+        ),
+      ),
       h("p", "hint", {}, `${component.type}: ${type?.summary ?? ""}`),
       ...(type?.keys ?? []).map((key) => this.row(component, key)),
-      this.links(graph, component), this.addRow(graph));
+      this.links(graph, component),
+      this.addRow(graph),
+    );
   }
 
   private refresh(graph: ComponentGraph): void {
@@ -114,20 +128,44 @@ export class GraphPanel {
     field.value = value ?? "";
     field.addEventListener("change", () => send(field.value.trim() || null, true));
     const control = h("div", "control slider", {}, field, h("span", "unit", {}, key.unit));
-    if (plain && (value === undefined || Number.isFinite(Number(value)))) control.prepend(this.slider(key, value ?? standard, field, send));
+    if (plain && (value === undefined || Number.isFinite(Number(value))))
+      control.prepend(this.slider(key, value ?? standard, field, send));
     const reset = iconButton("reset", `Back to ${standard || "the usual value"}`, () => send(null, true));
     reset.hidden = value === undefined;
-    return h("div", `setting${value === undefined ? "" : " changed"}`, {}, h("div", "setting-head", {},
-      h("label", "", { for: id, title: key.summary }, key.name, h("small", "", {}, ` ${key.summary}`)), reset), control);
+    return h(
+      "div",
+      `setting${value === undefined ? "" : " changed"}`,
+      {},
+      h(
+        "div",
+        "setting-head",
+        {},
+        h("label", "", { for: id, title: key.summary }, key.name, h("small", "", {}, ` ${key.summary}`)),
+        reset,
+      ),
+      control,
+    );
   }
 
-  private slider(key: ComponentKey, value: string, field: HTMLInputElement, send: (text: string, lasting: boolean) => void): HTMLInputElement {
+  private slider(
+    key: ComponentKey,
+    value: string,
+    field: HTMLInputElement,
+    send: (text: string, lasting: boolean) => void,
+  ): HTMLInputElement {
     const usual = Number(key.standard) || 1;
     const lowest = key.lowest !== null && Number.isFinite(key.lowest) ? key.lowest : Math.min(0, 2 * usual);
-    const highest = key.highest !== null && key.highest < 1e6 ? key.highest : Math.max(lowest + 1, 2 * Math.abs(usual), Number(value) || 0);
+    const highest =
+      key.highest !== null && key.highest < 1e6 ? key.highest : Math.max(lowest + 1, 2 * Math.abs(usual), Number(value) || 0);
     const step = key.kind === "whole" ? 1 : 10 ** Math.floor(Math.log10((highest - lowest) / 150));
     const slider = h("input", "", {
-      type: "range", min: lowest, max: highest, step, value: Number(value) || 0, "aria-label": `${key.name}, slider`, "data-key": key.name,
+      type: "range",
+      min: lowest,
+      max: highest,
+      step,
+      value: Number(value) || 0,
+      "aria-label": `${key.name}, slider`,
+      "data-key": key.name,
       "data-standard": String(key.standard ?? 0),
     });
     const text = () => String(Number(Number(slider.value).toPrecision(8)));
@@ -143,30 +181,65 @@ export class GraphPanel {
 
   private links(graph: ComponentGraph, component: GraphComponent): HTMLElement {
     const own = graph.links.filter(({ from, to }) => from === component.name || to === component.name);
-    const rows = own.map((link) => h("div", "graph-row", {}, h("span", "", {}, `${link.from} – ${link.kind} → ${link.to}`),
-      iconButton("close", `Remove this link`, () => this.edit({ edit: "unlink", ...link }, `Unlink ${link.from} and ${link.to}`))));
-    const to = options(h("select", "", { "aria-label": "Link to" }), graph.components.map(({ name }) => name));
+    const rows = own.map((link) =>
+      h(
+        "div",
+        "graph-row",
+        {},
+        h("span", "", {}, `${link.from} – ${link.kind} → ${link.to}`),
+        iconButton("close", `Remove this link`, () =>
+          this.edit({ edit: "unlink", ...link }, `Unlink ${link.from} and ${link.to}`),
+        ),
+      ),
+    );
+    const to = options(
+      h("select", "", { "aria-label": "Link to" }),
+      graph.components.map(({ name }) => name),
+    );
     const kind = options(h("select", "", { "aria-label": "Kind of link" }), linkKinds);
-    const add = h("button", "button small", {
-      type: "button",
-      onclick: () => this.edit({ edit: "link", from: component.name, to: to.value, kind: kind.value as GraphLink["kind"] }, `Link ${component.name} and ${to.value}`),
-    }, "Link");
+    const add = h(
+      "button",
+      "button small",
+      {
+        type: "button",
+        onclick: () =>
+          this.edit(
+            { edit: "link", from: component.name, to: to.value, kind: kind.value as GraphLink["kind"] },
+            `Link ${component.name} and ${to.value}`,
+          ),
+      },
+      "Link",
+    );
     return h("section", "", {}, h("h3", "", {}, "Links"), ...rows, h("div", "graph-row", {}, kind, to, add));
   }
 
   private addRow(graph: ComponentGraph): HTMLElement {
-    const type = options(h("select", "", { "aria-label": "Type of the new component" }), this.types.map(({ name }) => name));
+    const type = options(
+      h("select", "", { "aria-label": "Type of the new component" }),
+      this.types.map(({ name }) => name),
+    );
     const name = h("input", "", { type: "text", placeholder: "name", "aria-label": "Name of the new component" });
-    const add = h("button", "button small", {
-      type: "button",
-      onclick: () => {
-        const taken = new Set(graph.components.map((component) => component.name));
-        let fresh = name.value.trim() || type.value;
-        for (let number = 2; taken.has(fresh); number++) fresh = `${name.value.trim() || type.value}${number}`;
-        this.edit({ edit: "add", type: type.value, name: fresh, from: this.chosen ?? "" }, `Add ${fresh}`);
-        this.chosen = fresh;
+    const add = h(
+      "button",
+      "button small",
+      {
+        type: "button",
+        onclick: () => {
+          const taken = new Set(graph.components.map((component) => component.name));
+          let fresh = name.value.trim() || type.value;
+          for (let number = 2; taken.has(fresh); number++) fresh = `${name.value.trim() || type.value}${number}`;
+          this.edit({ edit: "add", type: type.value, name: fresh, from: this.chosen ?? "" }, `Add ${fresh}`);
+          this.chosen = fresh;
+        },
       },
-    }, "Add");
-    return h("section", "", {}, h("h3", "", {}, this.chosen ? `New component below ${this.chosen}` : "New component"), h("div", "graph-row", {}, type, name, add));
+      "Add",
+    );
+    return h(
+      "section",
+      "",
+      {},
+      h("h3", "", {}, this.chosen ? `New component below ${this.chosen}` : "New component"),
+      h("div", "graph-row", {}, type, name, add),
+    );
   }
 }

@@ -28,18 +28,44 @@ export class Header {
   constructor(private readonly parts: HeaderParts) {
     const { layout, studio } = parts;
     this.exporting = new Exporting(studio);
-    const save = h("button", "button", { type: "button", title: "Save (Ctrl+S)", onclick: () => void this.save() }, icon("save"), "Save");
+    const save = h(
+      "button",
+      "button",
+      { type: "button", title: "Save (Ctrl+S)", onclick: () => void this.save() },
+      icon("save"),
+      "Save",
+    );
     const share = h("button", "button primary", { type: "button" }, icon("share"), "Share");
-    this.element = h("header", "bar", {},
-      h("a", "brand", { href: "#", "aria-label": "Espalier studio: gallery", onclick: (event) => { event.preventDefault(); parts.gallery(); } },
-        h("img", "", { src: "icon.svg", alt: "" }), h("span", "", {}, "Espalier")),
+    this.element = h(
+      "header",
+      "bar",
+      {},
+      h(
+        "a",
+        "brand",
+        {
+          href: "#",
+          "aria-label": "Espalier studio: gallery",
+          onclick: (event) => {
+            event.preventDefault();
+            parts.gallery();
+          },
+        },
+        h("img", "", { src: "icon.svg", alt: "" }),
+        h("span", "", {}, "Espalier"),
+      ),
       h("button", "button", { type: "button", onclick: () => parts.gallery() }, icon("gallery"), "Gallery"),
-      this.name, h("span", "spread"), this.undoButton, this.redoButton, save,
+      this.name,
+      h("span", "spread"),
+      this.undoButton,
+      this.redoButton,
+      save,
       menuButton(share, () => this.shareEntries()),
       iconButton("left", "Show or hide the texts", () => layout.toggle("left")),
       iconButton("right", "Show or hide the settings", () => layout.toggle("right")),
       iconButton("sun", "Light or dark", () => studio.setTheme(studio.theme === "dark" ? "light" : "dark")),
-      iconButton("help", "Keys and help", () => keysDialog()));
+      iconButton("help", "Keys and help", () => keysDialog()),
+    );
     studio.on("document", () => this.show());
     this.show();
   }
@@ -96,27 +122,63 @@ export class Header {
 
   private saveAs(): void {
     const field = h("input", "wide", { type: "text", id: "save-path", value: this.suggestedPath() });
-    const form = h("form", "form", {
-      onsubmit: (event) => {
-        event.preventDefault();
-        void this.save(field.value.trim() || undefined).then(() => dialog.close());
+    const form = h(
+      "form",
+      "form",
+      {
+        onsubmit: (event) => {
+          event.preventDefault();
+          void this.save(field.value.trim() || undefined).then(() => dialog.close());
+        },
       },
-    }, h("label", "", { for: "save-path" }, "File, below the opened folder"), field,
-      h("div", "form-end", {}, h("button", "button primary", { type: "submit" }, "Save")));
+      h("label", "", { for: "save-path" }, "File, below the opened folder"),
+      field,
+      h("div", "form-end", {}, h("button", "button primary", { type: "submit" }, "Save")),
+    );
     const dialog = openDialog("Save as", form);
     field.focus();
   }
 }
 
 const keys: [string, string][] = [
-  ["Arrows", "turn the plant"], ["+ and -", "nearer and farther"], ["Space, Shift", "raise and lower"], ["F", "show the whole plant"],
-  ["Home", "first view"], ["Click, Escape", "an organ tells about itself; forget it"], ["Shift and drag, right button", "move the picture"],
-  ["P", "play or pause"], [", and .", "one step back, one step on"], ["Ctrl+Z, Ctrl+Y", "undo and redo; in a text: of what was typed there"],
-  ["Ctrl+S", "save"], ["Ctrl+Space", "complete a name in the text"], ["Ctrl+F", "search in the text"], ["Tab, then Escape", "leave the text"],
+  ["Arrows", "turn the plant"],
+  ["+ and -", "nearer and farther"],
+  ["Space, Shift", "raise and lower"],
+  ["F", "show the whole plant"],
+  ["Home", "first view"],
+  ["Click, Escape", "an organ tells about itself; forget it"],
+  ["Shift and drag, right button", "move the picture"],
+  ["P", "play or pause"],
+  [", and .", "one step back, one step on"],
+  ["Ctrl+Z, Ctrl+Y", "undo and redo; in a text: of what was typed there"],
+  ["Ctrl+S", "save"],
+  ["Ctrl+Space", "complete a name in the text"],
+  ["Ctrl+F", "search in the text"],
+  ["Tab, then Escape", "leave the text"],
 ];
 
 function keysDialog(): void {
-  openDialog("Keys", h("p", "", {}, "Keys of the picture work when it has the focus: click it, or reach it with Tab. Rest the pointer on a word of a text to read what it means."),
-    h("dl", "facts keys", {}, ...keys.flatMap(([name, what]) => [h("dt", "", {}, h("kbd", "", {}, name)), h("dd", "", {}, what)])),
-    h("p", "hint", {}, "This page contains free software of others: ", h("a", "", { href: "LICENSES.txt", target: "_blank" }, "licences"), "."));
+  openDialog(
+    "Keys",
+    h(
+      "p",
+      "",
+      {},
+      "Keys of the picture work when it has the focus: click it, or reach it with Tab. Rest the pointer on a word of a text to read what it means.",
+    ),
+    h(
+      "dl",
+      "facts keys",
+      {},
+      ...keys.flatMap(([name, what]) => [h("dt", "", {}, h("kbd", "", {}, name)), h("dd", "", {}, what)]),
+    ),
+    h(
+      "p",
+      "hint",
+      {},
+      "This page contains free software of others: ",
+      h("a", "", { href: "LICENSES.txt", target: "_blank" }, "licences"),
+      ".",
+    ),
+  );
 }

@@ -84,9 +84,14 @@ export class Tabs {
   readonly element: HTMLElement;
   private readonly buttons: HTMLButtonElement[];
 
-  constructor(label: string, private readonly tabs: Tab[], private readonly key: string) {
+  constructor(
+    label: string,
+    private readonly tabs: Tab[],
+    private readonly key: string,
+  ) {
     this.buttons = tabs.map(({ name }) =>
-      h("button", "tab", { type: "button", role: "tab", onclick: () => this.show(name) }, name));
+      h("button", "tab", { type: "button", role: "tab", onclick: () => this.show(name) }, name),
+    );
     const bar = h("div", "tabs", { role: "tablist", "aria-label": label }, ...this.buttons);
     bar.addEventListener("keydown", (event) => this.step(event));
     for (const { name, content } of tabs) {

@@ -41,7 +41,12 @@ function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): 
     if (target.closest(".cm-editor, textarea, input[type=text], input[type=number], input[type=search], select, dialog")) return;
     const actions: Record<string, () => void> = command
       ? { z: () => void header.step(event.shiftKey ? "redo" : "undo"), y: () => void header.step("redo") }
-      : { p: () => timeline.toggle(), escape: forget, ",": () => timeline.goTo(timeline.step - 1), ".": () => timeline.goTo(timeline.step + 1) };
+      : {
+          p: () => timeline.toggle(),
+          escape: forget,
+          ",": () => timeline.goTo(timeline.step - 1),
+          ".": () => timeline.goTo(timeline.step + 1),
+        };
     const action = actions[key];
     if (!action) return;
     event.preventDefault();
@@ -70,23 +75,41 @@ function start(): void {
   const editor = new Editor(studio, changes);
   const messages = new Messages(studio);
   const viewport = new Viewport(studio, timeline, (module) => void picked.pick(module));
-  const picked: PickPanel = new PickPanel(studio, () => viewport.scene, editor, timeline, () => tabs.show("Organ"));
+  const picked: PickPanel = new PickPanel(
+    studio,
+    () => viewport.scene,
+    editor,
+    timeline,
+    () => tabs.show("Organ"),
+  );
   const charts = new ChartsPanel(studio, timeline);
   const settings = new SettingsPanel(studio, changes);
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
   const graph: GraphPanel = new GraphPanel(studio, changes, editor, (offered) => tabs.offer("Graph", offered));
-  const tabs = new Tabs("Measures", [
-    { name: "Settings", content: settings.element },
-    { name: "Graph", content: graph.element },
-    { name: "Organ", content: picked.element },
-    { name: "Charts", content: charts.element },
-  ], "right-tab");
+  const tabs = new Tabs(
+    "Measures",
+    [
+      { name: "Settings", content: settings.element },
+      { name: "Graph", content: graph.element },
+      { name: "Organ", content: picked.element },
+      { name: "Charts", content: charts.element },
+    ],
+    "right-tab",
+  );
   tabs.offer("Graph", false);
   const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show() });
   layout.left.append(editor.element);
   layout.right.append(tabs.element);
   layout.centre.append(viewport.element);
-  document.body.append(header.element, messages.banner, layout.element, timeline.element, new StatusLine(studio).element, messages.element, gallery.element);
+  document.body.append(
+    header.element,
+    messages.banner,
+    layout.element,
+    timeline.element,
+    new StatusLine(studio).element,
+    messages.element,
+    gallery.element,
+  );
   keysOfThePage(header, timeline, () => void picked.pick(null));
   let first = true;
   studio.on("connection", (state) => {

@@ -16,8 +16,11 @@ export class PickPanel {
   private step = -1;
 
   constructor(
-    private readonly studio: Studio, private readonly scene: () => PlantScene, private readonly editor: Editor,
-    private readonly timeline: Timeline, private readonly opened: () => void,
+    private readonly studio: Studio,
+    private readonly scene: () => PlantScene,
+    private readonly editor: Editor,
+    private readonly timeline: Timeline,
+    private readonly opened: () => void,
   ) {
     this.empty();
     studio.on("theme", () => {
@@ -55,12 +58,20 @@ export class PickPanel {
   }
 
   private empty(): void {
-    this.element.replaceChildren(h("p", "hint", {}, "Click an organ of the plant to see what it is, where it comes from and how it has changed."));
+    this.element.replaceChildren(
+      h("p", "hint", {}, "Click an organ of the plant to see what it is, where it comes from and how it has changed."),
+    );
   }
 
   private draw(picked: Picked): void {
     const parts: (HTMLElement | null)[] = [
-      h("div", "pick-head", {}, h("code", "", {}, picked.text), iconButton("close", "Forget this organ", () => this.forget())),
+      h(
+        "div",
+        "pick-head",
+        {},
+        h("code", "", {}, picked.text),
+        iconButton("close", "Forget this organ", () => this.forget()),
+      ),
       this.facts(picked),
       this.parameters(picked),
       this.history(picked),
@@ -72,7 +83,8 @@ export class PickPanel {
 
   private facts(picked: Picked): HTMLElement {
     const rows: [string, Node | string][] = [
-      ["Symbol", picked.symbol], ["Plant", picked.plant],
+      ["Symbol", picked.symbol],
+      ["Plant", picked.plant],
     ];
     if (picked.born !== undefined) rows.push(["Born in step", String(picked.born)]);
     if (picked.parent) rows.push(["Parent", this.relative(picked.parent)]);
@@ -90,8 +102,21 @@ export class PickPanel {
 
   private parameters(picked: Picked): HTMLElement | null {
     if (picked.parameters.length === 0) return null;
-    return h("section", "", {}, h("h3", "", {}, "Parameters"), h("dl", "facts", {},
-      ...picked.parameters.flatMap((value, index) => [h("dt", "", {}, picked.names[index] || `${index + 1}`), h("dd", "", {}, short(value))])));
+    return h(
+      "section",
+      "",
+      {},
+      h("h3", "", {}, "Parameters"),
+      h(
+        "dl",
+        "facts",
+        {},
+        ...picked.parameters.flatMap((value, index) => [
+          h("dt", "", {}, picked.names[index] || `${index + 1}`),
+          h("dd", "", {}, short(value)),
+        ]),
+      ),
+    );
   }
 
   private history(picked: Picked): HTMLElement | null {
@@ -104,8 +129,11 @@ export class PickPanel {
       const name = picked.names[index] || `parameter ${index + 1}`;
       const place = h("div", "small-chart", { role: "img", "aria-label": `${name} over steps` }, h("span", "", {}, name));
       plotOverSteps(place, history.steps, [{ name, values, colour: index }], {
-        width: Math.max(180, this.element.clientWidth - 24), height: 84, small: true,
-        step: () => this.step, clicked: (step) => this.timeline.goTo(step),
+        width: Math.max(180, this.element.clientWidth - 24),
+        height: 84,
+        small: true,
+        step: () => this.step,
+        clicked: (step) => this.timeline.goTo(step),
       });
       section.append(place);
     }
@@ -114,10 +142,24 @@ export class PickPanel {
 
   private places(places: Place[] = []): HTMLElement | null {
     if (places.length === 0) return null;
-    return h("section", "", {}, h("h3", "", {}, places.length === 1 ? "Made by the production" : "Made by one of the productions"),
-      ...places.map((place) => h("button", "place", {
-        type: "button", onclick: () => this.editor.goTo(place.file, place.line, place.column),
-      }, h("small", "", {}, `${shortName(place.file)}, line ${place.line}`), h("code", "", {}, this.editor.lineOf(place.file, place.line)))));
+    return h(
+      "section",
+      "",
+      {},
+      h("h3", "", {}, places.length === 1 ? "Made by the production" : "Made by one of the productions"),
+      ...places.map((place) =>
+        h(
+          "button",
+          "place",
+          {
+            type: "button",
+            onclick: () => this.editor.goTo(place.file, place.line, place.column),
+          },
+          h("small", "", {}, `${shortName(place.file)}, line ${place.line}`),
+          h("code", "", {}, this.editor.lineOf(place.file, place.line)),
+        ),
+      ),
+    );
   }
 
   private kin(picked: Picked): HTMLElement | null {

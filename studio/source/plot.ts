@@ -55,26 +55,30 @@ export interface PlotOptions {
 }
 
 export function plotOverSteps(place: HTMLElement, steps: number[], curves: Curve[], options: PlotOptions): uPlot {
-  const plot = new uPlot({
-    width: options.width,
-    height: options.height,
-    scales: { x: { time: false } },
-    axes: axes(options.small ?? false),
-    legend: { show: curves.length > 1 },
-    cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
-    plugins: [stepMark(options.step)],
-    series: [
-      { label: "step" },
-      ...curves.map((curve, index): uPlot.Series => ({
-        label: curve.name,
-        stroke: themeColour(colours[(curve.colour ?? index) % colours.length]),
-        width: curve.dashed ? 1.5 : 2,
-        ...(curve.dashed ? { dash: [6, 4] } : {}),
-        points: { show: steps.length < 3 },
-        spanGaps: true,
-      })),
-    ],
-  }, [steps, ...curves.map(({ values }) => values)], place);
+  const plot = new uPlot(
+    {
+      width: options.width,
+      height: options.height,
+      scales: { x: { time: false } },
+      axes: axes(options.small ?? false),
+      legend: { show: curves.length > 1 },
+      cursor: { y: false, drag: { x: false, y: false }, points: { size: 5 } },
+      plugins: [stepMark(options.step)],
+      series: [
+        { label: "step" },
+        ...curves.map((curve, index): uPlot.Series => ({
+          label: curve.name,
+          stroke: themeColour(colours[(curve.colour ?? index) % colours.length]),
+          width: curve.dashed ? 1.5 : 2,
+          ...(curve.dashed ? { dash: [6, 4] } : {}),
+          points: { show: steps.length < 3 },
+          spanGaps: true,
+        })),
+      ],
+    },
+    [steps, ...curves.map(({ values }) => values)],
+    place,
+  );
   plot.over.addEventListener("click", () => {
     const index = plot.cursor.idx;
     if (index !== null && index !== undefined) options.clicked(steps[index]);

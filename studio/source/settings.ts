@@ -77,13 +77,27 @@ export class SettingsPanel {
   private layout = "";
   private updateSimulation: () => void = () => undefined;
 
-  constructor(private readonly studio: Studio, private readonly changes: Changes) {
+  constructor(
+    private readonly studio: Studio,
+    private readonly changes: Changes,
+  ) {
     studio.on("document", (document) => this.show(document));
   }
 
   private show(document: StudioDocument): void {
-    const layout = JSON.stringify([document.path, document.settings.map(({ name, label, kind, lowest, highest, whole, unit, group }) =>
-      [name, label, kind, lowest, highest, whole, unit, group])]);
+    const layout = JSON.stringify([
+      document.path,
+      document.settings.map(({ name, label, kind, lowest, highest, whole, unit, group }) => [
+        name,
+        label,
+        kind,
+        lowest,
+        highest,
+        whole,
+        unit,
+        group,
+      ]),
+    ]);
     if (layout !== this.layout) this.build(document);
     this.layout = layout;
     this.updateSimulation();
@@ -96,7 +110,9 @@ export class SettingsPanel {
     for (const setting of document.settings) groups.set(setting.group, [...(groups.get(setting.group) ?? []), setting]);
     const parts = [...groups].map(([name, settings]) => this.group(name, settings, groups.size));
     if (parts.length === 0)
-      parts.push(h("p", "hint", {}, "This document has no settings. A line such as #define ANGLE 25 in the model becomes a slider here."));
+      parts.push(
+        h("p", "hint", {}, "This document has no settings. A line such as #define ANGLE 25 in the model becomes a slider here."),
+      );
     this.element.replaceChildren(this.simulation(document), ...parts);
   }
 
@@ -116,8 +132,13 @@ export class SettingsPanel {
     const control = controlOf(setting, send);
     const reset = iconButton("reset", `Back to ${setting.default}`, () => send(null, true));
     const [own, more] = partsOf(setting);
-    const name = h("label", "", { for: `setting-${setting.name}`, title: setting.name },
-      own, h("small", "", {}, more ? ` ${more}` : ""));
+    const name = h(
+      "label",
+      "",
+      { for: `setting-${setting.name}`, title: setting.name },
+      own,
+      h("small", "", {}, more ? ` ${more}` : ""),
+    );
     const row = h("div", "setting", {}, h("div", "setting-head", {}, name, reset), control.element);
     this.rows.set(setting.name, {
       element: row,
@@ -135,11 +156,20 @@ export class SettingsPanel {
     const seed = h("input", "number", { type: "number", min: 0, step: 1, id: "setting-seed" });
     const steps = h("input", "number", { type: "number", min: 0, step: 1, id: "setting-steps" });
     seed.addEventListener("change", () => this.setSeed(Number(seed.value)));
-    steps.addEventListener("change", () => this.changes.lasting("steps", { steps: Number(steps.value) }, `Steps = ${steps.value}`));
-    const dice = h("button", "button small", {
-      type: "button", title: "Another seed: another plant of the same kind",
-      onclick: () => this.setSeed(Math.floor(Math.random() * 10_000)),
-    }, icon("dice"), "Dice");
+    steps.addEventListener("change", () =>
+      this.changes.lasting("steps", { steps: Number(steps.value) }, `Steps = ${steps.value}`),
+    );
+    const dice = h(
+      "button",
+      "button small",
+      {
+        type: "button",
+        title: "Another seed: another plant of the same kind",
+        onclick: () => this.setSeed(Math.floor(Math.random() * 10_000)),
+      },
+      icon("dice"),
+      "Dice",
+    );
     const show = () => {
       const now = this.studio.document ?? document;
       if (window.document.activeElement !== seed) seed.value = String(now.seed);
@@ -147,8 +177,16 @@ export class SettingsPanel {
     };
     this.updateSimulation = show;
     show();
-    return h("div", "simulation", {},
-      h("label", "", { for: "setting-seed" }, "Seed"), seed, dice, h("label", "", { for: "setting-steps" }, "Steps"), steps);
+    return h(
+      "div",
+      "simulation",
+      {},
+      h("label", "", { for: "setting-seed" }, "Seed"),
+      seed,
+      dice,
+      h("label", "", { for: "setting-steps" }, "Steps"),
+      steps,
+    );
   }
 
   private setSeed(seed: number): void {

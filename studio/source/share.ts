@@ -25,7 +25,12 @@ function escaped(text: string): string {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
 
-async function recordingOf(studio: Studio, scene: PlantScene, steps: number[], progress: (part: number) => void): Promise<Recording> {
+async function recordingOf(
+  studio: Studio,
+  scene: PlantScene,
+  steps: number[],
+  progress: (part: number) => void,
+): Promise<Recording> {
   const packets: string[] = [];
   for (const [index, step] of steps.entries()) {
     const packet = await studio.frames.fetch(step);
@@ -70,23 +75,41 @@ function chosenSteps(last: number, count: number): number[] {
 
 export function shareHtmlDialog(studio: Studio, scene: PlantScene): void {
   const last = studio.frames.lastStep;
-  const count = h("input", "number", { type: "number", min: 1, max: last + 1, value: Math.min(last + 1, 120), id: "share-count" });
+  const count = h("input", "number", {
+    type: "number",
+    min: 1,
+    max: last + 1,
+    value: Math.min(last + 1, 120),
+    id: "share-count",
+  });
   const state = h("p", "hint", { role: "status" });
   const start = h("button", "button primary", { type: "submit" }, "Write the file");
-  const form = h("form", "form", {
-    onsubmit: (event) => {
-      event.preventDefault();
-      void run();
+  const form = h(
+    "form",
+    "form",
+    {
+      onsubmit: (event) => {
+        event.preventDefault();
+        void run();
+      },
     },
-  }, h("p", "", {}, "One HTML file that shows the growth in every browser, without Espalier: it can be turned and played."),
-    h("label", "", { for: "share-count" }, `Steps to take, of ${last + 1}`), count, h("div", "form-end", {}, state, start));
+    h("p", "", {}, "One HTML file that shows the growth in every browser, without Espalier: it can be turned and played."),
+    h("label", "", { for: "share-count" }, `Steps to take, of ${last + 1}`),
+    count,
+    h("div", "form-end", {}, state, start),
+  );
   const dialog = openDialog("Share as HTML", form);
 
   async function run(): Promise<void> {
     start.disabled = true;
     try {
       const steps = chosenSteps(last, Math.max(1, Number(count.value)));
-      const recording = await recordingOf(studio, scene, steps, (part) => (state.textContent = `${Math.round(part * 100)} % of the steps`));
+      const recording = await recordingOf(
+        studio,
+        scene,
+        steps,
+        (part) => (state.textContent = `${Math.round(part * 100)} % of the steps`),
+      );
       const blob = new Blob([await htmlOf(recording)], { type: "text/html" });
       download(blob, `${recording.title}.html`);
       dialog.close();
@@ -104,7 +127,10 @@ async function linkOf(studio: Studio): Promise<string> {
   const main = document?.texts.find(({ role }) => role === "main") ?? document?.texts[0];
   if (!document || !main) throw new Error("There is nothing to share yet.");
   const model: SharedModel = {
-    name: shortName(main.path), content: main.content, seed: document.seed, steps: document.steps,
+    name: shortName(main.path),
+    content: main.content,
+    seed: document.seed,
+    steps: document.steps,
   };
   const packed = urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))));
   return `model=${packed}`;
@@ -122,20 +148,36 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
     const fragment = await linkOf(studio);
     const address = `${location.origin}/#${fragment}`;
     if (address.length > longestLink)
-      throw new Error(`The model is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the file and send it instead.`);
+      throw new Error(
+        `The model is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the file and send it instead.`,
+      );
     const field = h("textarea", "wide", { readonly: true, rows: 6, "aria-label": "Link" });
     field.value = address;
-    const copy = h("button", "button primary", {
-      type: "button",
-      onclick: () => {
-        field.select();
-        void navigator.clipboard.writeText(address).then(() => (copy.textContent = "Copied"));
+    const copy = h(
+      "button",
+      "button primary",
+      {
+        type: "button",
+        onclick: () => {
+          field.select();
+          void navigator.clipboard.writeText(address).then(() => (copy.textContent = "Copied"));
+        },
       },
-    }, "Copy");
+      "Copy",
+    );
     const files = (studio.document?.texts.length ?? 1) - 1;
-    openDialog("Share as a link",
-      h("p", "", {}, "The link holds the text of the model, its settings, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery."),
-      files > 0 ? h("p", "hint", {}, "Only the main text is in the link, not its side files.") : h("span", ""), field, h("div", "form-end", {}, copy));
+    openDialog(
+      "Share as a link",
+      h(
+        "p",
+        "",
+        {},
+        "The link holds the text of the model, its settings, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery.",
+      ),
+      files > 0 ? h("p", "hint", {}, "Only the main text is in the link, not its side files.") : h("span", ""),
+      field,
+      h("div", "form-end", {}, copy),
+    );
   } catch (error) {
     studio.tell("error", errorText(error));
   }

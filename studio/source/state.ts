@@ -3,7 +3,16 @@ import { Connection, RequestError, type ConnectionState } from "./connection.js"
 import { remember, remembered } from "./elements.js";
 import { Frames } from "./frames.js";
 import type {
-  Cell, FieldName, Growth, HandedFile, Help, Problem, Requests, Said, Statistics, StudioDocument,
+  Cell,
+  FieldName,
+  Growth,
+  HandedFile,
+  Help,
+  Problem,
+  Requests,
+  Said,
+  Statistics,
+  StudioDocument,
 } from "./protocol.js";
 import type { BinaryMessage, Column, Field, Packet, Shapes } from "./view/index.js";
 
@@ -114,7 +123,10 @@ export class Studio {
   private connected(state: ConnectionState): void {
     if (state === "open") {
       this.frames.connected();
-      void this.connection.request("help", {}).then((help) => (this.help = help)).catch(() => undefined);
+      void this.connection
+        .request("help", {})
+        .then((help) => (this.help = help))
+        .catch(() => undefined);
     }
     this.emit("connection", state);
   }

@@ -5,7 +5,11 @@ import type { Studio } from "./state.js";
 import { triangleCount } from "./view/index.js";
 
 const names: Record<Growth["state"], string> = {
-  reading: "reading", growing: "growing", done: "grown", stopped: "stopped", failed: "failed",
+  reading: "reading",
+  growing: "growing",
+  done: "grown",
+  stopped: "stopped",
+  failed: "failed",
 };
 
 function duration(seconds: number): string {
@@ -39,8 +43,10 @@ export class StatusLine {
     const wrong = this.studio.problems.filter(({ severity }) => severity === "error").length;
     const busy = growth.state === "growing" || growth.state === "reading";
     if (growth.growth !== this.began.growth) this.began = { growth: growth.growth, step: growth.step, at: performance.now() };
-    this.state.textContent = wrong > 0 ? `${wrong} ${wrong === 1 ? "error" : "errors"} in the text: the plant before it stays`
-      : `${names[growth.state]}${growth.reason ? `: ${growth.reason}` : ""}`;
+    this.state.textContent =
+      wrong > 0
+        ? `${wrong} ${wrong === 1 ? "error" : "errors"} in the text: the plant before it stays`
+        : `${names[growth.state]}${growth.reason ? `: ${growth.reason}` : ""}`;
     this.element.dataset.state = wrong > 0 ? "failed" : growth.state;
     this.progress.hidden = !busy;
     this.progress.value = growth.last > 0 ? Math.max(0, growth.step) / growth.last : 0;

@@ -22,16 +22,28 @@ export class Timeline {
       this.rate.append(h("option", "", { value, selected: value === chosen }, `${value} / s`));
     this.rate.addEventListener("change", () => remember("rate", Number(this.rate.value)));
     this.slider.addEventListener("input", () => this.scrub(Number(this.slider.value)));
-    const growOn = h("button", "button small", { type: "button", title: "Grow on by this many steps", onclick: () => this.growOn() },
-      icon("grow"), "Grow on");
-    this.element = h("div", "timeline", { role: "group", "aria-label": "Timeline" },
+    const growOn = h(
+      "button",
+      "button small",
+      { type: "button", title: "Grow on by this many steps", onclick: () => this.growOn() },
+      icon("grow"),
+      "Grow on",
+    );
+    this.element = h(
+      "div",
+      "timeline",
+      { role: "group", "aria-label": "Timeline" },
       iconButton("first", "First step", () => this.goTo(0)),
       iconButton("back", "One step back", () => this.goTo(this.step - 1)),
       this.play,
       iconButton("forward", "One step on", () => this.forward()),
       iconButton("last", "Last step: follow the growth", () => this.follow()),
-      h("div", "track", {}, this.grown, this.slider), this.label, this.rate,
-      h("span", "grow-on", {}, this.more, growOn), this.stopButton);
+      h("div", "track", {}, this.grown, this.slider),
+      this.label,
+      this.rate,
+      h("span", "grow-on", {}, this.more, growOn),
+      this.stopButton,
+    );
     studio.on("growth", () => this.show());
     studio.on("shown", () => this.show());
     this.show();

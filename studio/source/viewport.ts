@@ -1,6 +1,16 @@
 /** The picture with what belongs to it: colours and their legend, fields, ground, pictures and films. */
 import { download, fillSlider, h, iconButton, remember, remembered, short, whole } from "./elements.js";
-import { mapGradient, PlantScene, steer, themes, triangleCount, type Column, type Field, type FieldLook, type Packet } from "./view/index.js";
+import {
+  mapGradient,
+  PlantScene,
+  steer,
+  themes,
+  triangleCount,
+  type Column,
+  type Field,
+  type FieldLook,
+  type Packet,
+} from "./view/index.js";
 import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
@@ -9,7 +19,9 @@ import { Film } from "./film.js";
 export class Viewport {
   readonly element: HTMLElement;
   readonly scene: PlantScene;
-  private readonly canvas = h("canvas", "", { "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits." });
+  private readonly canvas = h("canvas", "", {
+    "aria-label": "The plant. Arrows turn, + and - zoom, Space and Shift raise and lower, F fits.",
+  });
   private readonly colourSelect = h("select", "", { "aria-label": "Colour by" });
   private readonly fieldSelect = h("select", "", { "aria-label": "Field" });
   private readonly fieldTools = h("div", "field-tools", { hidden: true });
@@ -21,14 +33,26 @@ export class Viewport {
   private askedColumn = "";
   private documentPath = "";
 
-  constructor(private readonly studio: Studio, timeline: Timeline, clicked: (module: number | null) => void) {
+  constructor(
+    private readonly studio: Studio,
+    timeline: Timeline,
+    clicked: (module: number | null) => void,
+  ) {
     this.scene = new PlantScene(this.canvas);
     this.scene.theme = themes[studio.theme];
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
     const film = new Film(this.studio, this.scene, timeline);
     this.buildFieldTools();
-    this.element = h("div", "viewport", {}, this.canvas, this.toolbar(film),
-      h("div", "picture-left", {}, this.fieldTools, this.legend), this.scale, this.hint());
+    this.element = h(
+      "div",
+      "viewport",
+      {},
+      this.canvas,
+      this.toolbar(film),
+      h("div", "picture-left", {}, this.fieldTools, this.legend),
+      this.scale,
+      this.hint(),
+    );
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
     this.colourSelect.addEventListener("change", () => this.colourBy(this.colourSelect.value));
     this.fieldSelect.addEventListener("change", () => this.chooseField(this.fieldSelect.value));
@@ -70,31 +94,57 @@ export class Viewport {
     const ground = remembered("ground", true);
     this.scene.setShadows(shadows);
     this.scene.setGround(ground);
-    const look = menuButton(iconButton("layers", "Ground and shadows", () => undefined), () => [
-      { name: remembered("shadows", true) ? "Hide shadows" : "Show shadows", run: () => this.flip("shadows", (on) => this.scene.setShadows(on)) },
-      { name: remembered("ground", true) ? "Hide the ground" : "Show the ground", run: () => this.flip("ground", (on) => this.scene.setGround(on)) },
-    ]);
-    const pictures = menuButton(iconButton("camera", "Picture or film", () => undefined), () => [
-      { name: "Picture", hint: "PNG, as shown", run: () => void this.snapshot(1) },
-      { name: "Picture, twice as large", hint: "PNG, 2x", run: () => void this.snapshot(2) },
-      { name: film.running ? "End the film" : "Film of all steps", hint: "WebM", run: () => void film.toggle() },
-    ]);
-    return h("div", "picture-tools", { role: "toolbar", "aria-label": "Picture" },
+    const look = menuButton(
+      iconButton("layers", "Ground and shadows", () => undefined),
+      () => [
+        {
+          name: remembered("shadows", true) ? "Hide shadows" : "Show shadows",
+          run: () => this.flip("shadows", (on) => this.scene.setShadows(on)),
+        },
+        {
+          name: remembered("ground", true) ? "Hide the ground" : "Show the ground",
+          run: () => this.flip("ground", (on) => this.scene.setGround(on)),
+        },
+      ],
+    );
+    const pictures = menuButton(
+      iconButton("camera", "Picture or film", () => undefined),
+      () => [
+        { name: "Picture", hint: "PNG, as shown", run: () => void this.snapshot(1) },
+        { name: "Picture, twice as large", hint: "PNG, 2x", run: () => void this.snapshot(2) },
+        { name: film.running ? "End the film" : "Film of all steps", hint: "WebM", run: () => void film.toggle() },
+      ],
+    );
+    return h(
+      "div",
+      "picture-tools",
+      { role: "toolbar", "aria-label": "Picture" },
       h("label", "", {}, h("span", "", {}, "Colour"), this.colourSelect),
       h("label", "field-choice", {}, h("span", "", {}, "Field"), this.fieldSelect),
       h("span", "spread"),
       iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
-      iconButton("home", "First view (Home)", () => this.scene.home()), look, pictures);
+      iconButton("home", "First view (Home)", () => this.scene.home()),
+      look,
+      pictures,
+    );
   }
 
   /** What one can do here, until it has been done once. */
   private hint(): HTMLElement {
-    const hint = h("p", "picture-hint", { hidden: remembered("hinted", false) },
-      "Drag to turn, scroll to zoom, click an organ to ask it.");
-    this.canvas.addEventListener("pointerdown", () => {
-      hint.hidden = true;
-      remember("hinted", true);
-    }, { once: true });
+    const hint = h(
+      "p",
+      "picture-hint",
+      { hidden: remembered("hinted", false) },
+      "Drag to turn, scroll to zoom, click an organ to ask it.",
+    );
+    this.canvas.addEventListener(
+      "pointerdown",
+      () => {
+        hint.hidden = true;
+        remember("hinted", true);
+      },
+      { once: true },
+    );
     return hint;
   }
 
@@ -116,8 +166,10 @@ export class Viewport {
   private fillColours(): void {
     const { columns } = this.studio;
     const names = columns.includes("order") ? columns : ["order", ...columns];
-    this.colourSelect.replaceChildren(h("option", "", { value: "" }, "as modelled"),
-      ...names.map((name) => h("option", "", { value: name }, name)));
+    this.colourSelect.replaceChildren(
+      h("option", "", { value: "" }, "as modelled"),
+      ...names.map((name) => h("option", "", { value: name }, name)),
+    );
     if (!["", ...names].includes(this.colouring)) this.colourBy("");
     this.colourSelect.value = this.colouring;
     if (this.colouring && this.studio.frames.shown) this.colourBy(this.colouring);
@@ -146,7 +198,9 @@ export class Viewport {
     const key = `${packet.growth} ${packet.step} ${this.colouring}`;
     if (key === this.askedColumn) return;
     this.askedColumn = key;
-    this.studio.connection.request("column", { growth: packet.growth, step: packet.step, name: this.colouring }).catch(() => undefined);
+    this.studio.connection
+      .request("column", { growth: packet.growth, step: packet.step, name: this.colouring })
+      .catch(() => undefined);
   }
 
   private paint(column: Column): void {
@@ -159,16 +213,30 @@ export class Viewport {
   private drawLegend(name: string, lowest: number, highest: number, note: string): void {
     const bar = h("div", "legend-bar");
     bar.style.background = mapGradient();
-    this.legend.replaceChildren(h("strong", "", {}, name), bar,
-      h("div", "legend-ends", {}, h("span", "", {}, short(lowest)), h("span", "", {}, short((lowest + highest) / 2)), h("span", "", {}, short(highest))),
-      h("small", "", {}, note));
+    this.legend.replaceChildren(
+      h("strong", "", {}, name),
+      bar,
+      h(
+        "div",
+        "legend-ends",
+        {},
+        h("span", "", {}, short(lowest)),
+        h("span", "", {}, short((lowest + highest) / 2)),
+        h("span", "", {}, short(highest)),
+      ),
+      h("small", "", {}, note),
+    );
     this.legend.hidden = false;
   }
 
   private fillFields(): void {
     const { fields } = this.studio;
-    this.fieldSelect.replaceChildren(h("option", "", { value: "" }, "none"),
-      ...fields.map(({ name, unit, meaning }) => h("option", "", { value: name, title: meaning }, unit ? `${name} (${unit})` : name)));
+    this.fieldSelect.replaceChildren(
+      h("option", "", { value: "" }, "none"),
+      ...fields.map(({ name, unit, meaning }) =>
+        h("option", "", { value: name, title: meaning }, unit ? `${name} (${unit})` : name),
+      ),
+    );
     this.fieldSelect.parentElement?.toggleAttribute("hidden", fields.length === 0);
     this.chooseField(fields.some(({ name }) => name === this.fieldName) ? this.fieldName : "");
   }
@@ -194,8 +262,12 @@ export class Viewport {
   }
 
   private buildFieldTools(): void {
-    const mode = h("select", "", { "aria-label": "Field as" },
-      ...["slice across y", "slice across x", "slice across z", "cloud"].map((name) => h("option", "", {}, name)));
+    const mode = h(
+      "select",
+      "",
+      { "aria-label": "Field as" },
+      ...["slice across y", "slice across x", "slice across z", "cloud"].map((name) => h("option", "", {}, name)),
+    );
     const place = h("input", "", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, "aria-label": "Place of the slice" });
     const update = () => {
       fillSlider(place);

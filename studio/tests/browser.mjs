@@ -21,10 +21,12 @@ export async function openPage(browser, address, options = {}) {
   page.setDefaultTimeout(Number(process.env.PATIENCE ?? 30_000));
   page.problems = [];
   page.packets = [];
-  page.on("websocket", (socket) => socket.on("framereceived", ({ payload }) => {
-    if (typeof payload === "string" || payload.toString("latin1", 0, 4) !== "ESP1") return;
-    page.packets.push(`${payload.readUInt32LE(4)} ${payload.readInt32LE(8)}`);
-  }));
+  page.on("websocket", (socket) =>
+    socket.on("framereceived", ({ payload }) => {
+      if (typeof payload === "string" || payload.toString("latin1", 0, 4) !== "ESP1") return;
+      page.packets.push(`${payload.readUInt32LE(4)} ${payload.readInt32LE(8)}`);
+    }),
+  );
   page.on("pageerror", (error) => page.problems.push(error.message));
   page.on("console", (message) => {
     if (message.type() === "error") page.problems.push(message.text());

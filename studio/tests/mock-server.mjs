@@ -9,7 +9,8 @@ import { WebSocketServer } from "ws";
 const dist = join(dirname(fileURLToPath(import.meta.url)), "../dist");
 const port = Number(process.argv[2] ?? 8799);
 const types = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", svg: "image/svg+xml" };
-const policy = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self' ws:; worker-src blob:";
+const policy =
+  "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; connect-src 'self' ws:; worker-src blob:";
 
 const text = `/* A ternary tree
 
@@ -55,17 +56,82 @@ samples: 10
 `;
 
 const document = {
-  say: "document", version: 1, path: "", name: "", kind: "model", folder: "/home/me", texts: [],
+  say: "document",
+  version: 1,
+  path: "",
+  name: "",
+  kind: "model",
+  folder: "/home/me",
+  texts: [],
   settings: [
-    { kind: "number", name: "ANGLE", label: "angle of branches", value: 32, text: "32", default: "32", lowest: 5, highest: 80, whole: false, unit: "degrees", group: "Form", changed: false },
-    { kind: "number", name: "RATIO", label: "ratio of lengths", value: 0.78, text: "0.78", default: "0.78", lowest: 0.5, highest: 0.95, whole: false, unit: "", group: "Form", changed: false },
-    { kind: "number", name: "LEAVES", label: "leaves at the tips", value: 1, text: "1", default: "1", lowest: 0, highest: 1, whole: true, unit: "", group: "Organs", changed: false },
+    {
+      kind: "number",
+      name: "ANGLE",
+      label: "angle of branches",
+      value: 32,
+      text: "32",
+      default: "32",
+      lowest: 5,
+      highest: 80,
+      whole: false,
+      unit: "degrees",
+      group: "Form",
+      changed: false,
+    },
+    {
+      kind: "number",
+      name: "RATIO",
+      label: "ratio of lengths",
+      value: 0.78,
+      text: "0.78",
+      default: "0.78",
+      lowest: 0.5,
+      highest: 0.95,
+      whole: false,
+      unit: "",
+      group: "Form",
+      changed: false,
+    },
+    {
+      kind: "number",
+      name: "LEAVES",
+      label: "leaves at the tips",
+      value: 1,
+      text: "1",
+      default: "1",
+      lowest: 0,
+      highest: 1,
+      whole: true,
+      unit: "",
+      group: "Organs",
+      changed: false,
+    },
   ],
-  graphs: [{ path: "tree.l", components: [
-    { name: "camera", type: "camera", line: 1, values: {} }, { name: "trunk", type: "tree", line: 5, values: { length: "3.5", curve: "0 0.5 1" } },
-    { name: "branches", type: "phiball", line: 6, values: {} }, { name: "twig", type: "tree", line: 7, values: {} }, { name: "leaf", type: "leaf", line: 8, values: {} }, { name: "flower", type: "leaf", line: 9, values: {} }],
-    links: [{ from: "camera", to: "trunk", kind: "child" }, { from: "trunk", to: "branches", kind: "branch" }, { from: "branches", to: "twig", kind: "child" }, { from: "twig", to: "twig", kind: "branch" }, { from: "twig", to: "leaf", kind: "leaf" }, { from: "branches", to: "flower", kind: "leaf" }] }],
-  seed: 1, steps: 8, undo: null, redo: null,
+  graphs: [
+    {
+      path: "tree.l",
+      components: [
+        { name: "camera", type: "camera", line: 1, values: {} },
+        { name: "trunk", type: "tree", line: 5, values: { length: "3.5", curve: "0 0.5 1" } },
+        { name: "branches", type: "phiball", line: 6, values: {} },
+        { name: "twig", type: "tree", line: 7, values: {} },
+        { name: "leaf", type: "leaf", line: 8, values: {} },
+        { name: "flower", type: "leaf", line: 9, values: {} },
+      ],
+      links: [
+        { from: "camera", to: "trunk", kind: "child" },
+        { from: "trunk", to: "branches", kind: "branch" },
+        { from: "branches", to: "twig", kind: "child" },
+        { from: "twig", to: "twig", kind: "branch" },
+        { from: "twig", to: "leaf", kind: "leaf" },
+        { from: "branches", to: "flower", kind: "leaf" },
+      ],
+    },
+  ],
+  seed: 1,
+  steps: 8,
+  undo: null,
+  redo: null,
 };
 
 function setting(name) {
@@ -109,7 +175,10 @@ function packet(growth, step) {
         lower[k] = Math.min(lower[k], point[k]);
         upper[k] = Math.max(upper[k], point[k]);
       }
-  if (internodes.length === 0) { lower.fill(0); upper.fill(0); }
+  if (internodes.length === 0) {
+    lower.fill(0);
+    upper.fill(0);
+  }
   const leaves = setting("LEAVES") === 1 && step > 3 ? tips : [];
   const groups = leaves.length > 0 ? 1 : 0;
   const buffer = Buffer.alloc(60 + 4 + internodes.length * 24 + groups * 8 + leaves.length * (48 + 4 + 4));
@@ -147,7 +216,13 @@ function packet(growth, step) {
 }
 
 function shapes(growth) {
-  const points = [[0, 0, 0], [-0.25, 0.4, 0.08], [0, 0.45, 0], [0.25, 0.4, 0.08], [0, 1, 0]];
+  const points = [
+    [0, 0, 0],
+    [-0.25, 0.4, 0.08],
+    [0, 0.45, 0],
+    [0.25, 0.4, 0.08],
+    [0, 1, 0],
+  ];
   const triangles = [0, 2, 1, 0, 3, 2, 1, 2, 4, 2, 3, 4];
   const buffer = Buffer.alloc(12 + 16 + points.length * 32 + triangles.length * 4);
   let at = buffer.write("ESS1", 0, "latin1");
@@ -186,10 +261,24 @@ let future = [];
 const pages = new Set();
 const say = (message) => pages.forEach((page) => page.send(JSON.stringify(message)));
 const growthMessage = () => ({
-  say: "growth", growth, version: document.version, state: grown < document.steps ? "growing" : "done", step: grown, last: document.steps,
-  modules: grow(grown).internodes.length * 2, internodes: grow(grown).internodes.length, seconds: 0.12, reason: null,
+  say: "growth",
+  growth,
+  version: document.version,
+  state: grown < document.steps ? "growing" : "done",
+  step: grown,
+  last: document.steps,
+  modules: grow(grown).internodes.length * 2,
+  internodes: grow(grown).internodes.length,
+  seconds: 0.12,
+  reason: null,
 });
-const row = (step) => [step, grow(step).internodes.length, grow(step).internodes.length * 2, 1 - document.settings[1].value ** step, step * step];
+const row = (step) => [
+  step,
+  grow(step).internodes.length,
+  grow(step).internodes.length * 2,
+  1 - document.settings[1].value ** step,
+  step * step,
+];
 const columns = ["step", "internodes", "modules", "height", "leaf_area"];
 
 function regrow(keep) {
@@ -241,7 +330,14 @@ function change(request) {
   document.redo = future.at(-1)?.label ?? null;
   say(document);
   const wrong = document.texts[0]?.content.split("\n").findIndex((line) => line.includes("wrong"));
-  say({ say: "problems", version: document.version, problems: wrong >= 0 ? [{ severity: "error", file: "tree.l", line: wrong + 1, column: 1, message: "unknown name wrong", source: "" }] : [] });
+  say({
+    say: "problems",
+    version: document.version,
+    problems:
+      wrong >= 0
+        ? [{ severity: "error", file: "tree.l", line: wrong + 1, column: 1, message: "unknown name wrong", source: "" }]
+        : [],
+  });
   if (!(wrong >= 0)) regrow(true);
   return { version: document.version };
 }
@@ -250,26 +346,55 @@ const entry = (folder, name, summary, picture) => ({ path: `${folder}/${name}`, 
 const pictures = ["tree-decurrent", "sdl-fern", "species-aspen", "topiary", "hedge", "light", "sdl-spruce", "pgraph-bush"];
 const library = {
   models: ["Oak", "Fern", "Aspen", "Topiary", "Hedge", "Ash", "Spruce", "Bush"].map((name, index) =>
-    entry(index < 4 ? "trees" : "herbs", name, "Two constant angles and one constant factor. A tree that forks in each step.", index)),
+    entry(
+      index < 4 ? "trees" : "herbs",
+      name,
+      "Two constant angles and one constant factor. A tree that forks in each step.",
+      index,
+    ),
+  ),
   scenes: [entry("light", "Two trees", "Two trees that shade each other.", 4)],
   files: [entry("", "tree.l", "My tree", null)],
 };
 
 const help = {
-  symbols: [{ name: "F", summary: "a segment", help: "F(length) moves the turtle and draws a segment." }, { name: "+", summary: "turns left", help: "+(angle)" }],
-  keywords: [{ name: "axiom:", summary: "the first string", help: "axiom: modules" }, { name: "derivation length:", summary: "number of steps", help: "" }],
+  symbols: [
+    { name: "F", summary: "a segment", help: "F(length) moves the turtle and draws a segment." },
+    { name: "+", summary: "turns left", help: "+(angle)" },
+  ],
+  keywords: [
+    { name: "axiom:", summary: "the first string", help: "axiom: modules" },
+    { name: "derivation length:", summary: "number of steps", help: "" },
+  ],
   functions: [{ name: "ran", summary: "a random number", help: "ran(x) is uniform between 0 and x." }],
-  processes: [], stages: [], keys: [],
-  exporters: [{ name: "gltf", summary: "glTF 2.0, for viewers and Blender", help: "Options: step" }, { name: "obj", summary: "Wavefront OBJ", help: "" }],
+  processes: [],
+  stages: [],
+  keys: [],
+  exporters: [
+    { name: "gltf", summary: "glTF 2.0, for viewers and Blender", help: "Options: step" },
+    { name: "obj", summary: "Wavefront OBJ", help: "" },
+  ],
 };
 
-help.components = [{ name: "tree", summary: "an axis with branches", keys: [
-  { name: "length", summary: "of the axis", unit: "m", lowest: 0, highest: 20, standard: 1, kind: "number" }, { name: "segments", summary: "", unit: "", lowest: 1, highest: 50, standard: 8, kind: "whole" },
-  { name: "curve", summary: "bending along the axis", unit: "", lowest: null, highest: null, standard: "0", kind: "list" }] }, { name: "leaf", summary: "a leaf", keys: [] }, { name: "phiball", summary: "leaves on a ball", keys: [] }, { name: "camera", summary: "where one looks from", keys: [] }];
+help.components = [
+  {
+    name: "tree",
+    summary: "an axis with branches",
+    keys: [
+      { name: "length", summary: "of the axis", unit: "m", lowest: 0, highest: 20, standard: 1, kind: "number" },
+      { name: "segments", summary: "", unit: "", lowest: 1, highest: 50, standard: 8, kind: "whole" },
+      { name: "curve", summary: "bending along the axis", unit: "", lowest: null, highest: null, standard: "0", kind: "list" },
+    ],
+  },
+  { name: "leaf", summary: "a leaf", keys: [] },
+  { name: "phiball", summary: "leaves on a ball", keys: [] },
+  { name: "camera", summary: "where one looks from", keys: [] },
+];
 const answers = {
   graph: ({ component, key, text }) => {
     const one = document.graphs[0].components.find(({ name }) => name === component);
-    if (text === null) delete one.values[key]; else one.values[key] = text;
+    if (text === null) delete one.values[key];
+    else one.values[key] = text;
     say(document);
     return { version: 1 };
   },
@@ -280,7 +405,9 @@ const answers = {
         page.send(JSON.stringify(growthMessage()));
         page.send(JSON.stringify({ say: "columns", growth, columns: ["order", "age", "length"] }));
         page.send(shapes(growth));
-        page.send(JSON.stringify({ say: "statistics", growth, columns, rows: Array.from({ length: grown + 1 }, (_, step) => row(step)) }));
+        page.send(
+          JSON.stringify({ say: "statistics", growth, columns, rows: Array.from({ length: grown + 1 }, (_, step) => row(step)) }),
+        );
       }
     }, 10);
     return { version: "mock" };
@@ -296,7 +423,12 @@ const answers = {
     ];
     grown = 0;
     say(document);
-    say({ say: "message", number: 5, severity: "warning", text: "tree.l, line 12: two productions have the same weight. Give them different ones." });
+    say({
+      say: "message",
+      number: 5,
+      severity: "warning",
+      text: "tree.l, line 12: two productions have the same weight. Give them different ones.",
+    });
     setTimeout(() => regrow(false), 10);
     return {};
   },
@@ -323,10 +455,28 @@ const answers = {
   frame: ({ step }, page) => (page.send(packet(growth, step)), {}),
   column: ({ step, name }, page) => (page.send(column(growth, step, name)), {}),
   pick: ({ module, step }) => ({
-    plant: "tree", symbol: "F", text: `F(${(0.78 ** 3).toFixed(4)}, 0.02)`, identity: 1000 + module, order: 2, born: Math.max(0, step - 3),
-    parent: { identity: 17, symbol: "A", born: 1, module: 0 }, names: ["length", "width"], parameters: [0.4746, 0.02], children: 3,
-    history: { steps: [2, 3, 4, 5, 6], parameters: [[0.1, 0.01], [0.2, 0.012], [0.35, 0.015], [0.45, 0.018], [0.4746, 0.02]] },
-    places: [{ file: "tree.l", line: 13, column: 1, text: "A(l, w) : l > 0.05 --> !(w) F(l) ..." }], siblings: [module + 1, module + 2],
+    plant: "tree",
+    symbol: "F",
+    text: `F(${(0.78 ** 3).toFixed(4)}, 0.02)`,
+    identity: 1000 + module,
+    order: 2,
+    born: Math.max(0, step - 3),
+    parent: { identity: 17, symbol: "A", born: 1, module: 0 },
+    names: ["length", "width"],
+    parameters: [0.4746, 0.02],
+    children: 3,
+    history: {
+      steps: [2, 3, 4, 5, 6],
+      parameters: [
+        [0.1, 0.01],
+        [0.2, 0.012],
+        [0.35, 0.015],
+        [0.45, 0.018],
+        [0.4746, 0.02],
+      ],
+    },
+    places: [{ file: "tree.l", line: 13, column: 1, text: "A(l, w) : l > 0.05 --> !(w) F(l) ..." }],
+    siblings: [module + 1, module + 2],
   }),
   save: () => (document.texts.forEach((file) => (file.changed = false)), say(document), { path: "tree.l" }),
   export: ({ format }) => ({ file: { number: 100, name: `tree.${format}`, bytes: 12 } }),
@@ -336,7 +486,11 @@ const answers = {
 function step(from, to) {
   const entry = from.pop();
   to.push({ label: entry.label, state: snapshot() });
-  Object.assign(document, entry.state, { version: document.version + 1, undo: history.at(-1)?.label ?? null, redo: future.at(-1)?.label ?? null });
+  Object.assign(document, entry.state, {
+    version: document.version + 1,
+    undo: history.at(-1)?.label ?? null,
+    redo: future.at(-1)?.label ?? null,
+  });
   say(document);
   regrow(true);
   return { version: document.version };

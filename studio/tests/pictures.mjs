@@ -16,7 +16,18 @@ async function save(name) {
   const whole = join(place.base, name);
   await page.screenshot({ path: whole });
   const palette = "split[a][b];[a]palettegen=max_colors=160:stats_mode=full[p];[b][p]paletteuse=dither=none";
-  execFileSync("ffmpeg", ["-loglevel", "error", "-y", "-i", whole, "-filter_complex", palette, "-fflags", "+bitexact", join(pictures, name)]);
+  execFileSync("ffmpeg", [
+    "-loglevel",
+    "error",
+    "-y",
+    "-i",
+    whole,
+    "-filter_complex",
+    palette,
+    "-fflags",
+    "+bitexact",
+    join(pictures, name),
+  ]);
 }
 
 async function open(name) {
@@ -48,7 +59,10 @@ await pick("I(");
 await save("studio-organ.png");
 await open("wind-pine");
 await page.getByRole("tab", { name: "Graph" }).click();
-await page.getByRole("button", { name: /, Tree$/ }).first().click();
+await page
+  .getByRole("button", { name: /, Tree$/ })
+  .first()
+  .click();
 await save("studio-graph.png");
 await browser.close();
 await program.kill();

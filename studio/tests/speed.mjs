@@ -12,11 +12,18 @@ import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Scene
 export { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Scene, WebGLRenderer };
 `;
 const bundle = await build({
-  stdin: { contents: lines, resolveDir: join(here, "..") }, bundle: true, write: false, minify: true, format: "iife", globalName: "Three",
+  stdin: { contents: lines, resolveDir: join(here, "..") },
+  bundle: true,
+  write: false,
+  minify: true,
+  format: "iife",
+  globalName: "Three",
 });
 const browser = await openBrowser();
 const page = await openPage(browser, "about:blank");
-await page.evaluate(`${readFileSync(join(here, "../dist/studio.js"), "utf8").split("/*--- studio ---*/")[0]}; window.View = EspalierView;`);
+await page.evaluate(
+  `${readFileSync(join(here, "../dist/studio.js"), "utf8").split("/*--- studio ---*/")[0]}; window.View = EspalierView;`,
+);
 await page.evaluate(`${bundle.outputFiles[0].text}; window.Three = Three;`);
 
 const result = await page.evaluate(measure, count);
@@ -34,7 +41,7 @@ function measure(count) {
   function internodes() {
     const words = new Uint16Array(count * 12);
     let state = 1;
-    const random = () => ((state = (state * 16807) % 2147483647) / 2147483647);
+    const random = () => (state = (state * 16807) % 2147483647) / 2147483647;
     for (let i = 0; i < count; i++) {
       const at = i * 12;
       for (let k = 0; k < 3; k++) {
@@ -63,9 +70,23 @@ function measure(count) {
   const scene = new PlantScene(canvas());
   scene.resize(width, height);
   scene.show({
-    kind: "packet", growth: 1, step: 1, bytes: 0, message: new ArrayBuffer(0), plants: new Uint32Array(1), lower: [0, 0, 0], upper: [5, 5, 5],
-    radius: 0.06, internodeCount: count, internodes: new Uint32Array(words.buffer), positions: new Float32Array(0), normals: new Int8Array(0),
-    colours: new Uint8Array(0), modules: new Uint32Array(0), indices: new Uint32Array(0), groups: [],
+    kind: "packet",
+    growth: 1,
+    step: 1,
+    bytes: 0,
+    message: new ArrayBuffer(0),
+    plants: new Uint32Array(1),
+    lower: [0, 0, 0],
+    upper: [5, 5, 5],
+    radius: 0.06,
+    internodeCount: count,
+    internodes: new Uint32Array(words.buffer),
+    positions: new Float32Array(0),
+    normals: new Int8Array(0),
+    colours: new Uint8Array(0),
+    modules: new Uint32Array(0),
+    indices: new Uint32Array(0),
+    groups: [],
   });
 
   const { WebGLRenderer, Scene, BufferGeometry, BufferAttribute, LineSegments, LineBasicMaterial } = window.Three;
@@ -79,8 +100,14 @@ function measure(count) {
   const finish = (gl) => gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   // The shortest of many times, taken in turns: other programs of the machine disturb both alike.
   const draws = {
-    internodes: () => { scene.draw(); scene.finish(); },
-    lines: () => { renderer.render(bare, scene.orbit.camera); finish(renderer.getContext()); },
+    internodes: () => {
+      scene.draw();
+      scene.finish();
+    },
+    lines: () => {
+      renderer.render(bare, scene.orbit.camera);
+      finish(renderer.getContext());
+    },
   };
   const shortest = { internodes: Infinity, lines: Infinity };
   for (let i = 0; i < 50; i++) {

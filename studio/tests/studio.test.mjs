@@ -119,7 +119,10 @@ test("the timeline shows every step, and again without asking for it twice", asy
   }
   const growth = await viewport().getAttribute("data-growth");
   const mine = page.packets.filter((packet) => packet.startsWith(`${growth} `));
-  assert.deepEqual(mine.filter((packet, index) => mine.indexOf(packet) !== index), []);
+  assert.deepEqual(
+    mine.filter((packet, index) => mine.indexOf(packet) !== index),
+    [],
+  );
   await page.keyboard.press("End");
   await shows(8);
   assert.notDeepEqual(await picture(), small);
@@ -184,7 +187,10 @@ test("an export is a file that holds the plant", async () => {
   await page.getByRole("menuitem", { name: /^Export/ }).click();
   await page.selectOption("#export-format", "obj");
   await shot(page, "export");
-  const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Export", exact: true }).click()]);
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "Export", exact: true }).click(),
+  ]);
   assert.match(readFileSync(await file.path(), "utf8"), /^v /m);
 });
 
@@ -236,7 +242,10 @@ test("two pages show the same plant", async () => {
 
 test("points of a function are dragged, and the text follows", async () => {
   writeFileSync(join(place.folder, "curved.l"), tree.replace("&(ANGLE)", "&(ANGLE * func(1, 0.5))"));
-  writeFileSync(join(place.folder, "bend.func"), "fver 1 1\nname: bend\nsamples: 10\nflip: off\npoints: 4\n0 0\n0.3 0.5\n0.7 0.6\n1 1\n");
+  writeFileSync(
+    join(place.folder, "bend.func"),
+    "fver 1 1\nname: bend\nsamples: 10\nflip: off\npoints: 4\n0 0\n0.3 0.5\n0.7 0.6\n1 1\n",
+  );
   writeFileSync(join(place.folder, "curved.v"), "function: bend.func\n");
   writeFileSync(join(place.folder, "curved.toml"), '[simulation]\nsteps = 7\n[[plant]]\nmodel = "curved.l"\nview = "curved.v"\n');
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
@@ -261,8 +270,12 @@ test("every control has a name, and the keys reach the picture", async () => {
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll("button, input, select, textarea, canvas[tabindex]")]
       .filter((element) => element.checkVisibility() && !element.closest(".cm-editor"))
-      .filter((element) => !(element.getAttribute("aria-label") || element.title || element.labels?.length || element.textContent.trim()))
-      .map((element) => element.outerHTML.slice(0, 120)));
+      .filter(
+        (element) =>
+          !(element.getAttribute("aria-label") || element.title || element.labels?.length || element.textContent.trim()),
+      )
+      .map((element) => element.outerHTML.slice(0, 120)),
+  );
   assert.deepEqual(nameless, []);
   const before = await picture();
   await canvas().focus();
@@ -278,13 +291,25 @@ test("every control has a name, and the keys reach the picture", async () => {
 
 test("texts and signs stand out from what is behind them, in both themes", async () => {
   const pairs = [
-    ["--text", "--panel"], ["--text", "--page"], ["--text-soft", "--panel"], ["--text-soft", "--panel-soft"], ["--text-soft", "--page"],
-    ["--accent", "--panel"], ["--accent-text", "--accent"], ["--error", "--error-soft"], ["--warning", "--panel"], ["--text", "--mark"],
+    ["--text", "--panel"],
+    ["--text", "--page"],
+    ["--text-soft", "--panel"],
+    ["--text-soft", "--panel-soft"],
+    ["--text-soft", "--page"],
+    ["--accent", "--panel"],
+    ["--accent-text", "--accent"],
+    ["--error", "--error-soft"],
+    ["--warning", "--panel"],
+    ["--text", "--mark"],
     ...["comment", "keyword", "string", "number", "name", "sign", "meta"].map((name) => [`--syntax-${name}`, "--panel"]),
   ];
   for (const theme of ["light", "dark"]) {
     const ratios = await page.evaluate(contrasts, { theme, pairs });
-    assert.deepEqual(ratios.filter(({ ratio }) => ratio < 4.5), [], theme);
+    assert.deepEqual(
+      ratios.filter(({ ratio }) => ratio < 4.5),
+      [],
+      theme,
+    );
   }
 });
 
@@ -295,7 +320,12 @@ function contrasts({ theme, pairs }) {
   root.dataset.theme = theme;
   const style = getComputedStyle(root);
   const luminance = (name) => {
-    const bytes = style.getPropertyValue(name).trim().slice(1).match(/../g).map((part) => parseInt(part, 16) / 255);
+    const bytes = style
+      .getPropertyValue(name)
+      .trim()
+      .slice(1)
+      .match(/../g)
+      .map((part) => parseInt(part, 16) / 255);
     const [r, g, b] = bytes.map((value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4));
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
@@ -323,7 +353,10 @@ test("the work is found again after the program was killed in the middle of a gr
   await page.waitForSelector(".banner:not([hidden])");
   await shot(page, "lost");
   assert.match(await page.locator(".cm-content").textContent(), /kept work/);
-  assert.deepEqual(page.problems.filter((text) => !/ERR_CONNECTION_REFUSED|WebSocket/.test(text)), []);
+  assert.deepEqual(
+    page.problems.filter((text) => !/ERR_CONNECTION_REFUSED|WebSocket/.test(text)),
+    [],
+  );
   program = await startProgram(programPath, place);
   page = await openPage(browser, program.address);
   await page.waitForFunction(() => /kept work/.test(document.querySelector(".cm-content")?.textContent ?? ""));

@@ -13,7 +13,20 @@ const headers =
   /^(?:derivation length|maximum depth|ring L-system|production|seed|axiom|ignore|consider|define|external|StartEach|EndEach|Start|End|lsystem|environment|module|const|field|include)\s*:/;
 const sections = /^(?:decomposition|homomorphism|interpretation|endlsystem|endgroup|warnings|no warnings|group)\b/;
 const declarations = /^(?:module|const|field|environment|array)\b/;
-const statements = new Set(["if", "else", "while", "do", "for", "break", "nproduce", "produce", "array", "const", "float", "int"]);
+const statements = new Set([
+  "if",
+  "else",
+  "while",
+  "do",
+  "for",
+  "break",
+  "nproduce",
+  "produce",
+  "array",
+  "const",
+  "float",
+  "int",
+]);
 
 function blockComment(stream: StringStream, state: State): string {
   state.comment = !stream.skipTo("*/");

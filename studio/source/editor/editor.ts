@@ -4,10 +4,25 @@ import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirro
 import { bracketMatching, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { lintGutter, setDiagnostics, type Diagnostic } from "@codemirror/lint";
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search";
-import { Annotation, EditorState, StateEffect, StateField, Transaction, type Extension, type TransactionSpec } from "@codemirror/state";
 import {
-  Decoration, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, keymap,
-  lineNumbers, type DecorationSet,
+  Annotation,
+  EditorState,
+  StateEffect,
+  StateField,
+  Transaction,
+  type Extension,
+  type TransactionSpec,
+} from "@codemirror/state";
+import {
+  Decoration,
+  drawSelection,
+  EditorView,
+  highlightActiveLine,
+  highlightActiveLineGutter,
+  highlightSpecialChars,
+  keymap,
+  lineNumbers,
+  type DecorationSet,
 } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
 import type { Changes } from "../changes.js";
@@ -63,7 +78,10 @@ export class Editor {
   private soon = 0;
   private later = 0;
 
-  constructor(private readonly studio: Studio, private readonly changes: Changes) {
+  constructor(
+    private readonly studio: Studio,
+    private readonly changes: Changes,
+  ) {
     const { place } = this;
     this.view = new EditorView({ parent: place, state: EditorState.create({}) });
     this.element = h("div", "editor", {}, this.tabs, this.sideTools, place);
@@ -187,8 +205,7 @@ export class Editor {
       this.pending.clear();
       this.shown = null;
     }
-    for (const path of this.texts.keys())
-      if (!document.texts.some((file) => file.path === path)) this.texts.delete(path);
+    for (const path of this.texts.keys()) if (!document.texts.some((file) => file.path === path)) this.texts.delete(path);
     for (const file of document.texts) this.hearText(file);
     if (this.shown === null || !this.texts.has(this.shown)) this.showFirst(document);
     this.drawTabs();
@@ -234,12 +251,26 @@ export class Editor {
   }
 
   private drawTabs(): void {
-    const wrong = new Set(this.studio.problems.filter(({ severity }) => severity === "error").map(({ file }) => this.keyOf(file)));
-    this.tabs.replaceChildren(...[...this.texts.values()].map(({ file }) =>
-      h("button", `tab${wrong.has(file.path) ? " wrong" : ""}`, {
-        role: "tab", type: "button", "aria-selected": String(file.path === this.shown), title: file.path,
-        onclick: () => this.showText(file.path),
-      }, shortName(file.path), file.changed ? h("span", "dot", { title: "Not saved" }, "●") : null)));
+    const wrong = new Set(
+      this.studio.problems.filter(({ severity }) => severity === "error").map(({ file }) => this.keyOf(file)),
+    );
+    this.tabs.replaceChildren(
+      ...[...this.texts.values()].map(({ file }) =>
+        h(
+          "button",
+          `tab${wrong.has(file.path) ? " wrong" : ""}`,
+          {
+            role: "tab",
+            type: "button",
+            "aria-selected": String(file.path === this.shown),
+            title: file.path,
+            onclick: () => this.showText(file.path),
+          },
+          shortName(file.path),
+          file.changed ? h("span", "dot", { title: "Not saved" }, "●") : null,
+        ),
+      ),
+    );
   }
 
   private stateOf(path: string): EditorState | undefined {
@@ -306,11 +337,28 @@ export class Editor {
 
   private extensions(): Extension {
     return [
-      lineNumbers(), highlightActiveLineGutter(), highlightSpecialChars(), history(), drawSelection(), bracketMatching(),
-      closeBrackets(), highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(), markedLines,
-      indentUnit.of("\t"), EditorState.tabSize.of(4), syntaxHighlighting(classHighlighter),
+      lineNumbers(),
+      highlightActiveLineGutter(),
+      highlightSpecialChars(),
+      history(),
+      drawSelection(),
+      bracketMatching(),
+      closeBrackets(),
+      highlightActiveLine(),
+      highlightSelectionMatches(),
+      search({ top: true }),
+      lintGutter(),
+      markedLines,
+      indentUnit.of("\t"),
+      EditorState.tabSize.of(4),
+      syntaxHighlighting(classHighlighter),
       keymap.of([
-        ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, indentWithTab,
+        ...closeBracketsKeymap,
+        ...defaultKeymap,
+        ...searchKeymap,
+        ...historyKeymap,
+        ...completionKeymap,
+        indentWithTab,
       ]),
       EditorView.lineWrapping,
       EditorView.contentAttributes.of({ "aria-label": "Text of the model" }),

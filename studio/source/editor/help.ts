@@ -7,13 +7,28 @@ import type { Help, HelpEntry } from "../protocol.js";
 type Language = "cpfg" | "toml";
 
 function listsOf(help: Help, language: Language): [Completion["type"], HelpEntry[]][] {
-  if (language === "toml") return [["property", help.keys], ["class", help.processes], ["class", help.stages]];
-  return [["keyword", help.keywords ?? []], ["function", help.functions], ["class", help.symbols]];
+  if (language === "toml")
+    return [
+      ["property", help.keys],
+      ["class", help.processes],
+      ["class", help.stages],
+    ];
+  return [
+    ["keyword", help.keywords ?? []],
+    ["function", help.functions],
+    ["class", help.symbols],
+  ];
 }
 
 function describe(entry: HelpEntry): HTMLElement {
-  return h("div", "help-tip", {}, h("strong", "", {}, entry.name), h("p", "", {}, entry.summary),
-    entry.help && entry.help !== entry.summary ? h("pre", "", {}, entry.help) : null);
+  return h(
+    "div",
+    "help-tip",
+    {},
+    h("strong", "", {}, entry.name),
+    h("p", "", {}, entry.summary),
+    entry.help && entry.help !== entry.summary ? h("pre", "", {}, entry.help) : null,
+  );
 }
 
 /** The names that the text itself defines. */
@@ -39,7 +54,11 @@ export function completion(language: Language, help: () => Help | null) {
 }
 
 /** The name at a place: a word, a keyword with its colon, or a sign of the turtle. */
-function entryAt(line: string, at: number, entries: Map<string, HelpEntry>): { entry: HelpEntry; from: number; to: number } | null {
+function entryAt(
+  line: string,
+  at: number,
+  entries: Map<string, HelpEntry>,
+): { entry: HelpEntry; from: number; to: number } | null {
   let best: { entry: HelpEntry; from: number; to: number } | null = null;
   for (const [name, entry] of entries) {
     const from = line.lastIndexOf(name, at);
@@ -54,17 +73,22 @@ function entryAt(line: string, at: number, entries: Map<string, HelpEntry>): { e
 }
 
 export function hoverHelp(language: Language, help: () => Help | null) {
-  return hoverTooltip((view, position): Tooltip | null => {
-    const known = help();
-    if (!known) return null;
-    const entries = new Map<string, HelpEntry>();
-    for (const [, list] of listsOf(known, language)) for (const entry of list) entries.set(entry.name, entry);
-    const line = view.state.doc.lineAt(position);
-    const found = entryAt(line.text, position - line.from, entries);
-    if (!found) return null;
-    return {
-      pos: line.from + found.from, end: line.from + found.to, above: true,
-      create: () => ({ dom: describe(found.entry) }),
-    };
-  }, { hoverTime: 350 });
+  return hoverTooltip(
+    (view, position): Tooltip | null => {
+      const known = help();
+      if (!known) return null;
+      const entries = new Map<string, HelpEntry>();
+      for (const [, list] of listsOf(known, language)) for (const entry of list) entries.set(entry.name, entry);
+      const line = view.state.doc.lineAt(position);
+      const found = entryAt(line.text, position - line.from, entries);
+      if (!found) return null;
+      return {
+        pos: line.from + found.from,
+        end: line.from + found.to,
+        above: true,
+        create: () => ({ dom: describe(found.entry) }),
+      };
+    },
+    { hoverTime: 350 },
+  );
 }

@@ -54,11 +54,16 @@ function readFunction(lines: string[], from: number): PointFile | null {
   const body = { lines, countLine: found.line, first: found.line + 1, count };
   const withTimes = rows.some((row) => row.length > 2);
   return {
-    name: valueOf(lines, from, "name:")?.value || "function", kind: "function", closed: false,
+    name: valueOf(lines, from, "name:")?.value || "function",
+    kind: "function",
+    closed: false,
     points: rows.map(([x, y, times]) => ({ x, y, z: 0, times: times ?? 1 })),
     curve: (points) => clampedSpline(points),
-    write: writer(body, (points) => `points: ${points.length}`, ({ x, y, times }) =>
-      `${decimals(x)} ${decimals(y)}${withTimes || times > 1 ? ` ${times}` : ""}`),
+    write: writer(
+      body,
+      (points) => `points: ${points.length}`,
+      ({ x, y, times }) => `${decimals(x)} ${decimals(y)}${withTimes || times > 1 ? ` ${times}` : ""}`,
+    ),
   };
 }
 
@@ -74,11 +79,16 @@ function readContour(lines: string[]): PointFile | null {
   const closed = type.value.startsWith("c");
   const total = (points: readonly Point[]) => points.reduce((sum, { times }) => sum + times, 0);
   return {
-    name: valueOf(lines, 0, "name:")?.value || "contour", kind: "contour", closed,
+    name: valueOf(lines, 0, "name:")?.value || "contour",
+    kind: "contour",
+    closed,
     points: rows.map(([x, y, z, times]) => ({ x, y, z, times: times ?? 1 })),
     curve: (points) => uniformSpline(points, closed),
-    write: writer({ lines, countLine: found.line, first, count }, (points) => `points: ${points.length} ${total(points)}`,
-      ({ x, y, z, times }) => `${decimals(x)} ${decimals(y)} ${decimals(z)} ${times}`),
+    write: writer(
+      { lines, countLine: found.line, first, count },
+      (points) => `points: ${points.length} ${total(points)}`,
+      ({ x, y, z, times }) => `${decimals(x)} ${decimals(y)} ${decimals(z)} ${times}`,
+    ),
   };
 }
 
@@ -94,11 +104,16 @@ function readCurve(lines: string[]): PointFile | null {
   if (rows.length < count || rows.some((row) => row.length !== dimension || row.some(Number.isNaN))) return null;
   const closed = type.value === "bspline-closed";
   return {
-    name: "curve", kind: "contour", closed,
+    name: "curve",
+    kind: "contour",
+    closed,
     points: rows.map(([x, y, z, times]) => ({ x, y, z: z ?? 0, times: times ?? 1 })),
     curve: (points) => (type.value === "bspline-endpoint" ? clampedSpline(points) : uniformSpline(points, closed)),
-    write: writer({ lines, countLine: found.line, first, count }, (points) => `points: ${points.length}`,
-      ({ x, y, z, times }) => [x, y, z, times].slice(0, dimension).map(decimals).join(" ")),
+    write: writer(
+      { lines, countLine: found.line, first, count },
+      (points) => `points: ${points.length}`,
+      ({ x, y, z, times }) => [x, y, z, times].slice(0, dimension).map(decimals).join(" "),
+    ),
   };
 }
 

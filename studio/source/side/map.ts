@@ -13,8 +13,20 @@ function hexOf(bytes: Uint8Array, index: number): string {
 export class MapEditor implements SideEditor {
   readonly elements: Node[];
   private readonly grid = h("div", "colour-grid", { role: "group", "aria-label": "Colours of the map" });
-  private readonly from = h("input", "number", { type: "number", min: 0, max: colours - 1, value: 0, "aria-label": "First colour of the range" });
-  private readonly to = h("input", "number", { type: "number", min: 0, max: colours - 1, value: 0, "aria-label": "Last colour of the range" });
+  private readonly from = h("input", "number", {
+    type: "number",
+    min: 0,
+    max: colours - 1,
+    value: 0,
+    "aria-label": "First colour of the range",
+  });
+  private readonly to = h("input", "number", {
+    type: "number",
+    min: 0,
+    max: colours - 1,
+    value: 0,
+    "aria-label": "Last colour of the range",
+  });
   private readonly first = h("input", "", { type: "color", "aria-label": "Colour at the beginning of the range" });
   private readonly last = h("input", "", { type: "color", "aria-label": "Colour at the end of the range" });
   private readonly cells: HTMLButtonElement[];
@@ -30,8 +42,16 @@ export class MapEditor implements SideEditor {
       input.addEventListener("input", blend(false));
       input.addEventListener("change", blend(true));
     }
-    this.elements = [this.grid, h("div", "plane-tools", {}, "From ", this.from, this.first, " to ", this.to, this.last),
-      h("p", "hint", {}, "Click a colour to begin a range, and another one with Shift to end it. A new colour at either end blends the range.")];
+    this.elements = [
+      this.grid,
+      h("div", "plane-tools", {}, "From ", this.from, this.first, " to ", this.to, this.last),
+      h(
+        "p",
+        "hint",
+        {},
+        "Click a colour to begin a range, and another one with Shift to end it. A new colour at either end blends the range.",
+      ),
+    ];
     this.refresh();
   }
 
@@ -45,7 +65,10 @@ export class MapEditor implements SideEditor {
 
   private cell(index: number): HTMLButtonElement {
     return h("button", "", {
-      type: "button", "aria-label": `Colour ${index}`, title: String(index), tabindex: index % perRow === 0 ? 0 : -1,
+      type: "button",
+      "aria-label": `Colour ${index}`,
+      title: String(index),
+      tabindex: index % perRow === 0 ? 0 : -1,
       onclick: (event) => this.choose(index, (event as MouseEvent).shiftKey),
       onkeydown: (event) => this.key(event as KeyboardEvent, index),
     });
@@ -79,7 +102,8 @@ export class MapEditor implements SideEditor {
     const last = from === to && document.activeElement === this.last ? this.last : null;
     for (let index = from; index <= to; index++) {
       const part = to > from ? (index - from) / (to - from) : last ? 1 : 0;
-      for (let k = 0; k < 3; k++) this.bytes[3 * index + k] = Math.round(value(this.first, k) * (1 - part) + value(this.last, k) * part);
+      for (let k = 0; k < 3; k++)
+        this.bytes[3 * index + k] = Math.round(value(this.first, k) * (1 - part) + value(this.last, k) * part);
       this.cells[index].style.background = hexOf(this.bytes, index);
     }
     this.text.change(toBase64(this.bytes), lasting);

@@ -6,7 +6,10 @@ import type { Point } from "./spline.js";
 const space = "http://www.w3.org/2000/svg";
 const [width, height, border] = [360, 230, 22];
 
-function svg<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Record<string, string | number>): SVGElementTagNameMap[Tag] {
+function svg<Tag extends keyof SVGElementTagNameMap>(
+  tag: Tag,
+  attributes: Record<string, string | number>,
+): SVGElementTagNameMap[Tag] {
   const element = document.createElementNS(space, tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
   return element;
@@ -29,7 +32,10 @@ function viewOf(file: PointFile): View {
   let perY = (height - 2 * border) / Math.max(top - bottom, 1e-9);
   if (file.kind === "contour") perX = perY = 0.8 * Math.min(perX, perY);
   return {
-    left: (left + right) / 2 - width / 2 / perX, bottom: (bottom + top) / 2 - height / 2 / perY, perX, perY,
+    left: (left + right) / 2 - width / 2 / perX,
+    bottom: (bottom + top) / 2 - height / 2 / perY,
+    perX,
+    perY,
   };
 }
 
@@ -41,18 +47,39 @@ export class PointPlane {
   private view: View;
   private chosen = 0;
 
-  constructor(private file: PointFile, private readonly changed: (text: string, lasting: boolean) => void) {
+  constructor(
+    private file: PointFile,
+    private readonly changed: (text: string, lasting: boolean) => void,
+  ) {
     this.points = file.points.map((point) => ({ ...point }));
     this.view = viewOf(file);
-    const field = (label: string, step: number) => h("input", "number", { type: "number", step, "aria-label": label, title: label });
-    this.fields = { x: field("x of the point", 0.01), y: field("y of the point", 0.01), times: field("How often the point counts: 3 makes a corner", 1) };
+    const field = (label: string, step: number) =>
+      h("input", "number", { type: "number", step, "aria-label": label, title: label });
+    this.fields = {
+      x: field("x of the point", 0.01),
+      y: field("y of the point", 0.01),
+      times: field("How often the point counts: 3 makes a corner", 1),
+    };
     for (const [name, input] of Object.entries(this.fields))
       input.addEventListener("change", () => this.setField(name as "x" | "y" | "times", Number(input.value)));
     const add = h("button", "button small", { type: "button", onclick: () => this.add() }, "Add point");
     const remove = h("button", "button small", { type: "button", onclick: () => this.remove() }, "Remove");
-    this.element = h("div", "plane", {}, this.picture,
-      h("div", "plane-tools", {}, h("label", "", {}, "x ", this.fields.x), h("label", "", {}, "y ", this.fields.y),
-        h("label", "", {}, "× ", this.fields.times), add, remove));
+    this.element = h(
+      "div",
+      "plane",
+      {},
+      this.picture,
+      h(
+        "div",
+        "plane-tools",
+        {},
+        h("label", "", {}, "x ", this.fields.x),
+        h("label", "", {}, "y ", this.fields.y),
+        h("label", "", {}, "× ", this.fields.times),
+        add,
+        remove,
+      ),
+    );
     this.picture.addEventListener("dblclick", (event) => this.addAt(event));
     this.draw();
   }
@@ -77,7 +104,12 @@ export class PointPlane {
   }
 
   private path(places: readonly (readonly number[])[], close: boolean): string {
-    const parts = places.map(([x, y], i) => `${i === 0 ? "M" : "L"}${this.toPicture(x, y).map((v) => v.toFixed(2)).join(" ")}`);
+    const parts = places.map(
+      ([x, y], i) =>
+        `${i === 0 ? "M" : "L"}${this.toPicture(x, y)
+          .map((v) => v.toFixed(2))
+          .join(" ")}`,
+    );
     return parts.join("") + (close ? "Z" : "");
   }
 
@@ -86,7 +118,13 @@ export class PointPlane {
     const [oneX, oneY] = this.toPicture(1, 1);
     const axes = svg("path", { class: "axes", d: `M0 ${zeroY}H${width}M${zeroX} 0V${height}` });
     const unit = svg("path", { class: "unit-box", d: `M${zeroX} ${oneY}H${oneX}V${zeroY}` });
-    const frame = svg("path", { class: "frame", d: this.path(this.points.map(({ x, y }) => [x, y]), this.file.closed) });
+    const frame = svg("path", {
+      class: "frame",
+      d: this.path(
+        this.points.map(({ x, y }) => [x, y]),
+        this.file.closed,
+      ),
+    });
     const curve = svg("path", { class: "curve", d: this.path(this.file.curve(this.points), this.file.closed) });
     this.picture.replaceChildren(axes, unit, frame, curve, ...this.points.map((_, index) => this.handle(index)));
     this.showFields();
@@ -96,8 +134,14 @@ export class PointPlane {
     const { x, y, times } = this.points[index];
     const [cx, cy] = this.toPicture(x, y);
     const circle = svg("circle", {
-      cx, cy, r: times > 1 ? 7 : 5.5, tabindex: 0, role: "slider", "aria-label": `Point ${index + 1}`,
-      "aria-valuetext": `${x.toFixed(3)}, ${y.toFixed(3)}`, class: `point${index === this.chosen ? " chosen" : ""}${times > 1 ? " corner" : ""}`,
+      cx,
+      cy,
+      r: times > 1 ? 7 : 5.5,
+      tabindex: 0,
+      role: "slider",
+      "aria-label": `Point ${index + 1}`,
+      "aria-valuetext": `${x.toFixed(3)}, ${y.toFixed(3)}`,
+      class: `point${index === this.chosen ? " chosen" : ""}${times > 1 ? " corner" : ""}`,
     });
     circle.addEventListener("focus", () => this.choose(index));
     circle.addEventListener("pointerdown", (event) => this.drag(circle, index, event));
@@ -118,22 +162,35 @@ export class PointPlane {
     this.picture.setPointerCapture(event.pointerId);
     const stop = new AbortController();
     const { signal } = stop;
-    this.picture.addEventListener("pointermove", (move) => {
-      const [x, y] = this.fromPicture(move);
-      this.move(index, x, y, false);
-      this.picture.querySelectorAll(".point")[index]?.classList.add("dragged");
-    }, { signal });
-    this.picture.addEventListener("pointerup", () => {
-      stop.abort();
-      this.draw();
-      this.focusPoint(index);
-      this.send(true);
-    }, { signal });
+    this.picture.addEventListener(
+      "pointermove",
+      (move) => {
+        const [x, y] = this.fromPicture(move);
+        this.move(index, x, y, false);
+        this.picture.querySelectorAll(".point")[index]?.classList.add("dragged");
+      },
+      { signal },
+    );
+    this.picture.addEventListener(
+      "pointerup",
+      () => {
+        stop.abort();
+        this.draw();
+        this.focusPoint(index);
+        this.send(true);
+      },
+      { signal },
+    );
   }
 
   private key(event: KeyboardEvent, index: number): void {
     const by = (event.shiftKey ? 10 : 1) / 100;
-    const steps: Record<string, [number, number]> = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] };
+    const steps: Record<string, [number, number]> = {
+      ArrowLeft: [-by, 0],
+      ArrowRight: [by, 0],
+      ArrowUp: [0, by],
+      ArrowDown: [0, -by],
+    };
     if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else if (event.key === "Insert") this.add();
     else if (event.key in steps) {
@@ -175,7 +232,10 @@ export class PointPlane {
   private add(): void {
     const next = this.points[this.chosen + 1] ?? this.points[this.chosen - 1];
     const { x, y, z } = this.points[this.chosen];
-    this.insert({ x: (x + next.x) / 2, y: (y + next.y) / 2, z: (z + next.z) / 2, times: 1 }, this.chosen + (this.points[this.chosen + 1] ? 1 : 0));
+    this.insert(
+      { x: (x + next.x) / 2, y: (y + next.y) / 2, z: (z + next.z) / 2, times: 1 },
+      this.chosen + (this.points[this.chosen + 1] ? 1 : 0),
+    );
   }
 
   private addAt(event: MouseEvent): void {

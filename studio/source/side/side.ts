@@ -28,7 +28,12 @@ function planeEditor(text: SideText): SideEditor {
   const make = () => new PointPlane(files[at], text.change);
   let plane = make();
   const holder = h("div", "", {}, plane.element);
-  const choice = h("select", "", { "aria-label": "Function" }, ...files.map(({ name }, index) => h("option", "", { value: index }, name)));
+  const choice = h(
+    "select",
+    "",
+    { "aria-label": "Function" },
+    ...files.map(({ name }, index) => h("option", "", { value: index }, name)),
+  );
   choice.addEventListener("change", () => {
     at = choice.selectedIndex;
     plane = make();

@@ -28,7 +28,9 @@ export function uniformSpline(points: readonly Point[], closed: boolean, perSegm
     const four = [0, 1, 2, 3].map((k) => all[(i + k) % all.length]);
     for (let j = 0; j <= perSegment; j++) {
       const u = j / perSegment;
-      curve.push(mixed(four, [(1 - u) ** 3 / 6, (3 * u ** 3 - 6 * u * u + 4) / 6, (-3 * u ** 3 + 3 * u * u + 3 * u + 1) / 6, u ** 3 / 6]));
+      curve.push(
+        mixed(four, [(1 - u) ** 3 / 6, (3 * u ** 3 - 6 * u * u + 4) / 6, (-3 * u ** 3 + 3 * u * u + 3 * u + 1) / 6, u ** 3 / 6]),
+      );
     }
   }
   return curve;

@@ -21,7 +21,8 @@ function patchesOf(text: string): Patch[] {
     const values = match[1].trim().split(/\s+/).map(Number);
     const from = match.index + match[0].length - match[1].length;
     const before = text.slice(0, match.index);
-    const name = /(\S+)\s+TOP COLOR:[^]*$/.exec(before.slice(before.lastIndexOf("TOP COLOR:") - 80))?.[1] ?? `patch ${patches.length + 1}`;
+    const name =
+      /(\S+)\s+TOP COLOR:[^]*$/.exec(before.slice(before.lastIndexOf("TOP COLOR:") - 80))?.[1] ?? `patch ${patches.length + 1}`;
     const points = Array.from({ length: 16 }, (_, i): Triple => [values[3 * i], values[3 * i + 1], values[3 * i + 2]]);
     patches.push({ name, from, to: from + match[1].length, points });
   }
@@ -29,7 +30,12 @@ function patchesOf(text: string): Patch[] {
 }
 
 function written(points: readonly Triple[]): string {
-  const rows = [0, 4, 8, 12].map((row) => points.slice(row, row + 4).map((point) => point.map((value) => value.toFixed(4)).join(" ")).join("  "));
+  const rows = [0, 4, 8, 12].map((row) =>
+    points
+      .slice(row, row + 4)
+      .map((point) => point.map((value) => value.toFixed(4)).join(" "))
+      .join("  "),
+  );
   return rows.join("\n");
 }
 
@@ -64,15 +70,34 @@ export class SurfaceEditor implements SideEditor {
     this.picture.setAttribute("viewBox", `0 0 ${size} ${size * 0.75}`);
     this.picture.classList.add("point-plane", "surface");
     this.picture.addEventListener("pointerdown", (event) => this.turn(event));
-    const look = (name: string, azimuth: number, elevation: number) => h("button", "button small", {
-      type: "button",
-      onclick: () => {
-        [this.azimuth, this.elevation] = [azimuth, elevation];
-        this.draw();
-      },
-    }, name);
-    this.elements = this.patches.length === 0 ? [] : [this.picture as unknown as Node, h("div", "plane-tools", {},
-      look("Front", 0, 0), look("Side", Math.PI / 2, 0), look("Top", 0, Math.PI / 2), look("Oblique", 0.5, 0.4))];
+    const look = (name: string, azimuth: number, elevation: number) =>
+      h(
+        "button",
+        "button small",
+        {
+          type: "button",
+          onclick: () => {
+            [this.azimuth, this.elevation] = [azimuth, elevation];
+            this.draw();
+          },
+        },
+        name,
+      );
+    this.elements =
+      this.patches.length === 0
+        ? []
+        : [
+            this.picture as unknown as Node,
+            h(
+              "div",
+              "plane-tools",
+              {},
+              look("Front", 0, 0),
+              look("Side", Math.PI / 2, 0),
+              look("Top", 0, Math.PI / 2),
+              look("Oblique", 0.5, 0.4),
+            ),
+          ];
     this.frame();
     this.draw();
   }
@@ -97,7 +122,10 @@ export class SurfaceEditor implements SideEditor {
   /** The axes of the picture in space: right and up. */
   private axes(): [Triple, Triple] {
     const [ca, sa, ce, se] = [Math.cos(this.azimuth), Math.sin(this.azimuth), Math.cos(this.elevation), Math.sin(this.elevation)];
-    return [[ca, 0, -sa], [-sa * se, ce, -ca * se]];
+    return [
+      [ca, 0, -sa],
+      [-sa * se, ce, -ca * se],
+    ];
   }
 
   private project(point: Triple): [number, number] {
@@ -111,7 +139,10 @@ export class SurfaceEditor implements SideEditor {
     const parts: SVGElement[] = [];
     for (const patch of this.patches) {
       for (let i = 0; i <= 6; i++) {
-        parts.push(this.line((t) => surfaceAt(patch.points, i / 6, t)), this.line((t) => surfaceAt(patch.points, t, i / 6)));
+        parts.push(
+          this.line((t) => surfaceAt(patch.points, i / 6, t)),
+          this.line((t) => surfaceAt(patch.points, t, i / 6)),
+        );
       }
     }
     this.patches.forEach((patch, which) => patch.points.forEach((_, index) => parts.push(this.handle(which, index))));
@@ -120,7 +151,11 @@ export class SurfaceEditor implements SideEditor {
 
   private line(at: (t: number) => Triple): SVGElement {
     const path = document.createElementNS(space, "path");
-    const places = Array.from({ length: 13 }, (_, j) => this.project(at(j / 12)).map((v) => v.toFixed(1)).join(" "));
+    const places = Array.from({ length: 13 }, (_, j) =>
+      this.project(at(j / 12))
+        .map((v) => v.toFixed(1))
+        .join(" "),
+    );
     path.setAttribute("d", `M${places.join("L")}`);
     path.classList.add("curve", "thin");
     return path;
@@ -131,7 +166,13 @@ export class SurfaceEditor implements SideEditor {
     const point = this.patches[which].points[index];
     const [x, y] = this.project(point);
     const facts = {
-      cx: x, cy: y, r: 4.5, tabindex: 0, role: "slider", class: "point", "data-at": `${which}-${index}`,
+      cx: x,
+      cy: y,
+      r: 4.5,
+      tabindex: 0,
+      role: "slider",
+      class: "point",
+      "data-at": `${which}-${index}`,
       "aria-label": `Point ${Math.floor(index / 4) + 1}, ${(index % 4) + 1} of ${this.patches[which].name}`,
       "aria-valuetext": point.map((value) => value.toFixed(2)).join(", "),
     };
@@ -150,7 +191,12 @@ export class SurfaceEditor implements SideEditor {
 
   private key(event: KeyboardEvent, which: number, index: number): void {
     const by = event.shiftKey ? 10 : 2;
-    const steps: Record<string, [number, number]> = { ArrowLeft: [-by, 0], ArrowRight: [by, 0], ArrowUp: [0, -by], ArrowDown: [0, by] };
+    const steps: Record<string, [number, number]> = {
+      ArrowLeft: [-by, 0],
+      ArrowRight: [by, 0],
+      ArrowUp: [0, -by],
+      ArrowDown: [0, by],
+    };
     const step = steps[event.key];
     if (!step) return;
     event.preventDefault();
@@ -163,21 +209,29 @@ export class SurfaceEditor implements SideEditor {
     event.stopPropagation();
     event.preventDefault();
     this.dragging = true;
-    this.follow(event, (dx, dy) => {
-      this.move(which, index, dx, dy);
-      this.send(false);
-    }, () => {
-      this.dragging = false;
-      this.send(true);
-    });
+    this.follow(
+      event,
+      (dx, dy) => {
+        this.move(which, index, dx, dy);
+        this.send(false);
+      },
+      () => {
+        this.dragging = false;
+        this.send(true);
+      },
+    );
   }
 
   private turn(event: PointerEvent): void {
-    this.follow(event, (dx, dy) => {
-      this.azimuth -= dx * 0.012;
-      this.elevation = Math.max(-1.57, Math.min(1.57, this.elevation + dy * 0.012));
-      this.draw();
-    }, () => undefined);
+    this.follow(
+      event,
+      (dx, dy) => {
+        this.azimuth -= dx * 0.012;
+        this.elevation = Math.max(-1.57, Math.min(1.57, this.elevation + dy * 0.012));
+        this.draw();
+      },
+      () => undefined,
+    );
   }
 
   private follow(event: PointerEvent, moved: (dx: number, dy: number) => void, ended: () => void): void {
@@ -185,14 +239,22 @@ export class SurfaceEditor implements SideEditor {
     const perPixel = size / this.picture.getBoundingClientRect().width;
     let [x, y] = [event.clientX, event.clientY];
     const stop = new AbortController();
-    this.picture.addEventListener("pointermove", (move) => {
-      moved((move.clientX - x) * perPixel, (move.clientY - y) * perPixel);
-      [x, y] = [move.clientX, move.clientY];
-    }, { signal: stop.signal });
-    this.picture.addEventListener("pointerup", () => {
-      stop.abort();
-      ended();
-    }, { signal: stop.signal });
+    this.picture.addEventListener(
+      "pointermove",
+      (move) => {
+        moved((move.clientX - x) * perPixel, (move.clientY - y) * perPixel);
+        [x, y] = [move.clientX, move.clientY];
+      },
+      { signal: stop.signal },
+    );
+    this.picture.addEventListener(
+      "pointerup",
+      () => {
+        stop.abort();
+        ended();
+      },
+      { signal: stop.signal },
+    );
   }
 
   /** Writes the points of all patches into the text, from the last to the first so that places stay right. */

@@ -35,7 +35,11 @@ export class Backdrop {
     const geometry = new BufferGeometry();
     geometry.setDrawRange(0, 3);
     const material = new RawShaderMaterial({
-      glslVersion: GLSL3, vertexShader: vertex, fragmentShader: fragment, depthWrite: false, depthTest: false,
+      glslVersion: GLSL3,
+      vertexShader: vertex,
+      fragmentShader: fragment,
+      depthWrite: false,
+      depthTest: false,
       uniforms: { top: { value: this.top }, horizon: { value: this.horizon } },
     });
     this.mesh = new Mesh(geometry, material);

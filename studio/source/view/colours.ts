@@ -43,11 +43,25 @@ export interface Theme {
 
 export const themes: Record<Theme["name"], Theme> = {
   light: {
-    name: "light", background: 0xe9eff2, horizon: 0xf8faf9, ground: 0xdfe3da, sky: 0xc3d3df, soil: 0x8a8475, sun: 0xfff4e0,
-    mark: 0xe8590c, kin: 0xf5b041,
+    name: "light",
+    background: 0xe9eff2,
+    horizon: 0xf8faf9,
+    ground: 0xdfe3da,
+    sky: 0xc3d3df,
+    soil: 0x8a8475,
+    sun: 0xfff4e0,
+    mark: 0xe8590c,
+    kin: 0xf5b041,
   },
   dark: {
-    name: "dark", background: 0x14191c, horizon: 0x232b2f, ground: 0x23292a, sky: 0x8fa6b5, soil: 0x4a463f, sun: 0xfff0d8,
-    mark: 0xff8c42, kin: 0xffd27a,
+    name: "dark",
+    background: 0x14191c,
+    horizon: 0x232b2f,
+    ground: 0x23292a,
+    sky: 0x8fa6b5,
+    soil: 0x4a463f,
+    sun: 0xfff0d8,
+    mark: 0xff8c42,
+    kin: 0xffd27a,
   },
 };

@@ -1,6 +1,16 @@
 /** A field of numbers in space: as a slice, or as a cloud of points whose opacity is the value. */
 import {
-  BufferGeometry, Data3DTexture, DoubleSide, GLSL3, LinearFilter, Mesh, Points, RawShaderMaterial, RedFormat, Vector3, type Scene,
+  BufferGeometry,
+  Data3DTexture,
+  DoubleSide,
+  GLSL3,
+  LinearFilter,
+  Mesh,
+  Points,
+  RawShaderMaterial,
+  RedFormat,
+  Vector3,
+  type Scene,
 } from "three";
 import type { Field } from "./packets.js";
 import type { Uniforms } from "./shading.js";
@@ -123,8 +133,13 @@ export class FieldView {
 
   private material(vertexShader: string, fragmentShader: string): RawShaderMaterial {
     return new RawShaderMaterial({
-      glslVersion: GLSL3, uniforms: this.uniforms, vertexShader: head + vertexShader, fragmentShader: head + fragmentShader,
-      transparent: true, depthWrite: false, side: DoubleSide,
+      glslVersion: GLSL3,
+      uniforms: this.uniforms,
+      vertexShader: head + vertexShader,
+      fragmentShader: head + fragmentShader,
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
     });
   }
 }

@@ -1,7 +1,21 @@
 /** The ground: a plane that fades into the background, with the shadow of the plant and a grid that tells its scale. */
 import {
-  Color, CustomBlending, DoubleSide, GLSL3, Mesh, NoBlending, OneFactor, OneMinusSrcAlphaFactor, PlaneGeometry, RawShaderMaterial, Scene, Vector3, WebGLRenderTarget,
-  type Camera, type ShaderMaterialParameters, type WebGLRenderer,
+  Color,
+  CustomBlending,
+  DoubleSide,
+  GLSL3,
+  Mesh,
+  NoBlending,
+  OneFactor,
+  OneMinusSrcAlphaFactor,
+  PlaneGeometry,
+  RawShaderMaterial,
+  Scene,
+  Vector3,
+  WebGLRenderTarget,
+  type Camera,
+  type ShaderMaterialParameters,
+  type WebGLRenderer,
 } from "three";
 import type { Theme } from "./colours.js";
 import type { Uniforms } from "./shading.js";
@@ -88,7 +102,9 @@ export class Ground {
 
   constructor(shared: Uniforms) {
     this.uniforms = {
-      shadowMap: shared.shadowMap, shadowMatrix: shared.shadowMatrix, shadowed: shared.shadowed,
+      shadowMap: shared.shadowMap,
+      shadowMatrix: shared.shadowMatrix,
+      shadowed: shared.shadowed,
       shade: { value: null },
       colour: { value: new Color() },
       centre: { value: new Vector3() },
@@ -97,7 +113,9 @@ export class Ground {
     };
     this.shadeScene.add(this.plane(1, shadeFragment, { blending: NoBlending, depthTest: false }));
     this.mesh = this.plane(1, fragment, {
-      blending: CustomBlending, blendSrcAlpha: OneFactor, blendDstAlpha: OneMinusSrcAlphaFactor,
+      blending: CustomBlending,
+      blendSrcAlpha: OneFactor,
+      blendDstAlpha: OneMinusSrcAlphaFactor,
     });
     this.mesh.renderOrder = -1;
     this.veil = this.plane(0.3, fragment, { transparent: true });
@@ -117,8 +135,13 @@ export class Ground {
 
   private plane(opacity: number, fragmentShader: string, how: Partial<ShaderMaterialParameters>): Mesh {
     const material = new RawShaderMaterial({
-      glslVersion: GLSL3, uniforms: { ...this.uniforms, opacity: { value: opacity } }, vertexShader: vertex, fragmentShader,
-      depthWrite: false, side: DoubleSide, ...how,
+      glslVersion: GLSL3,
+      uniforms: { ...this.uniforms, opacity: { value: opacity } },
+      vertexShader: vertex,
+      fragmentShader,
+      depthWrite: false,
+      side: DoubleSide,
+      ...how,
     });
     const mesh = new Mesh(new PlaneGeometry(2, 2), material);
     mesh.frustumCulled = false;

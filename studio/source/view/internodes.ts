@@ -3,7 +3,17 @@
  * than a line of the picture is drawn with four vertices that face the eye, and the fragment shader shades it as a tapered
  * cylinder with round ends. The rest is drawn as lines: on a processor, a triangle costs far more than a line.
  */
-import { Box3, BufferAttribute, BufferGeometry, DataTexture, LineSegments, Mesh, RGIntegerFormat, UnsignedIntType, Vector3 } from "three";
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  DataTexture,
+  LineSegments,
+  Mesh,
+  RGIntegerFormat,
+  UnsignedIntType,
+  Vector3,
+} from "three";
 import type { Packet } from "./packets.js";
 import { plantMaterial, type Uniforms } from "./shading.js";
 
@@ -191,8 +201,14 @@ export class Internodes {
       thickest: { value: 0 },
     };
     const { uniforms } = this;
-    this.thick = new Mesh(new BufferGeometry(), plantMaterial({ uniforms, vertex: records + thickVertex, fragment: thickFragment }));
-    this.thin = new LineSegments(new BufferGeometry(), plantMaterial({ uniforms, vertex: records + thinVertex, fragment: thinFragment }));
+    this.thick = new Mesh(
+      new BufferGeometry(),
+      plantMaterial({ uniforms, vertex: records + thickVertex, fragment: thickFragment }),
+    );
+    this.thin = new LineSegments(
+      new BufferGeometry(),
+      plantMaterial({ uniforms, vertex: records + thinVertex, fragment: thinFragment }),
+    );
     unbounded(this.thick);
     unbounded(this.thin);
   }
@@ -205,7 +221,9 @@ export class Internodes {
     texture.needsUpdate = true;
     (this.uniforms.lower.value as Vector3).set(...packet.lower);
     (this.uniforms.size.value as Vector3).set(
-      packet.upper[0] - packet.lower[0], packet.upper[1] - packet.lower[1], packet.upper[2] - packet.lower[2],
+      packet.upper[0] - packet.lower[0],
+      packet.upper[1] - packet.lower[1],
+      packet.upper[2] - packet.lower[2],
     );
     this.uniforms.thickest.value = packet.radius;
   }

@@ -77,7 +77,10 @@ export type BinaryMessage = Packet | Shapes | Column | Field;
 
 class Reader {
   private readonly view: DataView;
-  constructor(private readonly buffer: ArrayBuffer, private at: number) {
+  constructor(
+    private readonly buffer: ArrayBuffer,
+    private at: number,
+  ) {
     this.view = new DataView(buffer);
   }
   u32(): number {
@@ -147,8 +150,23 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
   const groups: ShapeGroup[] = [];
   for (let i = 0; i < groupCount; i++) groups.push(readGroup(reader));
   return {
-    kind: "packet", growth, step, bytes: message.byteLength, message, plants, lower, upper, radius, internodeCount, internodes,
-    positions, normals, colours, modules, indices, groups,
+    kind: "packet",
+    growth,
+    step,
+    bytes: message.byteLength,
+    message,
+    plants,
+    lower,
+    upper,
+    radius,
+    internodeCount,
+    internodes,
+    positions,
+    normals,
+    colours,
+    modules,
+    indices,
+    groups,
   };
 }
 
@@ -156,7 +174,8 @@ function readGroup(reader: Reader): ShapeGroup {
   const shape = reader.u32();
   const count = reader.u32();
   return {
-    shape, count,
+    shape,
+    count,
     matrices: reader.floats(count * 12),
     colours: reader.bytes(count * 4),
     modules: reader.numbers(count),

@@ -44,7 +44,9 @@ class Player {
   }
 
   async start(): Promise<void> {
-    this.scene.setImages(this.recording.images.map((text) => Promise.resolve(new Blob([fromBase64(text) as Uint8Array<ArrayBuffer>]))));
+    this.scene.setImages(
+      this.recording.images.map((text) => Promise.resolve(new Blob([fromBase64(text) as Uint8Array<ArrayBuffer>]))),
+    );
     for (const text of this.recording.shapes) {
       const message = readMessage(await unpack(text));
       if (message.kind === "shapes") this.scene.learn(message.shapes);

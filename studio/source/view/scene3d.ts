@@ -1,7 +1,15 @@
 /** The picture of a plant: what is drawn, from where, in which colours. It draws only when something has changed. */
 import {
-  Matrix4, OrthographicCamera, Scene, Vector2, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget,
-  type Camera, type DataTexture,
+  Matrix4,
+  OrthographicCamera,
+  Scene,
+  Vector2,
+  Vector3,
+  Vector4,
+  WebGLRenderer,
+  WebGLRenderTarget,
+  type Camera,
+  type DataTexture,
 } from "three";
 import { Backdrop } from "./backdrop.js";
 import { OrbitCamera } from "./camera.js";
@@ -28,6 +36,18 @@ function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
+interface Box {
+  lower: Vector;
+  upper: Vector;
+}
+
+/** The smallest box around two. */
+function around(a: Box, b: Box): Box {
+  const least = (k: 0 | 1 | 2) => Math.min(a.lower[k], b.lower[k]);
+  const most = (k: 0 | 1 | 2) => Math.max(a.upper[k], b.upper[k]);
+  return { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
+}
+
 export class PlantScene {
   readonly orbit: OrbitCamera;
   /** Called after a frame was drawn. */
@@ -45,12 +65,12 @@ export class PlantScene {
   private readonly shadowTarget = new WebGLRenderTarget(shadowSize, shadowSize, { depthTexture: shadowDepth(shadowSize) });
   private readonly pickTarget = new WebGLRenderTarget(2 * pickReach + 1, 2 * pickReach + 1);
   private readonly software = drawsInSoftware();
-  private bounds: { lower: Vector; upper: Vector } | null = null;
+  private bounds: Box | null = null;
   private shadowStale = true;
   private requested = false;
   private restTimer = 0;
   private steady = false;
-  private frame: { lower: Vector; upper: Vector } | null = null;
+  private frame: Box | null = null;
   private framedGrowth: number | null = null;
   private width = 1;
   private height = 1;
@@ -68,7 +88,14 @@ export class PlantScene {
     this.shapes = new Shapes(this.uniforms, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
     this.scene.matrixWorldAutoUpdate = false;
-    this.scene.add(this.backdrop.mesh, this.ground.mesh, this.ground.veil, this.internodes.thick, this.internodes.thin, this.triangles.mesh);
+    this.scene.add(
+      this.backdrop.mesh,
+      this.ground.mesh,
+      this.ground.veil,
+      this.internodes.thick,
+      this.internodes.thin,
+      this.triangles.mesh,
+    );
     this.theme = themes.light;
   }
 
@@ -143,7 +170,12 @@ export class PlantScene {
   mark(module: number | null, siblings: readonly number[] = []): void {
     this.uniforms.marked.value = module !== null;
     if (module !== null) {
-      const highest = Math.max(module, ...siblings.slice(-1), siblings.reduce((a, b) => Math.max(a, b), 0), this.highestModule());
+      const highest = Math.max(
+        module,
+        ...siblings.slice(-1),
+        siblings.reduce((a, b) => Math.max(a, b), 0),
+        this.highestModule(),
+      );
       const marks = new Uint8Array(highest + 1);
       for (const sibling of siblings) marks[sibling] = 2;
       marks[module] = 1;
@@ -274,15 +306,11 @@ export class PlantScene {
     if (!this.bounds) return;
     this.framedGrowth ??= packet.growth;
     if (this.framedGrowth !== packet.growth) return;
-    const { lower, upper } = this.bounds;
-    const outside = !this.frame || lower.some((value, k) => value < this.frame!.lower[k]) || upper.some((value, k) => value > this.frame!.upper[k]);
-    if (!outside) return;
-    const least = (k: number) => Math.min(lower[k], this.frame?.lower[k] ?? Infinity);
-    const most = (k: number) => Math.max(upper[k], this.frame?.upper[k] ?? -Infinity);
-    const first = this.frame === null;
-    this.frame = { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
-    if (first) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat());
-    else this.orbit.fit(this.frame.lower, this.frame.upper);
+    const before = this.frame;
+    this.frame = before ? around(before, this.bounds) : this.bounds;
+    if (!before) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat());
+    else if (String([this.frame.lower, this.frame.upper]) !== String([before.lower, before.upper]))
+      this.orbit.fit(this.frame.lower, this.frame.upper);
   }
 
   private highestModule(): number {
@@ -311,7 +339,10 @@ export class PlantScene {
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
     const toTexture = new Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
-    (this.uniforms.shadowMatrix.value as Matrix4).copy(toTexture).multiply(camera.projectionMatrix).multiply(camera.matrixWorldInverse);
+    (this.uniforms.shadowMatrix.value as Matrix4)
+      .copy(toTexture)
+      .multiply(camera.projectionMatrix)
+      .multiply(camera.matrixWorldInverse);
     this.uniforms.shadowBias.value = (radius * 0.012) / camera.far;
   }
 

@@ -1,13 +1,35 @@
 /** What all plant materials share: light, shadow, colour by module, marks, and the pass that writes identities. */
 import {
-  Color, DataTexture, DepthTexture, FloatType, GLSL3, LinearFilter, Matrix4, NearestFilter, NoBlending, RawShaderMaterial,
-  RedFormat, RedIntegerFormat, RGBAFormat, UnsignedByteType, UnsignedIntType, Vector2, Vector3, Vector4, DoubleSide,
-  type IUniform, type Texture,
+  Color,
+  DataTexture,
+  DepthTexture,
+  FloatType,
+  GLSL3,
+  LinearFilter,
+  Matrix4,
+  NearestFilter,
+  NoBlending,
+  RawShaderMaterial,
+  RedFormat,
+  RedIntegerFormat,
+  RGBAFormat,
+  UnsignedByteType,
+  UnsignedIntType,
+  Vector2,
+  Vector3,
+  Vector4,
+  DoubleSide,
+  type IUniform,
+  type Texture,
 } from "three";
 import { mapTexture, type Theme } from "./colours.js";
 
 /** What a pass draws. */
-export const enum Pass { picture = 0, identity = 1, shadow = 2 }
+export const enum Pass {
+  picture = 0,
+  identity = 1,
+  shadow = 2,
+}
 
 const tableWidth = 2048;
 
@@ -16,8 +38,11 @@ function table<T extends Float32Array | Uint8Array>(values: T, make: (length: nu
   const padded = make(rows * tableWidth);
   padded.set(values);
   const texture = new DataTexture(
-    padded as Float32Array<ArrayBuffer> | Uint8Array<ArrayBuffer>, tableWidth, rows,
-    byte ? RedIntegerFormat : RedFormat, byte ? UnsignedByteType : FloatType,
+    padded as Float32Array<ArrayBuffer> | Uint8Array<ArrayBuffer>,
+    tableWidth,
+    rows,
+    byte ? RedIntegerFormat : RedFormat,
+    byte ? UnsignedByteType : FloatType,
   );
   if (byte) texture.internalFormat = "R8UI";
   texture.unpackAlignment = 1;

@@ -1,7 +1,17 @@
 /** Shapes that occur many times, such as leaves: each group is one call that reads the shape and its places from textures. */
 import {
-  BufferGeometry, DataTexture, FloatType, LinearMipmapLinearFilter, Mesh, RepeatWrapping, RGBAFormat, RGIntegerFormat, Texture,
-  UnsignedIntType, type IUniform, type Scene,
+  BufferGeometry,
+  DataTexture,
+  FloatType,
+  LinearMipmapLinearFilter,
+  Mesh,
+  RepeatWrapping,
+  RGBAFormat,
+  RGIntegerFormat,
+  Texture,
+  UnsignedIntType,
+  type IUniform,
+  type Scene,
 } from "three";
 import type { Packet, Shape, ShapeGroup } from "./packets.js";
 import { plantMaterial, surfaceFragment, type Uniforms } from "./shading.js";
@@ -113,7 +123,11 @@ function disc(inner: number): Shape {
 
 function shapeOf(shape: number, positions: number[], normals: number[], indices: number[]): Shape {
   return {
-    shape, image: 0, positions: new Float32Array(positions), normals: new Float32Array(normals), texture: new Float32Array(0),
+    shape,
+    image: 0,
+    positions: new Float32Array(positions),
+    normals: new Float32Array(normals),
+    texture: new Float32Array(0),
     indices: new Uint32Array(indices),
   };
 }
@@ -134,7 +148,12 @@ function sphere(): Shape {
     }
   }
   // The first ring is a point: its triangles are those of the second half of each square.
-  return shapeOf(1, normals.map((value) => value / 2), normals, indices);
+  return shapeOf(
+    1,
+    normals.map((value) => value / 2),
+    normals,
+    indices,
+  );
 }
 
 class GroupMesh {
@@ -181,7 +200,10 @@ export class Shapes {
   private readonly white = whiteTexture();
   private groups: GroupMesh[] = [];
 
-  constructor(private readonly shared: Uniforms, private readonly scene: Scene) {
+  constructor(
+    private readonly shared: Uniforms,
+    private readonly scene: Scene,
+  ) {
     for (const shape of [disc(0), sphere(), disc(0.47)]) this.known.set(shape.shape, cornersOf(shape));
   }
 
@@ -192,10 +214,13 @@ export class Shapes {
     for (const { value } of this.images) if (value !== this.white) value.dispose();
     this.images = blobs.map((blob) => {
       const uniform: IUniform<Texture> = { value: this.white };
-      blob.then(imageTexture).then((texture) => {
-        uniform.value = texture;
-        changed();
-      }, () => undefined);
+      blob.then(imageTexture).then(
+        (texture) => {
+          uniform.value = texture;
+          changed();
+        },
+        () => undefined,
+      );
       return uniform;
     });
   }

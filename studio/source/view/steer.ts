@@ -13,7 +13,10 @@ class Pointers {
   private readonly down = new Map<number, { x: number; y: number }>();
   private travelled = 0;
 
-  constructor(private readonly scene: PlantScene, private readonly steering: Steering) {}
+  constructor(
+    private readonly scene: PlantScene,
+    private readonly steering: Steering,
+  ) {}
 
   press(event: PointerEvent): void {
     this.scene.canvas.setPointerCapture(event.pointerId);
@@ -85,11 +88,15 @@ export function steer(scene: PlantScene, steering: Steering = {}): void {
   canvas.addEventListener("pointercancel", (event) => pointers.release(event));
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("dblclick", () => scene.fit());
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    scene.keepView();
-    scene.orbit.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) * 0.003));
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      scene.keepView();
+      scene.orbit.zoom(Math.exp(Math.max(-60, Math.min(60, event.deltaY)) * 0.003));
+    },
+    { passive: false },
+  );
   const actions = keyActions(scene);
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

@@ -29,7 +29,10 @@ export class Triangles {
   readonly mesh: Mesh;
 
   constructor(shared: Uniforms) {
-    this.mesh = new Mesh(new BufferGeometry(), plantMaterial({ uniforms: { ...shared }, vertex, fragment: surfaceFragment("", "vec4(1.0)") }));
+    this.mesh = new Mesh(
+      new BufferGeometry(),
+      plantMaterial({ uniforms: { ...shared }, vertex, fragment: surfaceFragment("", "vec4(1.0)") }),
+    );
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
   }
