@@ -170,12 +170,7 @@ export class PlantScene {
   mark(module: number | null, siblings: readonly number[] = []): void {
     this.uniforms.marked.value = module !== null;
     if (module !== null) {
-      const highest = Math.max(
-        module,
-        ...siblings.slice(-1),
-        siblings.reduce((a, b) => Math.max(a, b), 0),
-        this.highestModule(),
-      );
+      const highest = siblings.reduce((most, sibling) => Math.max(most, sibling), Math.max(module, this.highestModule()));
       const marks = new Uint8Array(highest + 1);
       for (const sibling of siblings) marks[sibling] = 2;
       marks[module] = 1;
