@@ -65,12 +65,7 @@ export class Frames {
       this.newest = Math.max(this.newest, packet.step);
       this.keep(packet);
     }
-    const isWanted =
-      this.wanted === "last"
-        ? packet.growth > (this.shown?.growth ?? -1) || packet.step >= this.shownStep()
-        : packet.step === this.wanted;
-    const first = packet.growth !== this.shown?.growth && !this.isOnlyFetched(packet.step);
-    if (isWanted || first) this.show(packet);
+    if (this.isAskedFor(packet)) this.show(packet);
     this.pump();
   }
 
@@ -101,12 +96,11 @@ export class Frames {
     throw new Error(`Step ${step} did not arrive.`);
   }
 
-  private shownStep(): number {
-    return this.shown && this.shown.growth === this.growth ? this.shown.step : -1;
-  }
-
-  private isOnlyFetched(step: number): boolean {
-    return this.wanted !== "last" && step !== this.wanted && this.lastStep >= this.wanted;
+  private isAskedFor(packet: Packet): boolean {
+    const isNew = packet.growth !== this.shown?.growth;
+    if (this.wanted === "last") return isNew || packet.step >= (this.shown?.step ?? 0);
+    // A growth that ends before the step one looks at shows its end.
+    return packet.step === this.wanted || (isNew && this.lastStep < this.wanted);
   }
 
   private show(packet: Packet): void {

@@ -266,6 +266,25 @@ test("points of a function are dragged, and the text follows", async () => {
   await shot(page, "function");
 });
 
+test("a graph of components is drawn, and the form of a component changes the plant", async () => {
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  await page.locator(".gallery .search").fill("bush.pgraph");
+  await page.locator('.card[title$="/bush.pgraph"]').click();
+  await page.waitForFunction(() => document.title.startsWith("bush.pgraph"));
+  await grown();
+  const before = await picture();
+  await page.getByRole("tab", { name: "Graph" }).click();
+  await page.getByRole("button", { name: "fork, Phiball" }).click();
+  await page.waitForSelector(".marked-line");
+  await page.locator("#graph-count").fill("2");
+  await page.locator("#graph-count").press("Enter");
+  await page.waitForFunction(() => /count 2/.test(document.querySelector(".cm-content").textContent));
+  await grown();
+  assert.notDeepEqual(await picture(), before);
+  await shot(page, "graph");
+  await page.getByRole("tab", { name: "Settings" }).click();
+});
+
 test("every control has a name, and the keys reach the picture", async () => {
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll("button, input, select, textarea, canvas[tabindex]")]
