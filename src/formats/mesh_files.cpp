@@ -47,6 +47,7 @@ std::string hint_of_triangles(const ExportJob& job, std::size_t triangles) {
 
 void refuse_triangles_and_split(const ExportJob& job, const std::string& why) {
     if (job.options.triangles) throw UserError(fmt::format("--triangles {}: {}", *job.options.triangles, why));
+    if (job.options.distance > 0) throw UserError(fmt::format("--distance {}: {}", job.options.distance, why));
     if (job.most_vertices > 0) throw UserError(fmt::format("--split {}: {}", job.most_vertices, why));
 }
 

@@ -27,6 +27,17 @@ std::size_t count_of_group(const ObjFile& mesh, const std::string& kind) {
     }));
 }
 
+double area_of_cards(const ObjFile& mesh) {
+    double area = 0;
+    for (const ObjFile::Face& face : mesh.faces) {
+        if (face.group.find("polygon") == std::string::npos) continue;
+        const glm::dvec3 a = mesh.points[face.points[0]], b = mesh.points[face.points[1]],
+                         c = mesh.points[face.points[2]];
+        area += glm::length(glm::cross(b - a, c - a)) / 2;
+    }
+    return area;
+}
+
 }  // namespace
 
 TEST_CASE("a tree is exported with the number of triangles asked for, to a tenth", "[export][reduction]") {
@@ -81,16 +92,6 @@ TEST_CASE("reduced meshes keep normals, texture coordinates, colours and groups"
 
 TEST_CASE("cards go as wholes, and those that stay cover as much", "[export][reduction]") {
     const SmallTree tree;
-    const auto area_of_cards = [](const ObjFile& mesh) {
-        double area = 0;
-        for (const ObjFile::Face& face : mesh.faces) {
-            if (face.group.find("polygon") == std::string::npos) continue;
-            const glm::dvec3 a = mesh.points[face.points[0]], b = mesh.points[face.points[1]],
-                             c = mesh.points[face.points[2]];
-            area += glm::length(glm::cross(b - a, c - a)) / 2;
-        }
-        return area;
-    };
     const ObjFile before(ExportedPlant(tree.plant, "obj").files.at(0).path);
     CHECK(count_of_group(before, "polygon") == 2 * tree.cards);
     bool some_went = false;
@@ -200,4 +201,74 @@ TEST_CASE("a card has two triangles and four vertices", "[export]") {
     }
     CHECK(count_of_group(mesh, "polygon") == 2 * tree.cards);
     CHECK(vertices.size() == 4 * tree.cards);
+}
+
+namespace {
+
+ObjFile from_afar(const HandmadePlant& plant, double metres) {
+    return ObjFile(
+        ExportedPlant(plant, "obj", [&](ExportJob& job) { job.options.distance = metres; }).files.at(0).path);
+}
+
+}  // namespace
+
+TEST_CASE("the farther a tree, the fewer its triangles, and its leaves cover as much until the last has gone",
+          "[export][distance]") {
+    const SmallTree tree;
+    const double area = area_of_cards(from_afar(tree.plant, 0));
+    std::size_t before = from_afar(tree.plant, 0).faces.size(), steps_down = 0;
+    CHECK(before == ExportedPlant(tree.plant, "obj").files.at(0).triangles);
+    for (double metres = 1; metres < 1e5; metres *= 1.5) {
+        const ObjFile mesh = from_afar(tree.plant, metres);
+        INFO(metres << " m: " << mesh.faces.size() << " triangles");
+        CHECK(mesh.faces.size() <= before);
+        steps_down += mesh.faces.size() < before;
+        before = mesh.faces.size();
+        const std::size_t left = count_of_group(mesh, "polygon");
+        if (left > 0) CHECK(area_of_cards(mesh) == Approx(area));
+    }
+    CHECK(steps_down > 10);
+    CHECK(before == 0);
+}
+
+TEST_CASE("at the distance that leaves half of the triangles a tree has the same silhouette, to a tenth",
+          "[export][distance]") {
+    const SmallTree tree;
+    const ObjFile whole = from_afar(tree.plant, 0);
+    double near = 0, far = 1e4;
+    for (int i = 0; i < 40; ++i) {
+        const double metres = (near + far) / 2;
+        (from_afar(tree.plant, metres).faces.size() <= whole.faces.size() / 2 ? far : near) = metres;
+    }
+    const ObjFile half = from_afar(tree.plant, far);
+    INFO(far << " m: " << half.faces.size() << " of " << whole.faces.size());
+    CHECK(half.faces.size() <= whole.faces.size() / 2);
+    const glm::dvec3 middle(0, 1, 0);
+    for (const auto& [right, up] : {std::pair{0, 1}, {2, 1}, {0, 2}}) {
+        CHECK(Silhouette(whole, right, up, middle, 3).overlap(Silhouette(half, right, up, middle, 3)) >= 0.9);
+    }
+}
+
+TEST_CASE("stems no thicker than a thousandth of the distance are lines: four triangles a piece, as wide as before",
+          "[export][distance]") {
+    HandmadePlant plant;
+    for (int i = 0; i < 3; ++i) {
+        plant.add_internode(static_cast<Identity>(i + 1), 0, 0, 0, 0, {0.5 * (i % 2), i, 0},
+                            {0.5 * ((i + 1) % 2), i + 1, 0}, 0);
+        Internode& internode = plant.interpretation.geometry.internodes.back();
+        internode.base_radius = internode.tip_radius = 0.01;
+    }
+    CHECK(from_afar(plant, 9.9).faces.size() > 12);
+    const ObjFile line = from_afar(plant, 10.1);
+    CHECK(line.faces.size() == 3 * 4);
+    // Seen from all sides a round stem is 2 r wide, and a flat one of half width w 4 w / pi in the mean (Cauchy).
+    const double half_width = glm::length(line.points[0] - line.points[1]) / 2;
+    const double of_octagon = 8 * std::sin(std::numbers::pi / 8) / std::numbers::pi * 2 * 0.01;
+    CHECK(4 * half_width / std::numbers::pi == Approx(of_octagon).epsilon(1e-3));
+}
+
+TEST_CASE("a distance is refused where shapes move or are shared", "[export][distance]") {
+    const auto change = [](ExportJob& job) { job.options.distance = 100; };
+    CHECK_THROWS_WITH(Exported("gltf", {}, {0, 4}, "", change), Contains("--distance 100") && Contains("one --step"));
+    CHECK(Exported("gltf", {}, {4}, "", change).files.at(0).triangles < Exported("gltf").files.at(0).triangles);
 }

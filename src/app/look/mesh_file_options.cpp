@@ -23,6 +23,11 @@ MeshFileOptions::MeshFileOptions(CLI::App& command, const std::string& sides_nam
                     "obj, ply, stl, gltf, usd: make coarser what is seen least, until so many are left")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 31));
     command
+        .add_option("--distance", distance_,
+                    "obj, ply, stl, gltf, usd: as seen from so many metres; what is smaller than a thousandth of it "
+                    "becomes a line, goes or is merged")
+        ->check(CLI::Range(0.0, 1e9));
+    command
         .add_option("--split", most_vertices_,
                     "obj, gltf: several meshes, ply, stl: several files, of at most so many vertices each; 65535 "
                     "for indices of 16 bits")
@@ -44,6 +49,7 @@ void MeshFileOptions::put_into(ExportJob& job) const {
     job.options.sides = sides_;
     job.options.simplify = simplify_;
     job.options.triangles = triangles_;
+    job.options.distance = distance_;
     job.options.up = up_[0];
     job.most_vertices = most_vertices_;
     job.instances = instances_;

@@ -23,7 +23,7 @@ public:
 
 private:
     int sides_;
-    double simplify_ = 0;
+    double simplify_ = 0, distance_ = 0;
     std::optional<std::size_t> triangles_;
     std::size_t most_vertices_ = 0;
     std::string up_ = "y";

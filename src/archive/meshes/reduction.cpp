@@ -20,7 +20,7 @@ namespace {
 
 constexpr double slack = 0.05;  ///< by how much fewer triangles there may be than asked for
 constexpr double longest_growth = 2;
-constexpr int fewest_sides = 3;
+constexpr int fewest_sides = 3, sides_of_line = 2;
 
 /// Of a polygon within a circle of radius 1, seen from all directions (Cauchy: the perimeter by pi).
 double mean_width(int sides) {
@@ -53,14 +53,21 @@ double area_of(const FrameMesh& mesh, const MeshPart& organ) {
 
 class Reduction {
 public:
-    Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points)
-        : tubes_(tubes), organs_(organs) {
+    /// What the shape may become.
+    struct Limits {
+        int fewest_sides;
+        double longest_growth;  ///< of organs that stay
+    };
+
+    Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
+              const Limits& limits)
+        : tubes_(tubes), organs_(organs), limits_(limits) {
         for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points);
         for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
         add_removals();
     }
 
-    void run(std::size_t target) {
+    void run_to_count(std::size_t target) {
         const auto fewest =
             std::max<std::size_t>(1, static_cast<std::size_t>((1 - slack) * static_cast<double>(target)));
         while (count_ > target && !moves_.empty()) {
@@ -71,8 +78,16 @@ public:
             count_ -= saving;
             apply(move);
         }
-        write_tubes();
-        write_organs();
+        write();
+    }
+
+    void run_to_error(double most) {
+        while (!moves_.empty() && moves_.top().error <= most) {
+            const Move move = moves_.top();
+            moves_.pop();
+            if (saving_of(move) > 0) apply(move);
+        }
+        write();
     }
 
 private:
@@ -115,7 +130,7 @@ private:
         for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(errors[k], k);
         std::sort(state.leaving.rbegin(), state.leaving.rend());
         count_ += triangles_of_tube(i);
-        push(0, Effect::caps, i);
+        if (tubes_[i].caps == Caps::round) push(0, Effect::caps, i);
         push_node(i);
         push_side(i);
         push(outline_error(outline_area(line)), Effect::tube, i);
@@ -160,7 +175,7 @@ private:
     // A polygon of one corner less lies so far inside the circle.
     void push_side(std::size_t i) {
         const int sides = tubes_[i].sides - 1;
-        if (sides < fewest_sides) return;
+        if (sides < limits_.fewest_sides) return;
         push(states_[i].thickest * (1 - std::cos(std::numbers::pi / sides)), Effect::side, i);
     }
 
@@ -216,6 +231,11 @@ private:
         }
     }
 
+    void write() {
+        write_tubes();
+        write_organs();
+    }
+
     // Tubes of fewer sides are as wide as before in the mean.
     void write_tubes() {
         for (std::size_t i = 0; i < tubes_.size(); ++i) {
@@ -249,7 +269,7 @@ private:
             all += organ_states_[i].area;
             if (!organ_states_[i].gone) left += organ_states_[i].area;
         }
-        return static_cast<float>(left > 0 ? std::min(longest_growth, std::sqrt(all / left)) : 1);
+        return static_cast<float>(left > 0 ? std::min(limits_.longest_growth, std::sqrt(all / left)) : 1);
     }
 
     // Organs grow from their first vertex, where they stand on the plant.
@@ -289,6 +309,7 @@ private:
 
     std::vector<PlannedTube>& tubes_;
     FrameMesh& organs_;
+    Limits limits_;
     OrganLevels shapes_;
     std::vector<TubeState> states_;
     std::vector<OrganState> organ_states_;
@@ -300,7 +321,14 @@ private:
 
 void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
             std::size_t triangles) {
-    Reduction(tubes, organs, of_points).run(triangles);
+    Reduction(tubes, organs, of_points, {fewest_sides, longest_growth}).run_to_count(triangles);
+}
+
+void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
+             double tolerance) {
+    Reduction(tubes, organs, of_points, {sides_of_line, std::numeric_limits<double>::infinity()})
+        .run_to_error(tolerance);
+    std::erase_if(tubes, [](const PlannedTube& tube) { return tube.sides == 0; });
 }
 
 }  // namespace espalier::archive

@@ -16,10 +16,19 @@ struct PlannedTube {
     std::size_t row;  ///< of `of_cells`: of the axis it begins with
 };
 
+/// A thousandth of a distance: what lies closer together there looks like one thing.
+inline constexpr double smallest_angle = 1e-3;
+
 /// Leaves out middles of caps, nodes, sides, vertices of organs and at last thin tubes and whole organs, always where
 /// the shape moves by the fewest metres, until `triangles` are left, or a few per cent less. Of organs that look alike,
 /// those that stay grow by the area of those that went, up to twice their length (Cook et al. 2007).
 void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
             std::size_t triangles);
+
+/// What looks the same from afar, after the degradation of Weber & Penn 1995 with the range: every change that `reduce`
+/// knows is made if the shape moves by no more than `tolerance` metres. Stems no thicker than that are lines: flat
+/// tubes of two sides and four triangles a piece. Leaves become fewer, and those that stay grow by the area of all that
+/// went. The larger the tolerance, the fewer the triangles.
+void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points, double tolerance);
 
 }  // namespace espalier::archive

@@ -72,8 +72,10 @@ public:
     }
 
     // Before the tubes are swept.
-    void reduce(std::vector<PlannedTube>& tubes, std::size_t triangles) {
-        archive::reduce(tubes, mesh_, geometry_.of_points, triangles);
+    void reduce(std::vector<PlannedTube>& tubes) {
+        const RecordedAttributes& of = geometry_.of_points;
+        if (options_.distance > 0) degrade(tubes, mesh_, of, smallest_angle * options_.distance);
+        if (options_.triangles) archive::reduce(tubes, mesh_, of, *options_.triangles);
     }
 
     FrameMesh take() {
@@ -239,9 +241,9 @@ FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) 
         return builder.take();
     }
     std::vector<PlannedTube> tubes = builder.planned_tubes();
-    if (options.triangles) {
+    if (options.triangles || options.distance > 0) {
         builder.add_surfaces();
-        builder.reduce(tubes, *options.triangles);
+        builder.reduce(tubes);
         builder.add(tubes);
     } else {
         builder.add(tubes);

@@ -144,6 +144,7 @@ private:
     }
 
     void add_cap(std::uint32_t node, const glm::dvec3& outward) {
+        if (sides_ < 3) return;
         const auto centre = static_cast<std::uint32_t>(tube_.vertices.size());
         const glm::vec3 normal(outward);
         if (caps_ == Caps::round) tube_.vertices.push_back({nodes_[node].position, normal, {0.5f, 0.5f}, node});

@@ -66,7 +66,8 @@ constexpr std::size_t swept_triangles(std::size_t nodes, int sides, Caps caps) {
     return 2 * nodes * static_cast<std::size_t>(sides) - (caps == Caps::lean ? 4 : 0);
 }
 
-/// Two nodes at least. Every edge belongs to two triangles once vertices in one place are taken for one.
+/// Two nodes at least; a tube of two sides is flat and lean. Every edge belongs to two triangles once vertices in one
+/// place are taken for one.
 Tube sweep(const TubeLine& line, int sides, Caps caps = Caps::round);
 
 }  // namespace espalier::archive
