@@ -36,9 +36,17 @@ system() { # NAME "TITLE" "SOURCE" FILE [OPTIONS] [-- RENDER OPTIONS]
     [[ $# -gt 0 ]] && shift && looking=("$@")
     "$espalier" run "$file" "${growing[@]}" --every 1000000 --output "$work/$name" --quiet 2>/dev/null
     "$espalier" render "$work/$name" --output "$work/$name.png" --size 240x240 --quiet "${looking[@]}"
+    cell "$name" "$title" "$source" "$(command_of "$file" "${growing[@]}")"
+}
+# Plants of other runs of this script on a terrain.
+landscape() { # NAME "TITLE" "SOURCE" FILE [OPTIONS]
+    "$espalier" landscape "$4" --output "$work/$1.png" --size 240x240 --quiet "${@:5}"
+    cell "$1" "$2" "$3" "espalier landscape $4"
+}
+cell() { # NAME "TITLE" "SOURCE" "COMMAND"
     local palette="split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none"
-    ffmpeg -loglevel error -y -i "$work/$name.png" -filter_complex "$palette" -fflags +bitexact "$pictures/$name.png"
-    row+="| ![$title](pictures/gallery/$name.png)<br>**$title**<br>$source<br>\`$(command_of "$file" "${growing[@]}")\` "
+    ffmpeg -loglevel error -y -i "$work/$1.png" -filter_complex "$palette" -fflags +bitexact "$pictures/$1.png"
+    row+="| ![$2](pictures/gallery/$1.png)<br>**$2**<br>$3<br>\`$4\` "
     count=$((count + 1))
     [[ $count -lt $columns ]] || end_row
 }
@@ -124,4 +132,11 @@ system terminalia "Tiers that keep apart" "Honda, Tomlinson & Fisher 1981" envir
 system cohen "Growth in a field" "Cohen 1967" environments/cohen.toml
 system vines "Voxel vines" "Greene 1989" environments/vines.toml -- --azimuth 25
 system climber "Climber" "Arvo & Kirk 1988" environments/climber.toml
+system thinning "Self-thinning" "Deussen et al. 1998" environments/self-thinning.toml -- --elevation 90
+for species in species/black-oak.species species/european-larch.species pgraph/bush.pgraph; do
+    "$espalier" run "models/$species" --every 1000000 --output "$work/planted/$(basename "${species%.*}")" --quiet 2>/dev/null
+done
+landscape landscape "Landscape" "Deussen et al. 1998" environments/landscapes/hills.toml \
+    --set stand.run="$work/thinning" --set species.0.run="$work/planted/black-oak" \
+    --set species.1.run="$work/planted/european-larch" --set species.2.run="$work/planted/bush" --set camera.angle=25
 end_row

@@ -112,6 +112,15 @@ self_organizing light-only --set environment.resource.lambda=0.5 --set plant.0.d
     --set plant.0.define.YEARS=12
 self_organizing upwards --set environment.resource.lambda=0.5 --set plant.0.define.UPWARDS=0.6 \
     --set plant.0.define.TOWARDS=0.2
+grow stand environments/self-thinning.toml --every 1000000 --set plant.0.define.SIDE=2060 \
+    --set plant.0.define.SEEDS=424000
+grow black-oak models/species/black-oak.species --every 1000000
+grow european-larch models/species/european-larch.species --every 1000000
+grow bush models/pgraph/bush.pgraph --every 1000000
+"$espalier" landscape environments/landscapes/hills.toml --set stand.run="$work/stand" \
+    --set species.0.run="$work/black-oak" --set species.1.run="$work/european-larch" --set species.2.run="$work/bush" \
+    --set camera.eye=[0,45,1000] --set camera.target=[0,20,500] --size 960x540 --output "$work/landscape.png" --quiet
+with_palette landscape.png
 printf 'click 350 490\ndrag 500 300 530 290\n' >"$work/window.txt"
 "$espalier" view "$work/two-trees" --size 1100x700 --script "$work/window.txt" --screenshot "$work/view.png"
 with_palette view.png

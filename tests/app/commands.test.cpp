@@ -36,7 +36,7 @@ TEST_CASE_METHOD(Workplace, "help teaches by example and never fails", "[app]") 
     CHECK(run("--help").code == 0);
     CHECK(run("--version").out == std::string(ESPALIER_VERSION) + "\n");
     for (const char* command :
-         {"run", "check", "derive", "info", "list", "plot", "analyse", "export", "leaf-texture"}) {
+         {"run", "check", "derive", "info", "list", "plot", "analyse", "export", "landscape", "leaf-texture"}) {
         const Outcome outcome = run(std::string(command) + " --help");
         CHECK(outcome.code == 0);
         CHECK_THAT(outcome.out, Contains("Example") && Contains(std::string("espalier ") + command));

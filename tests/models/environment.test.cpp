@@ -328,3 +328,37 @@ TEST_CASE("awning: the light below it is less than beside it", "[environment]") 
     CHECK(light.value("light", {2.5, 2, 0}) == Approx(1));
     CHECK(light.gradient("light", {0, 2, 0}).x > 0.05);
 }
+
+TEST_CASE("self-thinning: plants only become fewer, those that win stand apart, and the more room each has",
+          "[environment]") {
+    for (const std::uint64_t seed : {0u, 1u, 2u}) {
+        SceneOptions options = overriding({{"plant.0.define.SEEDS", "1500"}, {"plant.0.define.SIDE", "120"}});
+        options.seed = seed;
+        World world(read_scene(source_path("environments/self-thinning.toml"), options));
+        world.start();
+        std::vector<double> numbers, radii;
+        for (int step = 1; step <= 15; ++step) {
+            world.step();
+            const auto queries = parameters_of(world.string(0), world.model(0).alphabet, "?stand");
+            const auto& stems = world.interpretation(0).geometry.internodes;
+            REQUIRE(stems.size() == queries.size());
+            numbers.push_back(static_cast<double>(stems.size()));
+            double sum = 0;
+            int overlapping = 0;
+            for (std::size_t i = 0; i < stems.size(); ++i) {
+                sum += stems[i].base_radius;
+                for (std::size_t k = 0; k < i && queries[i][0] == 1; ++k) {
+                    const double apart = glm::distance(stems[i].base, stems[k].base);
+                    overlapping += queries[k][0] == 1 && apart <= stems[i].base_radius + stems[k].base_radius;
+                }
+            }
+            CHECK(overlapping == 0);
+            radii.push_back(sum / numbers.back());
+            if (step == 1) continue;
+            CHECK(numbers[numbers.size() - 1] <= numbers[numbers.size() - 2]);
+            CHECK(radii.back() > radii[radii.size() - 2]);
+        }
+        CHECK(numbers.front() == 1500);
+        CHECK(numbers.back() < 0.5 * numbers.front());
+    }
+}

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int rows_of_band = 8;
 constexpr int samples_of_card = 3;
+constexpr int most_pixels = 8192;
 
 glm::quat turned(double degrees) {
     return glm::angleAxis(static_cast<float>(glm::radians(degrees)), glm::vec3(0, 1, 0));
@@ -27,8 +28,7 @@ std::uint8_t byte_of(float part) {
 
 glm::vec3 sky_at(const glm::vec3& direction) {
     const glm::vec3 horizon(0.86F, 0.90F, 0.93F), zenith(0.42F, 0.62F, 0.86F);
-    const float height = std::clamp(direction.y / 0.6F, 0.0F, 1.0F);
-    return glm::mix(horizon, zenith, std::sqrt(height));
+    return glm::mix(zenith, horizon, std::exp(-5 * std::max(direction.y, 0.0F)));
 }
 
 /// The mean of what rays through a pixel see; opaque as far as they see anything.
@@ -73,6 +73,12 @@ void bleed(OpacityPicture& picture) {
             pixel[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(sum[k] / weight));
         }
     }
+}
+
+std::size_t bytes_of(const FrameMesh& mesh) {
+    constexpr std::size_t of_vertex = 2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(Rgb);
+    constexpr std::size_t of_triangle = 4 * sizeof(std::uint32_t);
+    return mesh.points.size() * of_vertex + mesh.triangles.size() * of_triangle;
 }
 
 /// Draws a plant alone, from afar.
@@ -138,6 +144,9 @@ public:
     LandscapeRays(const PlantedLandscape& landscape, const std::vector<std::vector<CardPicture>>& cards,
                   const LandscapeView& view, const LandscapeLook& look)
         : landscape_(landscape), cards_(cards), look_(look), eye_(view.eye) {
+        for (const LandscapeSpecies& species : landscape.species) {
+            for (const FrameMesh& mesh : species.levels) bytes_ += bytes_of(mesh);
+        }
         add_mesh(landscape.terrain.mesh(look.ground));
         std::vector<RayPlace> places{{0, 1, glm::vec3(0), glm::quat(1, 0, 0, 0)}};
         for (const PlantedPlant& plant : landscape.plants) places.push_back(place_of(plant));
@@ -228,6 +237,11 @@ std::vector<CardPicture> card_pictures(const LandscapeSpecies& species, const gl
 OpacityPicture landscape_picture(const PlantedLandscape& landscape, const std::vector<std::vector<CardPicture>>& cards,
                                  const LandscapeView& view, const RayLight& light, const LandscapeLook& look,
                                  const std::function<void(double share)>& progress) {
+    const auto [width, height] = look.size;
+    if (width < 1 || height < 1 || width > most_pixels || height > most_pixels) {
+        throw UserError(fmt::format("a landscape's picture has 1 to {} pixels along a side, not {}x{}", most_pixels,
+                                    width, height));
+    }
     const LandscapeRays rays(landscape, cards, view, look);
     const Camera camera(view, look.size);
     OpacityPicture picture{static_cast<std::size_t>(look.size.width), static_cast<std::size_t>(look.size.height), {}};

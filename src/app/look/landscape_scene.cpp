@@ -1,0 +1,200 @@
+#include "landscape_scene.h"
+
+#include "archive/meshes/texture_file.h"
+#include "language/vector_field.h"
+#include "picture/stage/daylight.h"
+#include "picture_options.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <vtkImageData.h>
+
+#include <algorithm>
+
+namespace espalier::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where and what is said of it, if something is wrong with what a key names.
+template <class Work>
+auto blamed_on(const Settings& settings, const char* key, const Work& work) {
+    try {
+        return work();
+    } catch (const UserError& error) {
+        if (!error.diagnostics().empty() && error.diagnostics().front().place.known()) throw;
+        throw UserError(settings.place(key), error.what());
+    }
+}
+
+/// The run that a key names, and the last frame of its plants.
+struct LastFrame {
+    RecordedRun run;
+    RecordedGeometry geometry;
+};
+LastFrame last_frame(const Settings& settings) {
+    return blamed_on(settings, "run", [&]() -> LastFrame {
+        RecordedRun run(settings.path("run"));
+        const auto& frames = run.frames();
+        const auto drawn = std::find_if(frames.rbegin(), frames.rend(),
+                                        [](const RecordedFrame& frame) { return !frame.plants.empty(); });
+        if (drawn == frames.rend()) throw UserError(fmt::format("{}: no plants were recorded", run.folder().string()));
+        RecordedGeometry geometry = run.geometry(*drawn);
+        return {std::move(run), std::move(geometry)};
+    });
+}
+
+Rgb colour_setting(const Settings& settings, const char* key, const std::string& usual) {
+    const std::string text = settings.text_or(key, usual);
+    if (const auto rgb = hex_colour(text)) return *rgb;
+    throw UserError(settings.place(key), fmt::format("expected #rrggbb, not '{}'", text));
+}
+
+LevelDistances distances_of(const Settings& detail) {
+    LevelDistances distances{detail.numbers_or("levels", {0, 30, 60, 90}),
+                             detail.number_or("cards", 160, Range::positive())};
+    const std::vector<double>& levels = distances.levels;
+    const bool ascends = std::adjacent_find(levels.begin(), levels.end(), std::greater_equal<>()) == levels.end();
+    if (levels.empty() || levels.front() != 0 || !ascends) {
+        throw UserError(detail.place("levels"), "levels are distances that begin with 0 and rise: [0, 30, 60, 90]");
+    }
+    return distances;
+}
+
+/// By how much of its size the terrain goes on around a stand.
+constexpr double margin_share = 0.5;
+
+/// Two numbers, or the usual ones.
+glm::dvec2 corner(const Settings& terrain, const char* key, const glm::dvec2& usual) {
+    const std::vector<double> numbers = terrain.numbers_or(key, {usual.x, usual.y});
+    if (numbers.size() != 2) throw UserError(terrain.place(key), "expected [x, z]");
+    return {numbers[0], numbers[1]};
+}
+
+std::function<double(double, double)> heights_of(const Settings& terrain, const glm::dvec2& lower,
+                                                 const glm::dvec2& upper) {
+    if (const auto picture = terrain.path_if_any("picture")) {
+        const double low = terrain.number("low"), high = terrain.number("high");
+        return blamed_on(terrain, "picture", [&] { return heights_of_picture(*picture, lower, upper, low, high); });
+    }
+    const std::string text = terrain.text_or("heights", "0");
+    const auto field = blamed_on(terrain, "heights", [&] { return VectorField::parse(fmt::format("0, {}, 0", text)); });
+    return [field](double x, double z) {
+        const auto vector = field.at({x, 0, z});
+        return vector ? vector->y : std::numeric_limits<double>::quiet_NaN();
+    };
+}
+
+Terrain terrain_of(const Settings& settings, const std::vector<StandPlant>& stand) {
+    glm::dvec2 lower(std::numeric_limits<double>::max()), upper(-lower);
+    for (const StandPlant& plant : stand) {
+        lower = glm::min(lower, plant.place - plant.radius);
+        upper = glm::max(upper, plant.place + plant.radius);
+    }
+    const glm::dvec2 margin = margin_share * (upper - lower);
+    lower = corner(settings, "lower", lower - margin);
+    upper = corner(settings, "upper", upper + margin);
+    if (!(upper.x > lower.x && upper.y > lower.y)) {
+        throw UserError(settings.place("upper"), "`upper` must lie above `lower` in x and z");
+    }
+    const auto places = static_cast<std::size_t>(settings.integer_or("places", 513, Range::between(2, 4096)));
+    const auto height = heights_of(settings, lower, upper);
+    return blamed_on(settings, "heights", [&] { return Terrain(lower, upper, {places, places}, height); });
+}
+
+std::shared_ptr<const OpacityPicture> texture_picture(const std::string& file) {
+    const auto image = texture_image({}, file);
+    if (!image || image->GetScalarType() != VTK_UNSIGNED_CHAR) return nullptr;
+    const int* size = image->GetDimensions();
+    const int parts = image->GetNumberOfScalarComponents();
+    const auto* from = static_cast<const std::uint8_t*>(image->GetScalarPointer());
+    OpacityPicture picture{static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]), {}};
+    picture.pixels.resize(picture.width * picture.height);
+    for (std::size_t y = picture.height; y-- > 0;) {
+        for (std::size_t x = 0; x < picture.width; ++x, from += parts) {
+            const bool is_grey = parts < 3;
+            picture.at(x, y) = {from[0], from[is_grey ? 0 : 1], from[is_grey ? 0 : 2],
+                                parts == 4 || parts == 2 ? from[parts - 1] : std::uint8_t{255}};
+        }
+    }
+    return std::make_shared<const OpacityPicture>(std::move(picture));
+}
+
+/// Textures by paths that hold wherever one stands.
+void find_textures(LandscapeSpecies& species, const fs::path& run) {
+    std::error_code ignored;
+    for (FrameMesh& mesh : species.levels) {
+        for (MeshMaterial& material : mesh.materials) {
+            const fs::path beside = run / material.texture;
+            if (!material.texture.empty() && fs::is_regular_file(beside, ignored)) material.texture = beside.string();
+        }
+    }
+}
+
+LandscapeView view_of(const Settings& camera, const Terrain& terrain) {
+    const glm::dvec2 middle = (terrain.lower() + terrain.upper()) / 2.0, size = terrain.upper() - terrain.lower();
+    const auto over_ground = [&](const glm::dvec3& place) {
+        return glm::dvec3(place.x, terrain.height(place.x, place.z) + place.y, place.z);
+    };
+    LandscapeView view;
+    const double edge_of_stand = middle.y + size.y / (2 + 4 * margin_share);
+    const glm::dvec3 eye(middle.x, 0.07 * size.y, edge_of_stand);
+    view.eye = over_ground(camera.vector_or("eye", eye));
+    view.target = over_ground(camera.vector_or("target", {middle.x, 0, middle.y}));
+    view.angle = camera.number_or("angle", 40, Range::between(1, 150));
+    if (view.eye == view.target) throw UserError(camera.place("target"), "`eye` and `target` are one place");
+    return view;
+}
+
+}  // namespace
+
+LandscapeScene read_landscape(const fs::path& file, const LandscapeOverrides& overrides) {
+    Settings settings = Settings::read_toml(file);
+    for (const auto& [key, value] : overrides) settings.set(key, value);
+    const Settings stand_settings = settings.table("stand"), light = settings.table("light"),
+                   detail = settings.table("detail");
+    const LevelDistances distances = distances_of(detail);
+    const std::vector<StandPlant> stand = [&] {
+        const LastFrame frame = last_frame(stand_settings);
+        return blamed_on(stand_settings, "run", [&] { return stand_of(frame.geometry); });
+    }();
+    const Settings ground = settings.table("terrain");
+    Terrain terrain = terrain_of(ground, stand);
+    std::vector<LandscapeSpecies> species;
+    std::optional<RecordedRun> first;
+    for (const Settings& entry : settings.tables("species")) {
+        LastFrame plant = last_frame(entry);
+        const std::string name = entry.text_or("name", plant.run.folder().filename().string());
+        const double radius = entry.number_or("radius", 0, Range::not_negative());
+        const auto number = static_cast<int>(entry.integer("colour", Range::between(0, 65535)));
+        species.push_back(blamed_on(entry, "run", [&] {
+            return species_of(plant.geometry, name, number, radius > 0 ? std::optional(radius) : std::nullopt,
+                              distances);
+        }));
+        find_textures(species.back(), plant.run.folder());
+        if (!first) first = std::move(plant.run);
+    }
+    if (!first) throw UserError(settings.place(), "a landscape needs at least one [[species]] with `colour` and `run`");
+    const LandscapeView view = view_of(settings.table("camera"), terrain);
+    const auto seed = static_cast<std::uint64_t>(settings.integer_or("seed", 0, Range::between(0, 1e15)));
+    const glm::vec3 sun = picture::direction_at(light.number_or("azimuth", -60, Range::between(-360, 360)),
+                                                light.number_or("elevation", 40, Range::between(1, 90)));
+    LandscapeLook look;
+    look.ground = colour_setting(ground, "colour", "#70744a");
+    look.visibility = light.number_or("visibility", 3000, Range::positive());
+    look.samples = static_cast<int>(detail.integer_or("samples", 3, Range::between(1, 16)));
+    look.texture_of = texture_picture;
+    const auto card_pixels = static_cast<std::size_t>(detail.integer_or("card_pixels", 192, Range::between(8, 4096)));
+    settings.reject_unread();
+    return {
+        blamed_on(stand_settings, "run",
+                  [&] { return planted(std::move(terrain), std::move(species), stand, view.eye, distances, seed); }),
+        view,
+        {sun},
+        std::move(look),
+        card_pixels,
+        std::move(*first)};
+}
+
+}  // namespace espalier::app
