@@ -98,7 +98,7 @@ Terrain terrain_of(const Settings& settings, const std::vector<StandPlant>& stan
     if (!(upper.x > lower.x && upper.y > lower.y)) {
         throw UserError(settings.place("upper"), "`upper` must lie above `lower` in x and z");
     }
-    const auto places = static_cast<std::size_t>(settings.integer_or("places", 513, Range::between(2, 4096)));
+    const auto places = static_cast<std::size_t>(settings.integer_or("places", 513, Range::between(2, 2048)));
     const auto height = heights_of(settings, lower, upper);
     return blamed_on(settings, "heights", [&] { return Terrain(lower, upper, {places, places}, height); });
 }

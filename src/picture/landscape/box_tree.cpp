@@ -76,7 +76,7 @@ BoxTree::BoxTree(std::span<const RayBox> boxes) : items_(boxes.size()) {
     }
 }
 
-// Halves what one split leaves whole, so that no tree is deeper than twice its logarithm.
+// Halves what the heuristic would leave nearly whole, so that the depth is bounded.
 std::size_t BoxTree::split(std::span<const RayBox> boxes, std::size_t first, std::size_t last, const RayBox& centres) {
     const int axis = longest_axis(centres);
     const float low = centres.lower[axis], length = centres.upper[axis] - low;
@@ -85,7 +85,7 @@ std::size_t BoxTree::split(std::span<const RayBox> boxes, std::size_t first, std
     if (length > 0) {
         const auto bin_of = [&](std::uint32_t item) {
             const float share = (centre_of(boxes[item])[axis] - low) / length;
-            return std::min(bins - 1, static_cast<std::size_t>(share * bins));
+            return share < 1 ? static_cast<std::size_t>(std::max(share, 0.0F) * bins) : bins - 1;
         };
         std::array<Bin, bins> all;
         for (auto item = begin; item != end; ++item) {

@@ -62,7 +62,7 @@ private:
     };
 
     static constexpr std::size_t most_of_leaf = 4;
-    static constexpr std::size_t deepest = 64;
+    static constexpr std::size_t deepest = 168;  ///< of 2^32 items, with an eighth on the smaller side of each split
 
     std::size_t split(std::span<const RayBox> boxes, std::size_t first, std::size_t last, const RayBox& centres);
 
