@@ -93,8 +93,9 @@ void main() {
     result = identityColour();
     return;
   }
+  // Round ends are hardly tilted, so that joints do not show as rings.
   float end = across.y > across.z ? -beyond : beyond;
-  vec3 normal = side * across.x + cross(front, side) * end + front * sqrt(rest);
+  vec3 normal = normalize(side * across.x + cross(front, side) * (0.25 * end) + front * sqrt(1.0 - across.x * across.x));
   result = shade(colour, normal, light);
 }
 `;
