@@ -17,10 +17,12 @@ function layersOf(graph: ComponentGraph): string[][] {
     depth.set(name, at);
     for (const { from, to } of graph.links) if (from === name) visit(to, at + 1, new Set([...path, name]));
   };
-  const reached = new Set(graph.links.map(({ to }) => to));
-  const roots = graph.components.filter(({ name }) => !reached.has(name));
-  const camera = graph.components.find(({ name, type }) => name === "camera" || type === "camera");
-  for (const { name } of camera ? [camera, ...roots] : roots) visit(name, 0, new Set());
+  // The camera, of which no text tells, links to where the plant begins.
+  const own = new Set(graph.components.map(({ name }) => name));
+  const reached = new Set(graph.links.filter(({ from }) => own.has(from)).map(({ to }) => to));
+  for (const { name } of graph.components) if (!reached.has(name)) visit(name, 0, new Set());
+  for (const { from, to } of graph.links) if (!own.has(from)) visit(to, 0, new Set());
+  for (const { name } of graph.components) if (!depth.has(name)) visit(name, 0, new Set());
   const layers: string[][] = [];
   for (const { name } of graph.components) (layers[depth.get(name) ?? 0] ??= []).push(name);
   return Array.from(layers, (layer) => layer ?? []);

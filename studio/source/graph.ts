@@ -28,6 +28,10 @@ export class GraphPanel {
   ) {
     this.element.append(this.place, this.form);
     studio.on("document", () => this.show());
+    studio.on("help", () => {
+      this.shape = "";
+      this.show();
+    });
   }
 
   private get graph(): ComponentGraph | null {

@@ -41,6 +41,7 @@ interface Events {
   column: Column;
   field: Field;
   shown: Packet;
+  help: Help;
   exported: HandedFile[];
   theme: "light" | "dark";
 }
@@ -123,12 +124,16 @@ export class Studio {
   private connected(state: ConnectionState): void {
     if (state === "open") {
       this.frames.connected();
-      void this.connection
-        .request("help", {})
-        .then((help) => (this.help = help))
-        .catch(() => undefined);
+      void this.askHelp();
     }
     this.emit("connection", state);
+  }
+
+  private async askHelp(): Promise<void> {
+    const help = await this.ask("help", {});
+    if (!help) return;
+    this.help = help;
+    this.emit("help", help);
   }
 
   private hear(message: Said): void {

@@ -58,7 +58,7 @@ await open("lychnis");
 await pick("I(");
 await save("studio-organ.png");
 await open("wind-pine");
-await page.getByRole("tab", { name: "Graph" }).click();
+await page.getByRole("tab", { name: "Graph", exact: true }).click();
 await page
   .getByRole("button", { name: /, Tree$/ })
   .first()

@@ -273,7 +273,7 @@ test("a graph of components is drawn, and the form of a component changes the pl
   await page.waitForFunction(() => document.title.startsWith("bush.pgraph"));
   await grown();
   const before = await picture();
-  await page.getByRole("tab", { name: "Graph" }).click();
+  await page.getByRole("tab", { name: "Graph", exact: true }).click();
   await page.getByRole("button", { name: "fork, Phiball" }).click();
   await page.waitForSelector(".marked-line");
   await page.locator("#graph-count").fill("2");

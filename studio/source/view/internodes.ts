@@ -64,10 +64,13 @@ void main() {
   float wide = max(r, 0.55 * pixel * (eye.w > 0.0 ? clip.w : 1.0));
   float span = dot(axis, along);
   bool ends = r > 0.8 * pixel * clip.w;
-  float reach = ends ? wide : 0.0;
-  // Distances beyond the base and beyond the tip, in radii of this end.
-  across = vec3(sign, atTip ? -(span + reach) / wide : reach / wide, atTip ? reach / wide : -(span + reach) / wide);
-  vec3 corner = centre + side * (sign * wide) + along * (atTip ? reach : -reach);
+  // The tip is round and covers the joint; the base is flat, an ellipse as wide as it is seen from behind.
+  float seen = span * inversesqrt(max(dot(axis, axis), 1e-20));
+  float tipReach = ends ? wide : 0.0, baseReach = ends ? wide * sqrt(max(0.0, 1.0 - seen * seen)) : 0.0;
+  float baseUnit = max(baseReach, 0.001 * wide);
+  // Distances beyond the base and beyond the tip, as parts of the reach of each.
+  across = vec3(sign, atTip ? -(span + tipReach) / baseUnit : baseReach / baseUnit, atTip ? tipReach / wide : -(span + baseReach) / wide);
+  vec3 corner = centre + side * (sign * wide) + along * (atTip ? tipReach : -baseReach);
   gl_Position = projectionMatrix * (viewMatrix * vec4(corner, 1.0));
   // A thick internode lies before the thin ones that begin inside it.
   vec4 surface = projectionMatrix * (viewMatrix * vec4(corner + front * r, 1.0));

@@ -293,7 +293,7 @@ export class PlantScene {
 
   private reachesBelow(): boolean {
     if (!this.bounds) return false;
-    return this.bounds.lower[1] < -0.01 * (this.bounds.upper[1] - this.bounds.lower[1]);
+    return this.bounds.lower[1] + (this.packet?.radius ?? 0) < -0.01 * (this.bounds.upper[1] - this.bounds.lower[1]);
   }
 
   /** The first growth of a document stays whole in the picture while it grows; later ones leave the camera alone. */
