@@ -68,17 +68,17 @@ std::optional<std::size_t> Glb::texture(const std::string& file, TextureMap map)
         if (map == TextureMap::colours) missing_.push_back(file);
         return at->second;
     }
-    add_texture(file, png);
+    add_texture(file, png, map);
     return at->second;
 }
 
-void Glb::add_texture(const std::string& file, const std::string& png) {
+void Glb::add_texture(const std::string& file, const std::string& png, TextureMap map) {
     images_.push_back({{"bufferView", add_view(png.data(), png.size(), 0)},
                        {"mimeType", "image/png"},
                        {"name", std::filesystem::path(file).stem().string()}});
     textures_.push_back({{"source", images_.size() - 1}});  // without a sampler it repeats
     if (is_transparent(png)) cut_out_.insert(textures_.size() - 1);
-    texture_number_[file] = textures_.size() - 1;
+    texture_number_[{file, map}] = textures_.size() - 1;
 }
 
 std::string Glb::hint() const {

@@ -29,7 +29,7 @@ public:
                          const std::vector<glm::vec2>& uvs, const std::vector<std::array<std::uint32_t, 3>>& triangles,
                          const std::vector<std::uint32_t>& material_of, const std::vector<MeshMaterial>& materials);
     /// What surfaces that wear this file wear, instead of what lies there.
-    void add_texture(const std::string& file, const std::string& png);
+    void add_texture(const std::string& file, const std::string& png, TextureMap map = TextureMap::colours);
     /// Returns the node's number.
     std::size_t add_node(Json node);
     /// A mesh in many places, one node (EXT_mesh_gpu_instancing); returns its number.
