@@ -123,7 +123,8 @@ export class GraphPanel {
     const id = `graph-${key.name}`;
     const standard = key.standard === null ? "" : String(key.standard);
     const value = component.values[key.name];
-    const plain = key.kind === "number" || key.kind === "whole";
+    const isNumber = value === undefined || Number.isFinite(Number(value));
+    const plain = isNumber && (key.kind === "number" || key.kind === "whole");
     const send = (text: string | null, lasting: boolean) => {
       const label = `${component.name}: ${key.name} ${text === null ? "as usual" : `= ${text}`}`;
       this.edit({ edit: "set", component: component.name, key: key.name, text }, label, lasting);
@@ -132,8 +133,7 @@ export class GraphPanel {
     field.value = value ?? "";
     field.addEventListener("change", () => send(field.value.trim() || null, true));
     const control = h("div", "control slider", {}, field, h("span", "unit", {}, key.unit));
-    if (plain && (value === undefined || Number.isFinite(Number(value))))
-      control.prepend(this.slider(key, value ?? standard, field, send));
+    if (plain) control.prepend(this.slider(key, value ?? standard, field, send));
     const reset = iconButton("reset", `Back to ${standard || "the usual value"}`, () => send(null, true));
     reset.hidden = value === undefined;
     return h(
