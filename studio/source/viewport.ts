@@ -232,7 +232,7 @@ export class Viewport {
   private fillFields(): void {
     const { fields } = this.studio;
     this.fieldSelect.replaceChildren(
-      h("option", "", { value: "" }, "none"),
+      h("option", "", { value: "" }, "no field"),
       ...fields.map(({ name, unit, meaning }) =>
         h("option", "", { value: name, title: meaning }, unit ? `${name} (${unit})` : name),
       ),
