@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "studio/document_files.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -14,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const DocumentState& state) {
     Json texts = Json::object();
-    for (const auto& [path, text] : state.unsaved) texts[path.string()] = text;
+    for (const auto& [path, text] : state.unsaved) texts[path.string()] = content_of(path, text);
     Json json = {{"path", state.opened.path.string()}, {"texts", texts}};
     if (state.opened.steps) json["steps"] = *state.opened.steps;
     if (state.opened.seed) json["seed"] = *state.opened.seed;
@@ -26,7 +28,9 @@ DocumentState state_of(const Json& json) {
     state.opened.path = json.at("path").get<std::string>();
     if (json.contains("steps")) state.opened.steps = json["steps"].get<int>();
     if (json.contains("seed")) state.opened.seed = json["seed"].get<std::uint64_t>();
-    for (const auto& [path, text] : json.at("texts").items()) state.unsaved[path] = text.get<std::string>();
+    for (const auto& [path, text] : json.at("texts").items()) {
+        state.unsaved[path] = bytes_of(path, text.get<std::string>());
+    }
     return state;
 }
 

@@ -25,6 +25,10 @@ bool is_map(const fs::path& file) {
     return file.extension() == ".map";
 }
 
+std::string content_of(const fs::path& file, const std::string& bytes) {
+    return is_map(file) ? base64(bytes) : bytes;
+}
+
 std::string bytes_of(const fs::path& file, const std::string& content) {
     std::vector<char> bytes;
     if (!is_map(file)) return content;

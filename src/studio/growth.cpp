@@ -130,14 +130,14 @@ void Growth::grow(const Scene& scene, GrowthStart start) {
     listener_.started(number(), std::move(start));
     world.start();
     note(world, folder / "statistics.csv");
-    while (!cancelled_) {
-        while (!cancelled_ && !stopped_ && !is_over(world)) {
+    for (bool grew = true; !cancelled_; grew = false) {
+        for (; !cancelled_ && !stopped_ && !is_over(world); grew = true) {
             world.step();
             note(world, folder / "statistics.csv");
             answer(world);
         }
-        if (!is_over(world) && !cancelled_) listener_.stopped(number());
-        wait_for_more();
+        if (grew && !is_over(world) && !cancelled_) listener_.stopped(number());
+        wait_for_more(world);
         answer(world);
     }
 }
@@ -166,11 +166,9 @@ void Growth::answer(const World& world) {
 }
 
 // A question, an end, or more steps to grow.
-void Growth::wait_for_more() {
+void Growth::wait_for_more(const World& world) {
     std::unique_lock lock(mutex_);
-    const int last = last_step_;
-    const bool stopped = stopped_;
-    changed_.wait(lock, [&] { return cancelled_ || !questions_.empty() || last_step_ != last || stopped_ != stopped; });
+    changed_.wait(lock, [&] { return cancelled_ || !questions_.empty() || (!stopped_ && !is_over(world)); });
 }
 
 }  // namespace espalier::studio

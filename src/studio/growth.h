@@ -99,7 +99,7 @@ private:
     void grow(const Scene& scene, GrowthStart start);
     void note(const World& world, const std::filesystem::path& statistics);
     void answer(const World& world);
-    void wait_for_more();
+    void wait_for_more(const World& world);
     bool is_over(const World& world) const { return world.stopped() || world.steps_done() >= last_step_; }
 
     const GrowthOrder order_;

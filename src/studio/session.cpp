@@ -59,7 +59,10 @@ Json cell_json(const std::string& cell) {
 
 }  // namespace
 
-Session::Session(const StudioOptions& options, Post post) : options_(options), post_(std::move(post)) {
+Session::Session(const StudioOptions& options, Post post)
+    : options_(options), post_([this, post = std::move(post)](std::function<void()> work) {
+          post([this, work = std::move(work)] { guard(work); });
+      }) {
     restore();
     if (document_.is_open()) begin_growth();
 }
@@ -95,9 +98,20 @@ void Session::receive(Page& page, const std::string& text) {
 }
 
 void Session::tick() {
-    begin_next_growth();
-    std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
-    if (unkept_) keep();
+    guard([this] {
+        begin_next_growth();
+        std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
+        if (unkept_) keep();
+    });
+}
+
+// A file that has gone meanwhile must not end the studio.
+void Session::guard(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const std::exception& error) {
+        say("error", error.what());
+    }
 }
 
 // --- the document

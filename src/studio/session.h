@@ -91,6 +91,7 @@ private:
     std::filesystem::path below_folder(const std::filesystem::path& path) const;
     void save_as(const std::filesystem::path& path);
     void note_exported(const std::vector<std::filesystem::path>& files, const std::string& why);
+    void guard(const std::function<void()>& work);
     void keep();
     void restore();
 

@@ -1,7 +1,6 @@
 // What pages are told of the document, and the numbers that they may change in its texts.
 #include "espalier/base/file.h"
 
-#include "base/base64.h"
 #include "base/text.h"
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
@@ -150,7 +149,7 @@ Json Session::texts_json() const {
         Json text = {{"path", file.string()},
                      {"role", role_of(file, now.opened.path)},
                      {"language", language_of(file)},
-                     {"content", is_map(file) ? base64(text_of(file, now)) : text_of(file, now)},
+                     {"content", content_of(file, text_of(file, now))},
                      {"changed", now.unsaved.contains(file) && text_on_disk(file) != now.unsaved.at(file)}};
         const bool is_main = text["role"] == "main";
         list.insert(is_main ? list.begin() : list.end(), std::move(text));

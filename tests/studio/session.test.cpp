@@ -1,4 +1,5 @@
 // The requests of docs/studio-protocol.md as a page makes them.
+#include "base/base64.h"
 #include "session_fixture.h"
 
 using namespace studio_test;
@@ -256,6 +257,47 @@ TEST_CASE("unsaved work is there again after the program was killed", "[studio]"
     page.texts.clear();
     studio.begin();
     CHECK(page.last("message")["severity"] == "warning");
+}
+
+TEST_CASE("a colour map travels in base64, and is kept as it was", "[studio]") {
+    const std::string bytes = "\xff\x00\x80" + std::string(765, '\x7f');
+    OpenStudio studio("lsystem: 1\nderivation length: 1\naxiom: ;(1)F\nendlsystem\n");
+    studio.folder.write("plants.map", std::string(768, '\0'));
+    studio.options.state = studio.scratch.path() / "state.json";
+    studio.options.read = [](const espalier::studio::Opened& opened) {
+        espalier::ObjectFiles object;
+        object.model = opened.path;
+        object.colour_maps[1] = opened.path.parent_path() / "plants.map";
+        return espalier::scene_of_object(object, {{}, opened.steps, opened.seed});
+    };
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const auto map = [&] { return page.last("document")["texts"][1]; };
+    CHECK(map()["language"] == "map");
+    CHECK(map()["content"] == std::string(1024, 'A'));
+    const std::string file = map()["path"], content = espalier::base64(bytes.substr(0, 768));
+    CHECK(studio.change({{"texts", {{file, "no base64!"}}}}).contains("error"));
+    studio.change({{"texts", {{file, content}}}});
+    studio.wait_until_grown();
+    studio.session.reset();
+    page.texts.clear();
+    studio.begin();
+    studio.wait_until_grown();
+    CHECK(map()["content"] == content);
+    CHECK(page.last("message").is_null());
+}
+
+TEST_CASE("files that go away while a studio runs are told, and end nothing", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    std::filesystem::remove(studio.file);
+    studio.change({{"steps", 5}});
+    for (int i = 0; i < 20; ++i) studio.mailbox.work_once(std::chrono::milliseconds(10)), studio.session->tick();
+    studio.folder.write("plant.l", tree);
+    studio.change({{"steps", 6}});
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["step"] == 6);
 }
 
 TEST_CASE("malformed requests are answered, not obeyed", "[studio]") {
