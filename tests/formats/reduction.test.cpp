@@ -240,12 +240,12 @@ TEST_CASE("at the distance that leaves half of the triangles a tree has the same
         const double metres = (near + far) / 2;
         (from_afar(tree.plant, metres).faces.size() <= whole.faces.size() / 2 ? far : near) = metres;
     }
-    const ObjFile half = from_afar(tree.plant, far);
-    INFO(far << " m: " << half.faces.size() << " of " << whole.faces.size());
-    CHECK(half.faces.size() <= whole.faces.size() / 2);
+    const ObjFile coarse = from_afar(tree.plant, far);
+    INFO(far << " m: " << coarse.faces.size() << " of " << whole.faces.size());
+    CHECK(coarse.faces.size() <= whole.faces.size() / 2);
     const glm::dvec3 middle(0, 1, 0);
     for (const auto& [right, up] : {std::pair{0, 1}, {2, 1}, {0, 2}}) {
-        CHECK(Silhouette(whole, right, up, middle, 3).overlap(Silhouette(half, right, up, middle, 3)) >= 0.9);
+        CHECK(Silhouette(whole, right, up, middle, 3).overlap(Silhouette(coarse, right, up, middle, 3)) >= 0.9);
     }
 }
 

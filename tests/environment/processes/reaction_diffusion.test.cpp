@@ -176,11 +176,11 @@ TEST_CASE("reaction-diffusion: the same seed gives the same leaves, another seed
 
 TEST_CASE("reaction-diffusion: a restored checkpoint goes on as if nothing had happened", "[reaction]") {
     for (const char* text : {"", "pattern = \"net\""}) {
-        Alone whole(text), half(text), rest(text);
+        Alone whole(text), first(text), rest(text);
         whole.run(30);
-        half.run(18);
+        first.run(18);
         std::stringstream checkpoint;
-        half.process->save(checkpoint);
+        first.process->save(checkpoint);
         rest.process->restore(checkpoint);
         rest.run(12);
         CHECK(rest.count() == whole.count());
