@@ -38,7 +38,7 @@ constexpr int most_connections = 64;
 /// What every connection needs.
 struct House {
     std::string token;
-    Session& session;
+    Session* session = nullptr;  ///< null once the studio ends: connections go after it
     int connections = 0;
 };
 
@@ -61,7 +61,9 @@ class SocketPage final : public Page, public std::enable_shared_from_this<Socket
 public:
     SocketPage(beast::tcp_stream&& stream, std::shared_ptr<Guest> guest)
         : socket_(std::move(stream)), guest_(std::move(guest)) {}
-    ~SocketPage() override { house().session.leave(*this); }
+    ~SocketPage() override {
+        if (house().session) house().session->leave(*this);
+    }
 
     void accept(const http::request<http::empty_body>& request) {
         beast::get_lowest_layer(socket_).expires_never();
@@ -94,8 +96,8 @@ private:
         const std::string text = beast::buffers_to_string(buffer_.data());
         buffer_.consume(buffer_.size());
         if (!joined_ && !greets(text)) return close();
-        if (!std::exchange(joined_, true)) house().session.join(*this);
-        house().session.receive(*this, text);
+        if (!std::exchange(joined_, true)) house().session->join(*this);
+        house().session->receive(*this, text);
         read();
     }
 
@@ -193,7 +195,7 @@ private:
         }
         std::uint32_t wanted = 0;
         std::from_chars(number.data(), number.data() + number.size(), wanted);
-        const auto file = guest_->house().session.file(wanted);
+        const auto file = guest_->house().session->file(wanted);
         if (!file) return answer(http::status::not_found, "text/plain", "there is no such file");
         try {
             answer(http::status::ok, "application/octet-stream", read_text(*file));
@@ -235,13 +237,15 @@ private:
 class Server {
 public:
     explicit Server(const StudioOptions& options)
-        : options_(options),
-          acceptor_(io_),
-          timer_(io_),
-          session_(options, [this](std::function<void()> work) { asio::post(io_, std::move(work)); }),
-          house_{new_token(), session_} {
+        : options_(options), house_{new_token()}, acceptor_(io_), timer_(io_), session_(options, [this](auto work) {
+              asio::post(io_, std::move(work));
+          }) {
+        house_.session = &session_;
         listen();
     }
+    ~Server() { house_.session = nullptr; }
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
 
     void run() {
         const std::string address =
@@ -284,11 +288,11 @@ private:
     }
 
     const StudioOptions& options_;
+    House house_;  ///< before what the connections lie in, which leave it when that is destroyed
     asio::io_context io_{1};
     tcp::acceptor acceptor_;
     asio::steady_timer timer_;
     Session session_;
-    House house_;
 };
 
 }  // namespace

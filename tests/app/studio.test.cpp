@@ -5,10 +5,10 @@
 using Catch::Matchers::Contains;
 
 TEST_CASE("studio prints an address with a token, and ends when it is asked to", "[app]") {
-    const Workplace place;
-    place.write("stalk.l", "lsystem: 1\nderivation length: 3\naxiom: A\nA --> F(1)A\nendlsystem\n");
-    const auto printed = [&] { return text_of(place.path() / ".out").find("/#token=") != std::string::npos; };
     for (const int signal : {SIGINT, SIGTERM}) {
+        const Workplace place;
+        place.write("stalk.l", "lsystem: 1\nderivation length: 3\naxiom: A\nA --> F(1)A\nendlsystem\n");
+        const auto printed = [&] { return text_of(place.path() / ".out").find("/#token=") != std::string::npos; };
         const Outcome outcome =
             place.run_until({"studio", "--no-browser", "stalk.l"}, printed, [&](pid_t child) { kill(child, signal); });
         CHECK(outcome.code == 0);

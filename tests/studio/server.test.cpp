@@ -134,6 +134,17 @@ TEST_CASE("a page of the studio with the token is told what grows", "[studio]") 
     CHECK(page.read_text()["say"] == "document");
 }
 
+TEST_CASE("a studio ends while pages are open, and they are told", "[studio]") {
+    auto studio = std::make_unique<Served>();
+    Client page(*studio, "http://" + studio->host(), studio->host());
+    page.write(R"({"do": "hello", "id": 1, "token": ")" + studio->token + "\"}");
+    CHECK(page.read_text()["reply"] == 1);
+    studio.reset();
+    while (!page.read_text().is_null()) {
+    }
+    CHECK(page.error);
+}
+
 TEST_CASE("pages of other origins, without the token or with too long a message are turned away", "[studio]") {
     const Served studio;
     Client foreign(studio, "http://evil.example", studio.host());

@@ -89,7 +89,8 @@ Outcome walked(const Drawing& drawing, std::size_t chunk) {
 bool goes_in_parallel(const Drawing& drawing, std::size_t chunk) {
     const SymbolTable symbols(drawing.model);
     Interpretation result;
-    return walk_in_parallel({drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0, nullptr}, chunk, result);
+    return walk_in_parallel({drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0, nullptr}, chunk,
+                            result);
 }
 
 class RandomString {
@@ -242,7 +243,8 @@ TEST_CASE("axes that reach over many stretches keep their number, whoever walks 
     const auto wrong_axes = [&] {
         const SymbolTable symbols(drawing.model);
         Interpretation result;
-        REQUIRE(walk_in_parallel({drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0, nullptr}, 50, result));
+        REQUIRE(walk_in_parallel({drawing.model, symbols, drawing.string, drawing.settings, nullptr, 0, nullptr}, 50,
+                                 result));
         const auto& rows = result.geometry.internodes;
         REQUIRE(rows.size() == 2 + 9 * laterals);
         int wrong = (rows.front().axis != 0) + (rows.back().axis != 0) + (result.geometry.axes != laterals + 2);
