@@ -300,6 +300,32 @@ TEST_CASE("files that go away while a studio runs are told, and end nothing", "[
     CHECK(page.last("growth")["step"] == 6);
 }
 
+TEST_CASE("a scene with a process grows with its fields, which pages can see", "[studio]") {
+    const std::string model =
+        "environment light;\nlsystem: 1\nderivation length: 5\nStartEach: { n = n + 1; }\naxiom: A\n"
+        "A --> F(1) ?light(1) A\nendlsystem\n";
+    const std::string scene =
+        "[[plant]]\nmodel = \"tree.l\"\n[environment.light]\nprocess = \"voxel-shade\"\n"
+        "voxel = 0.5\n";
+    OpenStudio studio(scene, "scene.toml");
+    studio.folder.write("tree.l", model);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["step"] == 5);
+    CHECK(page.last("document")["kind"] == "scene");
+    CHECK(page.last("document")["texts"].size() == 2);
+    REQUIRE(!page.last("fields")["fields"].empty());
+    CHECK(page.last("fields")["fields"][0]["name"] == "light");
+    studio.ask({{"do", "field"}, {"growth", page.last("growth")["growth"]}, {"name", "light"}});
+    studio.wait([&] { return page.packets.back().substr(0, 4) == "ESF1"; });
+    const std::string& field = page.packets.back();
+    const auto voxels =
+        number_at<std::uint32_t>(field, 12) * number_at<std::uint32_t>(field, 16) * number_at<std::uint32_t>(field, 20);
+    CHECK(voxels > 0);
+    CHECK(field.size() == 24 + 24 + 8 + 4 + 8 + voxels);  // "light", padded
+    CHECK(number_at<float>(field, 48) < number_at<float>(field, 52));
+}
+
 TEST_CASE("malformed requests are answered, not obeyed", "[studio]") {
     OpenStudio studio(tree);
     ListeningPage& page = studio.begin();

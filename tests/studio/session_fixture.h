@@ -58,7 +58,8 @@ public:
         wait([this] {
             const Json growth = page.last("growth");
             const Json document = page.last("document");
-            return !growth.is_null() && !document.is_null() && growth["state"] == "done" && growth["version"] == document["version"];
+            return !growth.is_null() && !document.is_null() && growth["state"] == "done" &&
+                   growth["version"] == document["version"];
         });
     }
 
