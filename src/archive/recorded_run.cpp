@@ -6,6 +6,7 @@
 #include "archive/field_reader.h"
 #include "archive/geometry_file.h"
 #include "archive/xml.h"
+#include "base/csv_file.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -166,22 +167,6 @@ std::map<std::array<std::uint8_t, 3>, RecordedMaterial> materials_of(const fs::p
     return materials;
 }
 
-// Cells between commas; in quotes commas are text.
-std::vector<std::string> cells_of(std::string_view line) {
-    std::vector<std::string> cells(1);
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"') {
-            quoted = !quoted;
-        } else if (c == ',' && !quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += c;
-        }
-    }
-    return cells;
-}
-
 double cell_value(const fs::path& file, const std::string& text) {
     if (text.empty() || text == "nan" || text == "-nan") return std::numeric_limits<double>::quiet_NaN();
     if (text == "inf" || text == "-inf") return std::numeric_limits<double>::infinity() * (text[0] == '-' ? -1 : 1);
@@ -324,7 +309,7 @@ RecordedTable read_table(const fs::path& file) {
     RecordedTable table;
     std::size_t columns = 0, names = 0;
     for (std::size_t at = 0, end; (end = text.find('\n', at)) != std::string::npos; at = end + 1) {
-        std::vector<std::string> cells = cells_of(std::string_view(text).substr(at, end - at));
+        std::vector<std::string> cells = csv_cells(std::string_view(text).substr(at, end - at));
         if (at == 0) {
             columns = cells.size();
             names = static_cast<std::size_t>(std::find(cells.begin(), cells.end(), "name") - cells.begin());

@@ -72,4 +72,19 @@ std::string csv_number(double value) {
     return std::isfinite(value) ? format_exact(value) : "";
 }
 
+std::vector<std::string> csv_cells(std::string_view line) {
+    std::vector<std::string> cells(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            cells.emplace_back();
+        } else {
+            cells.back() += c;
+        }
+    }
+    return cells;
+}
+
 }  // namespace espalier

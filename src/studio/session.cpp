@@ -2,6 +2,7 @@
 
 #include "espalier/base/file.h"
 
+#include "base/csv_file.h"
 #include "studio/inquiry.h"
 #include "studio/session_viewer.h"
 
@@ -32,22 +33,6 @@ Json json_of(const Diagnostic& diagnostic) {
             {"column", diagnostic.place.column},
             {"message", diagnostic.message},
             {"source", diagnostic.source}};
-}
-
-// The cells of a line of CSV, which may stand in quotes.
-std::vector<std::string> cells_of(std::string_view line) {
-    std::vector<std::string> cells{""};
-    bool quoted = false;
-    for (const char c : line) {
-        if (c == '"') {
-            quoted = !quoted;
-        } else if (c == ',' && !quoted) {
-            cells.emplace_back();
-        } else {
-            cells.back() += c;
-        }
-    }
-    return cells;
 }
 
 Json cell_json(const std::string& cell) {
@@ -287,7 +272,7 @@ void Session::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& w
 void Session::add_statistics(const std::string& rows) {
     std::size_t begin = 0;
     for (std::size_t end; (end = rows.find('\n', begin)) != std::string::npos; begin = end + 1) {
-        std::vector<std::string> cells = cells_of(std::string_view(rows).substr(begin, end - begin));
+        std::vector<std::string> cells = csv_cells(std::string_view(rows).substr(begin, end - begin));
         if (columns_.empty()) {
             columns_ = std::move(cells);
             untold_rows_ = 0;

@@ -216,7 +216,7 @@ TEST_CASE("nothing is written outside the opened folder", "[studio]") {
     OpenStudio studio(tree);
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
-    for (const char* path : {"../elsewhere.l", "/tmp/elsewhere.l", "a/../../elsewhere.l"}) {
+    for (const char* path : {"../elsewhere.l", "/elsewhere.l", "a/../../elsewhere.l"}) {
         INFO(path);
         CHECK(studio.ask({{"do", "save"}, {"path", path}}).contains("error"));
     }
