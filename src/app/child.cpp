@@ -2,7 +2,7 @@
 
 #include "espalier/base/error.h"
 
-#include "base/child_program.h"
+#include "base/platform.h"
 #include "command.h"
 
 #include <fmt/format.h>
@@ -10,14 +10,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
-#include <cerrno>
 #include <chrono>
-#include <csignal>
-#include <fcntl.h>
+#include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <thread>
-#include <unistd.h>
+#include <utility>
 
 namespace espalier::app {
 namespace {
@@ -27,40 +25,16 @@ static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may only 
 
 // A terminal that is closed may say so twice.
 void count_signal(int signal) {
-    if (signal != SIGHUP || signals == 0) ++signals;
+    if (!platform::is_hang_up(signal) || signals == 0) ++signals;
 }
 
-/// The end to read from of a pipe that nobody writes to. The other end is this program's alone and closes with it.
-int lifeline() {
-    static const int end = [] {
-        int ends[2];
-        if (::pipe(ends) != 0) throw RunError("cannot make a pipe: " + std::generic_category().message(errno));
-        for (const int descriptor : ends) ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
-        return ends[0];
-    }();
-    return end;
+platform::OpenFile log_file(const std::filesystem::path& path) {
+    if (path.empty()) return {};
+    std::error_code error;
+    platform::OpenFile file(path, platform::OpenFile::Mode::create, error);
+    if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), error.message()));
+    return file;
 }
-
-/// A descriptor that closes itself.
-class LogFile {
-public:
-    explicit LogFile(const std::filesystem::path& path)
-        : descriptor_(path.empty() ? -1 : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-        if (!path.empty() && descriptor_ < 0) {
-            throw RunError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(errno)));
-        }
-    }
-    ~LogFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    LogFile(const LogFile&) = delete;
-    LogFile& operator=(const LogFile&) = delete;
-
-    int descriptor() const { return descriptor_; }
-
-private:
-    int descriptor_;
-};
 
 }  // namespace
 
@@ -72,13 +46,13 @@ int SignalCounter::count() const {
 
 int start_run(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
               const std::filesystem::path& log) {
-    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-    const LogFile log_file(log);
-    ChildProgram run{{program, "run"}, folder, lifeline(), log_file.descriptor()};
-    run.words.insert(run.words.end(), arguments.begin(), arguments.end());
-    run.words.emplace_back(child_flag);
+    const std::string program = platform::program_file().string();
+    const platform::OpenFile output = log_file(log);
+    std::vector<std::string> words{program, "run"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.emplace_back(child_flag);
     try {
-        return start(run);
+        return platform::start({std::move(words), folder, platform::lifeline(), output.number()});
     } catch (const std::system_error& error) {
         throw RunError(fmt::format("cannot start {}: {}", program, error.code().message()));
     }
@@ -86,17 +60,15 @@ int start_run(const std::vector<std::string>& arguments, const std::filesystem::
 
 void end_with_parent() {
     std::thread([] {
-        char byte = 0;
-        while (::read(STDIN_FILENO, &byte, 1) < 0 && errno == EINTR) {
-        }
-        _exit(exit_code::interrupted);
+        platform::wait_for_end_of_input();
+        std::_Exit(exit_code::interrupted);
     }).detach();
 }
 
 int wait_for_program(int child, const SignalCounter& signals_so_far) {
     int code = 0;
-    for (int passed_on = 0; poll(child, code) == 0;) {
-        for (; passed_on < signals_so_far.count(); ++passed_on) ::kill(child, SIGTERM);
+    for (int passed_on = 0; platform::poll(child, code) == 0;) {
+        for (; passed_on < signals_so_far.count(); ++passed_on) platform::end(child, platform::Ending::as_kill);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return code;

@@ -1,7 +1,7 @@
 // Runs of this very program as processes of their own.
 #pragma once
 
-#include "end_signals.h"
+#include "base/platform.h"
 
 #include <filesystem>
 #include <string>
@@ -18,7 +18,7 @@ public:
     int count() const;
 
 private:
-    EndSignals signals_;
+    platform::EndSignals signals_;
 };
 
 /// Starts `espalier run` with arguments, in a folder, with its standard output and error going to `log` (made anew;

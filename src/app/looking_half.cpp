@@ -2,12 +2,11 @@
 
 #include "espalier/base/error.h"
 
+#include "base/platform.h"
 #include "program_data.h"
 
-#include <fmt/format.h>
-
-#include <dlfcn.h>
 #include <filesystem>
+#include <string>
 
 namespace espalier::app {
 namespace {
@@ -31,7 +30,8 @@ bool open_looking_half() {
     static const bool opened = [] {
         const fs::path file = module_file();
         if (file.empty()) return false;
-        if (!dlopen(file.c_str(), RTLD_LAZY | RTLD_GLOBAL)) throw RunError(fmt::format("cannot open {}", dlerror()));
+        std::string why;
+        if (!platform::open_library(file, /*shared=*/true, why)) throw RunError("cannot open " + why);
         return true;
     }();
     return opened;

@@ -1,6 +1,7 @@
 // The command line, and the one place that catches.
 #include "espalier/base/error.h"
 
+#include "base/platform.h"
 #include "base/text.h"
 #include "command.h"
 #include "looking_half.h"
@@ -10,14 +11,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
-#include <fcntl.h>
 #include <filesystem>
 #include <new>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -92,13 +90,6 @@ int run_whole(Command& command) {
         throw RunError(fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)));
     }
     return code;
-}
-
-// A file must not be opened under the number of a standard stream that somebody closed, or messages land in it.
-void occupy_standard_streams() {
-    int descriptor = open("/dev/null", O_RDWR);
-    while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
-    if (descriptor >= 0) close(descriptor);
 }
 
 /// The program's options and the commands that have registered themselves by now.
@@ -187,8 +178,7 @@ CommandMakers& command_makers() {
 }  // namespace espalier::app
 
 int main(int argc, char** argv) {
-    espalier::app::occupy_standard_streams();
-    // A file larger than the system allows is an error of the writer, not the end of the program.
-    std::signal(SIGXFSZ, SIG_IGN);
+    espalier::platform::occupy_standard_streams();
+    espalier::platform::report_large_files();
     return espalier::app::parse_and_run(argc, argv);
 }

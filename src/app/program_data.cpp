@@ -1,6 +1,6 @@
 #include "program_data.h"
 
-#include <system_error>
+#include "base/platform.h"
 
 namespace espalier::app {
 namespace {
@@ -14,8 +14,7 @@ bool is_data(const fs::path& folder) {
 }  // namespace
 
 fs::path program_folder() {
-    std::error_code ignored;
-    return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    return platform::program_file().parent_path();
 }
 
 fs::path program_data() {

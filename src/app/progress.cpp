@@ -1,10 +1,11 @@
 #include "progress.h"
 
+#include "base/platform.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
-#include <unistd.h>
 
 namespace espalier::app {
 namespace {
@@ -35,7 +36,7 @@ std::string grouped(std::size_t number) {
     return digits;
 }
 
-ProgressReport::ProgressReport(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressReport::ProgressReport(bool quiet) : quiet_(quiet), terminal_(platform::has_terminal()) {}
 
 ProgressReport::~ProgressReport() {
     if (drawn_) say("\n");

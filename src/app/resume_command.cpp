@@ -2,15 +2,15 @@
 #include "espalier/base/error.h"
 #include "espalier/simulation/simulation.h"
 
+#include "base/platform.h"
 #include "command.h"
 #include "options.h"
 #include "simulation/recorded_command.h"
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <system_error>
-#include <unistd.h>
+#include <utility>
 
 namespace espalier::app {
 namespace {
@@ -62,7 +62,7 @@ Examples:
 private:
     // The program itself once more, in the folder where the run was started.
     [[noreturn]] void start(const RecordedCommand& command) const {
-        std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "run"};
+        std::vector<std::string> words{platform::program_file().string(), "run"};
         words.insert(words.end(), command.arguments.begin(), command.arguments.end());
         words.insert(words.end(), {"--output", fs::absolute(run_).lexically_normal().string(), "--resume"});
         const int every = checkpoint_every_ > 0 ? checkpoint_every_ : command.checkpoint_every;
@@ -71,12 +71,8 @@ private:
         if (disk_.bytes() > 0) words.insert(words.end(), {"--disk", std::to_string(disk_.bytes())});
         if (quiet_) words.emplace_back("--quiet");
         if (wants_json()) words.emplace_back("--json");
-        std::vector<char*> arguments;
-        for (std::string& word : words) arguments.push_back(word.data());
-        arguments.push_back(nullptr);
         fs::current_path(command.folder);
-        execv(arguments.front(), arguments.data());
-        throw RunError("cannot start the run: " + std::generic_category().message(errno));
+        throw RunError("cannot start the run: " + platform::become(std::move(words)).message());
     }
 
     DiskOption disk_;

@@ -11,13 +11,8 @@
 #include <tbb/global_control.h>
 
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <ctime>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-#include <unistd.h>
 
 namespace espalier::app {
 namespace {
@@ -32,17 +27,7 @@ std::atomic<bool> silent{false};
 void request_interrupt(int) {
     interrupt = true;
     if (silent) return;
-    static const char message[] = "\nfinishing this step (press Ctrl-C again to stop at once)\n";
-    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message, sizeof message - 1);
-}
-
-// By itself the GNU library raises this threshold up to 32 MiB, and columns that plants have outgrown lie unused
-// between those that came later: up to a quarter of what a run held.
-void give_back_what_is_large() {
-#ifdef __GLIBC__
-    constexpr int large = 1 << 20;
-    mallopt(M_MMAP_THRESHOLD, large);
-#endif
+    platform::write_error("\nfinishing this step (press Ctrl-C again to stop at once)\n");
 }
 
 // The process that does not answer cannot be left: the program ends where it is.
@@ -143,8 +128,7 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
 
 InterruptibleRun::InterruptibleRun(bool quiet) : signals_(request_interrupt, /*only_once=*/true) {
     silent = quiet;
-    // Progress that nobody reads any more must not end a run.
-    std::signal(SIGPIPE, SIG_IGN);
+    platform::report_closed_outputs();  // progress that nobody reads any more must not end a run
 }
 
 const std::atomic<bool>& InterruptibleRun::interrupted() {
@@ -152,7 +136,7 @@ const std::atomic<bool>& InterruptibleRun::interrupted() {
 }
 
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output) {
-    give_back_what_is_large();
+    platform::give_back_large_blocks();
     std::optional<tbb::global_control> threads;
     if (arguments.threads > 0) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.threads));

@@ -3,7 +3,7 @@
 
 #include "espalier/simulation/simulation.h"
 
-#include "end_signals.h"
+#include "base/platform.h"
 #include "model_arguments.h"
 
 #include <atomic>
@@ -60,7 +60,7 @@ public:
     static const std::atomic<bool>& interrupted();
 
 private:
-    EndSignals signals_;
+    platform::EndSignals signals_;
 };
 
 /// Grows the scene and records it in a folder; progress and warnings go to standard error. `inputs` is what was read.

@@ -2,9 +2,10 @@
 
 #include "espalier/base/error.h"
 
+#include "base/platform.h"
+
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
@@ -16,14 +17,13 @@ TemporaryFolder::TemporaryFolder(const std::string& purpose) {
     std::error_code error;
     fs::path folder = fs::temp_directory_path(error);
     if (!error) folder = fs::absolute(folder) / fmt::format("espalier-{}-XXXXXX", purpose);
-    std::string name = folder.string();
-    if (!error && !mkdtemp(name.data())) error = {errno, std::generic_category()};
+    if (!error) error = platform::make_unique_folder(folder);
     if (error) {
         const char* wanted = std::getenv("TMPDIR");
         throw RunError(
             fmt::format("cannot make a temporary folder in {}: {}", wanted ? wanted : "/tmp", error.message()));
     }
-    path_ = name;
+    path_ = folder;
 }
 
 TemporaryFolder::~TemporaryFolder() {

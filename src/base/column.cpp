@@ -1,10 +1,8 @@
 #include "espalier/base/column.h"
 
-#include <cstdlib>
+#include "base/platform.h"
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
+#include <cstdlib>
 
 namespace espalier {
 namespace {
@@ -18,9 +16,7 @@ void* allocate_huge(std::size_t bytes) {
     const std::size_t whole = (bytes + huge_page - 1) / huge_page * huge_page;
     void* const at = std::aligned_alloc(huge_page, whole);
     if (!at) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    madvise(at, whole, MADV_HUGEPAGE);  // advice: without it everything works, more slowly
-#endif
+    platform::prefer_huge_pages(at, whole);
     return at;
 }
 

@@ -7,25 +7,21 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <fcntl.h>
 #include <system_error>
-#include <unistd.h>
 
 namespace espalier {
 namespace {
 
-[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
-    throw RunError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(error)));
+void require_written(const std::filesystem::path& path, const std::error_code& error) {
+    if (error) throw RunError(fmt::format("cannot write {}: {}", path.string(), error.message()));
 }
 
 }  // namespace
 
 CsvFile::CsvFile(const std::filesystem::path& path, std::string_view header) : path_(path) {
     write_text(path, fmt::format("{}\n", header));
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (descriptor_ < 0) fail_to_write(path, errno);
+    open();
     size_ = header.size() + 1;
 }
 
@@ -35,25 +31,20 @@ CsvFile::CsvFile(const std::filesystem::path& path, std::size_t size) : path_(pa
     if (error || there < size) {
         throw RunError(fmt::format("{} is shorter than it was at the checkpoint", path.string()));
     }
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (descriptor_ < 0 || ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) fail_to_write(path_, errno);
+    open();
+    require_written(path_, file_.truncate(size));
 }
 
-CsvFile::~CsvFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+void CsvFile::open() {
+    std::error_code error;
+    file_ = platform::OpenFile(path_, platform::OpenFile::Mode::append, error);
+    require_written(path_, error);
 }
 
 void CsvFile::append(std::string_view lines) {
-    std::string_view rest = lines;
-    while (!rest.empty()) {
-        const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) {
-            const int error = errno;
-            if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) fail_to_write(path_, errno);
-            fail_to_write(path_, error);
-        }
-        rest.remove_prefix(static_cast<std::size_t>(written));
+    if (const std::error_code error = file_.write(lines)) {
+        require_written(path_, file_.truncate(size_));
+        require_written(path_, error);
     }
     size_ += lines.size();
 }

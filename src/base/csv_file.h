@@ -1,6 +1,8 @@
 // A table that grows by whole lines: valid after every row, also after a crash or on a full disk.
 #pragma once
 
+#include "base/platform.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -15,9 +17,6 @@ public:
     CsvFile(const std::filesystem::path& path, std::string_view header);
     /// Goes on with a file that was `size` bytes long, and forgets what came behind. Throws RunError if it is shorter.
     CsvFile(const std::filesystem::path& path, std::size_t size);
-    ~CsvFile();
-    CsvFile(const CsvFile&) = delete;
-    CsvFile& operator=(const CsvFile&) = delete;
 
     /// Appends whole lines, each with its line break, in one write. Takes back a write that could not be completed
     /// and throws RunError.
@@ -25,8 +24,10 @@ public:
     std::size_t size() const { return size_; }  ///< bytes
 
 private:
+    void open();
+
     std::filesystem::path path_;
-    int descriptor_ = -1;
+    platform::OpenFile file_;
     std::size_t size_ = 0;
 };
 

@@ -9,14 +9,13 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fcntl.h>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 
 namespace espalier::timeline {
 namespace {
+
+using platform::OpenFile;
 
 constexpr std::uint64_t most_index_bytes = std::uint64_t{1} << 32;
 constexpr std::size_t page = 4096;  // the smallest there are
@@ -40,7 +39,7 @@ void CollectionFile::write() {
     const std::size_t at = opening.size() + written_;
     std::string tail = entries_.substr(written_) + std::string(closing);
     const bool within_page = at / page == (at + tail.size() - 1) / page;
-    if (descriptor_ >= 0 && within_page) {
+    if (file_.is_open() && within_page) {
         extend(at, tail);
     } else {
         write_anew();
@@ -49,21 +48,19 @@ void CollectionFile::write() {
 }
 
 void CollectionFile::write_anew() {
-    close();
+    file_.close();
     write_text(path_, fmt::format("{}{}{}", opening, entries_, closing));
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);  // without it every index is written anew
+    std::error_code ignored;  // without it every index is written anew
+    file_ = OpenFile(path_, OpenFile::Mode::overwrite, ignored);
 }
 
 void CollectionFile::extend(std::size_t at, const std::string& tail) {
-    const ssize_t written = ::pwrite(descriptor_, tail.data(), tail.size(), static_cast<off_t>(at));
-    if (written == static_cast<ssize_t>(tail.size())) return;
-    const int error = written < 0 ? errno : ENOSPC;
+    const std::error_code error = file_.write_at(at, tail);
+    if (!error) return;
     // The old end again: it takes no room that the file did not have.
-    const bool restored = ::pwrite(descriptor_, closing.data(), closing.size(), static_cast<off_t>(at)) ==
-                              static_cast<ssize_t>(closing.size()) &&
-                          ::ftruncate(descriptor_, static_cast<off_t>(at + closing.size())) == 0;
-    throw RunError(fmt::format("cannot write {}: {}{}", path_.string(), std::generic_category().message(error),
-                               restored ? "" : "; its end is lost"));
+    const bool restored = !file_.write_at(at, closing) && !file_.truncate(at + closing.size());
+    throw RunError(
+        fmt::format("cannot write {}: {}{}", path_.string(), error.message(), restored ? "" : "; its end is lost"));
 }
 
 void CollectionFile::save(std::ostream& out) const {
@@ -75,15 +72,6 @@ void CollectionFile::restore(std::istream& in) {
     if (entries_.empty()) return;
     write_anew();
     written_ = entries_.size();
-}
-
-void CollectionFile::close() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = -1;
-}
-
-CollectionFile::~CollectionFile() {
-    close();
 }
 
 }  // namespace espalier::timeline

@@ -1,6 +1,8 @@
 // A .pvd: the index ParaView opens, one data set per time and part. Whole after every frame.
 #pragma once
 
+#include "base/platform.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <iosfwd>
@@ -11,9 +13,6 @@ namespace espalier::timeline {
 class CollectionFile {
 public:
     explicit CollectionFile(std::filesystem::path path) : path_(std::move(path)) {}
-    ~CollectionFile();
-    CollectionFile(const CollectionFile&) = delete;
-    CollectionFile& operator=(const CollectionFile&) = delete;
 
     /// `file` is relative to the collection's folder. Nothing is written before `write`.
     void add(double time, int part, const std::string& name, const std::string& file);
@@ -27,12 +26,11 @@ public:
 private:
     void write_anew();
     void extend(std::size_t at, const std::string& tail);
-    void close();
 
     std::filesystem::path path_;
     std::string entries_;
     std::size_t written_ = 0;  ///< how much of `entries_` is in the file
-    int descriptor_ = -1;      ///< of the file as it was last written anew
+    platform::OpenFile file_;  ///< as it was last written anew
 };
 
 }  // namespace espalier::timeline

@@ -5,11 +5,11 @@
 #include "espalier/simulation/scene.h"
 
 #include "app/command.h"
-#include "app/end_signals.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/run_command.h"
 #include "axis_surface_options.h"
+#include "base/platform.h"
 #include "base/text.h"
 #include "frame_option.h"
 #include "picture_options.h"
@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <unistd.h>
 
 namespace espalier::app {
 namespace {
@@ -38,7 +37,7 @@ struct Interrupted {};
 /// One living line on a terminal, nothing in a pipe.
 class PictureProgress {
 public:
-    explicit PictureProgress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+    explicit PictureProgress(bool quiet) : shown_(!quiet && platform::has_terminal()) {}
     ~PictureProgress() {
         if (drawn_) fmt::print(stderr, "\n");
     }
@@ -120,7 +119,7 @@ a run. docs/render.md shows examples.)");
             if (interrupt) throw Interrupted();
         };
         const fs::path output = output_.empty() ? recorded.folder() / "render.png" : output_;
-        const EndSignals signals([](int) { interrupt = true; }, true);
+        const platform::EndSignals signals([](int) { interrupt = true; }, true);
         try {
             print_files(draw(job, output));
         } catch (const Interrupted&) {

@@ -5,17 +5,15 @@
 
 #include "app/child.h"
 #include "app/command.h"
-#include "app/end_signals.h"
 #include "app/model_arguments.h"
 #include "app/model_library.h"
 #include "app/program_data.h"
 #include "app/temporary_folder.h"
-#include "base/child_program.h"
+#include "base/platform.h"
 
 #include <fmt/format.h>
 
 #include <atomic>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -126,7 +124,7 @@ private:
 
 void open_browser(const std::string& address) {
     try {
-        start({.words = {"xdg-open", address}});
+        platform::start({.words = {"xdg-open", address}});
     } catch (const std::system_error&) {
         // Whoever has no such program opens the address that is printed.
     }
@@ -152,7 +150,7 @@ Examples:
     }
 
     int run() override {
-        const EndSignals signals([](int) { ended = true; }, /*only_once=*/true);
+        const platform::EndSignals signals([](int) { ended = true; }, /*only_once=*/true);
         const TemporaryFolder scratch("studio");
         studio::StudioOptions options;
         options.opened = opened();

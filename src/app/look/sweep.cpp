@@ -8,8 +8,8 @@
 #include "app/child.h"
 #include "app/command.h"
 #include "app/temporary_folder.h"
-#include "base/child_program.h"
 #include "base/csv_file.h"
+#include "base/platform.h"
 #include "simulation/recorded_command.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,6 @@
 #include <chrono>
 #include <fstream>
 #include <map>
-#include <sys/wait.h>
 #include <thread>
 
 namespace espalier::app {
@@ -64,23 +63,23 @@ public:
     }
     /// None is left behind, even where the next cannot be started.
     ~Crew() {
-        pass_on(SIGTERM);
-        for (const auto& entry : running_) ::waitpid(entry.first, nullptr, 0);
+        ask_to_end();
+        for (const auto& entry : running_) platform::wait_for(entry.first);
     }
     Crew(const Crew&) = delete;
     Crew& operator=(const Crew&) = delete;
 
     /// Tells of those that have ended.
     void reap() {
-        for (int child = 0, code = 0; (child = poll(-1, code)) != 0;) {
+        for (int child = 0, code = 0; (child = platform::poll(-1, code)) != 0;) {
             const auto place = running_.find(child);
             if (place == running_.end()) continue;
             tell(*place->second, code);
             running_.erase(place);
         }
     }
-    void pass_on(int signal) const {
-        for (const auto& entry : running_) ::kill(entry.first, signal);
+    void ask_to_end() const {
+        for (const auto& entry : running_) platform::end(entry.first, platform::Ending::as_kill);
     }
 
 private:
@@ -162,7 +161,7 @@ std::vector<const SweepRun*> Sweep::to_do() const {
 }
 
 std::vector<std::string> Sweep::command(const SweepRun& run) const {
-    std::vector<std::string> words{fs::read_symlink("/proc/self/exe").string(), "run"};
+    std::vector<std::string> words{platform::program_file().string(), "run"};
     words.insert(words.end(), run.words.begin(), run.words.end());
     words.insert(words.end(), {"--output", run.folder.string(), "--overwrite", "--quiet"});
     if (base_.threads > 0) words.insert(words.end(), {"--threads", std::to_string(base_.threads)});
@@ -187,7 +186,7 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
         while (signals.count() == 0 && next < left.size() && crew.size() < static_cast<std::size_t>(jobs)) {
             crew.start(*left[next++]);
         }
-        for (; passed_on < signals.count(); ++passed_on) crew.pass_on(SIGTERM);
+        for (; passed_on < signals.count(); ++passed_on) crew.ask_to_end();
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         crew.reap();
     }

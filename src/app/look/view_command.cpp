@@ -9,7 +9,7 @@
 #include "app/options.h"
 #include "app/run_command.h"
 #include "app/temporary_folder.h"
-#include "base/child_program.h"
+#include "base/platform.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ public:
     }
 
     bool is_running() {
-        if (child_ && poll(*child_, code_) != 0) child_.reset();
+        if (child_ && platform::poll(*child_, code_) != 0) child_.reset();
         return child_.has_value();
     }
     int code() const { return code_; }
@@ -62,7 +62,7 @@ public:
     void end(const SignalCounter& signals, bool wait) {
         if (!is_running()) return;
         // A signal that came is passed on below; a second would kill the run.
-        if (!wait && signals.count() == 0) kill(*child_, SIGINT);
+        if (!wait && signals.count() == 0) platform::end(*child_, platform::Ending::as_ctrl_c);
         code_ = wait_for_program(*child_, signals);
         child_.reset();
     }

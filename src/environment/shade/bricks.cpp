@@ -1,5 +1,6 @@
 #include "environment/shade/bricks.h"
 
+#include "espalier/base/column.h"
 #include "espalier/base/error.h"
 
 #include <fmt/format.h>
@@ -7,10 +8,6 @@
 
 #include <cstring>
 #include <new>
-
-#if __has_include(<sys/mman.h>)
-#include <sys/mman.h>
-#endif
 
 namespace espalier::environment {
 namespace {
@@ -96,12 +93,7 @@ std::int32_t ShadeBricks::add(const glm::ivec3& brick) {
     const std::size_t number = end();
     if (number / per_block == blocks_.size()) {
         constexpr std::size_t bytes = per_block * voxels * sizeof(Shade);
-        auto* block = static_cast<Shade*>(std::aligned_alloc(bytes, bytes));
-        if (block == nullptr) throw std::bad_alloc();
-        blocks_.emplace_back(block);
-#ifdef MADV_HUGEPAGE
-        madvise(block, bytes, MADV_HUGEPAGE);
-#endif
+        blocks_.emplace_back(static_cast<Shade*>(allocate_huge(bytes)));
     }
     bricks_.push_back(brick);
     reach_.push_back(0);

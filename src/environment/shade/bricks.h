@@ -85,7 +85,7 @@ private:
     // 2 MiB, a huge page where the system has them: neighbouring bricks are looked up without a miss of the page table.
     static constexpr std::size_t per_block = 512;
     struct Free {
-        void operator()(Shade* block) const { std::free(block); }
+        void operator()(Shade* block) const { free_huge(block); }
     };
 
     bool covers(const glm::ivec3& lower, const glm::ivec3& upper) const;

@@ -2,6 +2,8 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/platform.h"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,7 +12,6 @@
 
 #include <cmath>
 #include <optional>
-#include <unistd.h>
 
 namespace espalier::environment {
 namespace {
@@ -28,10 +29,6 @@ double area(const TriangleMesh& mesh) {
     return sum;
 }
 
-double machine_memory() {
-    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 void require_room(const TriangleMesh& mesh, double voxel, const std::string& file, const Place& place) {
     // The band's voxels lie in leaves that are part empty, and are made with an index of the nearest triangle each.
     const double band_voxels = area(mesh) / (voxel * voxel) * 2 * half_band;
@@ -39,7 +36,7 @@ void require_room(const TriangleMesh& mesh, double voxel, const std::string& fil
     const Box box = mesh.bounds();
     const glm::dvec3 farthest = glm::max(glm::abs(box.lower), glm::abs(box.upper)) / voxel;
     const bool countable = std::max({farthest.x, farthest.y, farthest.z}) < 1e9;
-    if (!countable || bytes > 0.5 * machine_memory()) {
+    if (!countable || bytes > 0.5 * static_cast<double>(platform::machine_memory())) {
         throw UserError(place, fmt::format("voxels of {:g} m are too small for {}: its level set would take about "
                                            "{:.3g} GB; the mesh is {:g} x {:g} x {:g} m",
                                            voxel, file, bytes / 1e9, box.upper.x - box.lower.x,

@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/picture_bytes.h"
+#include "base/platform.h"
 #include "environment/shapes/mesh_formats.h"
 #include "geometry/polygon_triangles.h"
 
@@ -13,7 +14,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <unistd.h>
 #include <unordered_map>
 
 namespace espalier::environment {
@@ -31,7 +31,7 @@ void require_file(const std::filesystem::path& file, const Place& place) {
     if (!std::filesystem::exists(file, error)) {
         throw UserError(place, fmt::format("there is no file {}", file.string()));
     }
-    if (!std::filesystem::is_regular_file(file, error) || access(file.c_str(), R_OK) != 0) {
+    if (!std::filesystem::is_regular_file(file, error) || platform::denied(file, platform::Access::read)) {
         throw UserError(place, fmt::format("{} cannot be read", file.string()));
     }
 }

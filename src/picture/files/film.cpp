@@ -4,7 +4,7 @@
 #include "espalier/base/file.h"
 #include "espalier/picture/render.h"
 
-#include "base/child_program.h"
+#include "base/platform.h"
 #include "picture/files/listening.h"
 
 #include <fmt/format.h>
@@ -16,14 +16,11 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
 #include <string>
-#include <sys/socket.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -79,18 +76,18 @@ std::vector<std::string> encoding_of(const std::string& extension) {
 
 constexpr const char* ffmpeg = "ffmpeg";
 
-[[noreturn]] void reject_without_ffmpeg(const fs::path& path, int error) {
+[[noreturn]] void reject_without_ffmpeg(const fs::path& path, const std::error_code& error) {
     throw RunError(
         fmt::format("{} is written by ffmpeg, which is not here ({}).\n"
                     "On Debian: apt-get install ffmpeg; .ogv needs nothing more",
-                    path.extension().string(), std::generic_category().message(error)));
+                    path.extension().string(), error.message()));
 }
 
 bool is_in_path(const std::string& program) {
     const char* path = std::getenv("PATH");
     std::istringstream folders(path ? path : "/bin:/usr/bin");
     for (std::string folder; std::getline(folders, folder, ':');) {
-        if (access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+        if (!platform::denied(fs::path(folder) / program, platform::Access::execute)) return true;
     }
     return false;
 }
@@ -110,10 +107,10 @@ public:
         start_ffmpeg(std::move(words));
     }
     ~FfmpegFilm() override {
-        close_pictures();
+        pictures_.close();
         if (child_ > 0) {
-            kill(child_, SIGKILL);
-            wait_for(child_);
+            platform::end(child_, platform::Ending::at_once);
+            platform::wait_for(child_);
         }
     }
     FfmpegFilm(const FfmpegFilm&) = delete;
@@ -123,53 +120,35 @@ public:
     void add(vtkImageData& picture) override {
         const int* size = picture.GetDimensions();
         for (int row = size[1] - 1; row >= 0; --row) {
-            write(static_cast<const char*>(picture.GetScalarPointer(0, row, 0)), 3 * static_cast<std::size_t>(size[0]));
+            const char* const pixels = static_cast<const char*>(picture.GetScalarPointer(0, row, 0));
+            if (platform::send(pictures_, {pixels, 3 * static_cast<std::size_t>(size[0])})) fail();
         }
     }
 
     void finish() override {
-        close_pictures();
-        if (wait_for(std::exchange(child_, 0)) != 0) fail();
+        pictures_.close();
+        if (platform::wait_for(std::exchange(child_, 0)) != 0) fail();
     }
 
 private:
     void start_ffmpeg(std::vector<std::string> words) {
-        int ends[2];
-        // Sockets, not a pipe: writing to an ffmpeg that has gone is then an error, not a signal that ends this
+        // A connection, not a pipe: writing to an ffmpeg that has gone is then an error, not a signal that ends this
         // program.
-        if (!words_ || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-            throw RunError("cannot talk to ffmpeg: " + std::generic_category().message(errno));
-        }
-        pictures_ = ends[1];
+        platform::OpenFile theirs;
+        const std::error_code error =
+            words_ ? platform::connect(pictures_, theirs) : std::error_code(errno, std::generic_category());
+        if (error) throw RunError("cannot talk to ffmpeg: " + error.message());
         try {
-            child_ = start({std::move(words), {}, ends[0], fileno(words_.get())});
-            close(ends[0]);
-        } catch (const std::system_error& error) {
-            close(ends[0]);
-            close_pictures();
-            reject_without_ffmpeg(path_, error.code().value());
+            child_ = platform::start({std::move(words), {}, theirs.number(), platform::number_of(words_.get())});
+        } catch (const std::system_error& missing) {
+            reject_without_ffmpeg(path_, missing.code());
         }
-    }
-
-    void write(const char* from, std::size_t count) {
-        while (count > 0) {
-            const ssize_t written = ::send(pictures_, from, count, MSG_NOSIGNAL);
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) fail();
-            from += written;
-            count -= static_cast<std::size_t>(written);
-        }
-    }
-
-    void close_pictures() {
-        if (pictures_ >= 0) close(pictures_);
-        pictures_ = -1;
     }
 
     /// With ffmpeg's own last words.
     [[noreturn]] void fail() {
-        close_pictures();
-        if (child_ > 0) wait_for(std::exchange(child_, 0));
+        pictures_.close();
+        if (child_ > 0) platform::wait_for(std::exchange(child_, 0));
         std::string said(4096, '\0');
         std::rewind(words_.get());
         said.resize(std::fread(said.data(), 1, said.size(), words_.get()));
@@ -179,7 +158,7 @@ private:
 
     fs::path path_;
     int child_ = 0;
-    int pictures_ = -1;
+    platform::OpenFile pictures_;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> words_{std::tmpfile(), std::fclose};
 };
 
@@ -192,7 +171,8 @@ std::string kind_of_file(const fs::path& path) {
 }
 
 void require_film_writer(const fs::path& path) {
-    if (kind_of_file(path) != ".ogv" && !is_in_path(ffmpeg)) reject_without_ffmpeg(path, ENOENT);
+    if (kind_of_file(path) != ".ogv" && !is_in_path(ffmpeg))
+        reject_without_ffmpeg(path, std::make_error_code(std::errc::no_such_file_or_directory));
 }
 
 std::unique_ptr<Film> film_of(const fs::path& path, const PictureSize& size, double pictures_per_second) {

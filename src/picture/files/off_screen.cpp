@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 
+#include "base/platform.h"
 #include "picture/files/listening.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,6 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <cstdlib>
-#include <dlfcn.h>
 
 #if __has_include(<EGL/egl.h>) && __has_include(<EGL/eglext.h>)
 #define ESPALIER_HAS_EGL 1
@@ -115,10 +115,11 @@ public:
 bool has_display() {
     static void* const connection = []() -> void* {
         if (!std::getenv("DISPLAY")) return nullptr;
-        void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_LOCAL);
+        std::string ignored;
+        void* const library = platform::open_library("libX11.so.6", /*shared=*/false, ignored);
         if (!library) return nullptr;
         using Open = void* (*)(const char*);
-        const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
+        const auto open = reinterpret_cast<Open>(platform::function_of(library, "XOpenDisplay"));
         return open ? open(nullptr) : nullptr;
     }();
     return connection != nullptr;
