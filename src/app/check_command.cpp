@@ -5,7 +5,7 @@
 #include "command.h"
 #include "model_library.h"
 #include "options.h"
-#include "simulation/side_file_check.h"
+#include "simulation/object/side_file_check.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>

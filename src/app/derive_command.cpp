@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "options.h"
-#include "simulation/insertion.h"
+#include "simulation/world/insertion.h"
 #include "turtle/asking.h"
 #include "turtle/terminals.h"
 

@@ -3,7 +3,7 @@
 
 #include "child.h"
 #include "command.h"
-#include "simulation/recorded_command.h"
+#include "simulation/run/recorded_command.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>

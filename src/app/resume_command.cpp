@@ -5,7 +5,7 @@
 #include "base/platform.h"
 #include "command.h"
 #include "options.h"
-#include "simulation/recorded_command.h"
+#include "simulation/run/recorded_command.h"
 
 #include <fmt/format.h>
 

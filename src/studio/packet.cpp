@@ -4,7 +4,7 @@
 
 #include "geometry/polygon_triangles.h"
 #include "studio/message_bytes.h"
-#include "timeline/organ_mesh.h"
+#include "timeline/meshes/organ_mesh.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -7,8 +7,8 @@
 #include "espalier/turtle/view_file.h"
 
 #include "language/side_files/side_files.h"
-#include "simulation/animation_file.h"
-#include "simulation/specifications.h"
+#include "simulation/object/animation_file.h"
+#include "simulation/object/specifications.h"
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "simulation/animation_file.h"
+#include "simulation/object/animation_file.h"
 
 #include "catch.h"
 

@@ -1,4 +1,4 @@
-#include "simulation/environment_file.h"
+#include "simulation/object/environment_file.h"
 
 #include "catch.h"
 #include "temporary_folder.h"

@@ -1,5 +1,5 @@
 // Values of settings at times, and plants that follow them.
-#include "simulation/keyframes.h"
+#include "simulation/scene/keyframes.h"
 
 #include "espalier/simulation/world.h"
 

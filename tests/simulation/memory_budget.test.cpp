@@ -1,5 +1,5 @@
 // What counts against --memory: more than strings and drawings, and the same whoever counts when.
-#include "simulation/memory_budget.h"
+#include "simulation/world/memory_budget.h"
 
 #include "espalier/simulation/world.h"
 #include "espalier/timeline/timeline.h"

@@ -2,7 +2,7 @@
 #include "espalier/simulation/world.h"
 
 #include "catch.h"
-#include "simulation/keyframes.h"
+#include "simulation/scene/keyframes.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>

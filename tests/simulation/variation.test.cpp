@@ -1,4 +1,4 @@
-#include "simulation/variation.h"
+#include "simulation/scene/variation.h"
 
 #include "espalier/base/error.h"
 

@@ -1,4 +1,4 @@
-#include "timeline/collection_file.h"
+#include "timeline/files/collection_file.h"
 
 #include "espalier/base/error.h"
 

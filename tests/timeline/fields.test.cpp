@@ -4,8 +4,8 @@
 #include "catch.h"
 #include "geometry/grid_file.h"
 #include "timeline/collections.h"
+#include "timeline/files/vti_file.h"
 #include "timeline/frames.h"
-#include "timeline/vti_file.h"
 
 #include <openvdb/io/File.h>
 #include <vtkFieldData.h>

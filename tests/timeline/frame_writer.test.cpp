@@ -1,5 +1,5 @@
 // Writing beside the run: order, room, failures.
-#include "timeline/frame_writer.h"
+#include "timeline/frames/frame_writer.h"
 
 #include "espalier/base/error.h"
 #include "espalier/geometry/openvdb_grid.h"

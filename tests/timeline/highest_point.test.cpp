@@ -1,4 +1,4 @@
-#include "timeline/highest_point.h"
+#include "timeline/measures/highest_point.h"
 
 #include "catch.h"
 

@@ -1,11 +1,11 @@
 // How large a mesh will be, against the mesh that is made.
-#include "timeline/mesh_size.h"
+#include "timeline/meshes/mesh_size.h"
 
 #include "espalier/geometry/generalized_cylinder.h"
 
 #include "catch.h"
 #include "timeline/frames.h"
-#include "timeline/plant_mesh.h"
+#include "timeline/meshes/plant_mesh.h"
 
 #include <array>
 #include <memory>

@@ -1,5 +1,5 @@
 // Columns that every frame writes anew.
-#include "timeline/rewritten_column.h"
+#include "timeline/frames/rewritten_column.h"
 
 #include "catch.h"
 

@@ -1,5 +1,5 @@
 // What VTK's own readers make of the files that are written without VTK's writers.
-#include "timeline/vtk_file.h"
+#include "timeline/files/vtk_file.h"
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"

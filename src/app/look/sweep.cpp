@@ -10,7 +10,7 @@
 #include "app/temporary_folder.h"
 #include "base/csv_file.h"
 #include "base/platform.h"
-#include "simulation/recorded_command.h"
+#include "simulation/run/recorded_command.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "app/run_command.h"
 #include "picture/charts/sweep_charts.h"
-#include "simulation/variation.h"
+#include "simulation/scene/variation.h"
 
 #include <filesystem>
 #include <string>

@@ -4,7 +4,7 @@
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
-#include "timeline/vtk_file.h"
+#include "timeline/files/vtk_file.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -9,8 +9,8 @@
 #include "base/folder.h"
 #include "base/text.h"
 #include "geometry/grid_file.h"
-#include "timeline/collection_file.h"
-#include "timeline/vti_file.h"
+#include "timeline/files/collection_file.h"
+#include "timeline/files/vti_file.h"
 
 #include <fmt/format.h>
 

@@ -8,9 +8,9 @@
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
-#include "timeline/internode_lives.h"
-#include "timeline/symbol_numbers.h"
-#include "timeline/vtk_file.h"
+#include "timeline/files/vtk_file.h"
+#include "timeline/measures/internode_lives.h"
+#include "timeline/meshes/symbol_numbers.h"
 
 #include <fmt/format.h>
 

@@ -12,12 +12,12 @@
 
 #include "base/bytes.h"
 #include "base/folder.h"
-#include "timeline/attribute_arrays.h"
-#include "timeline/chosen_parameters.h"
-#include "timeline/collection_file.h"
-#include "timeline/mesh_size.h"
-#include "timeline/plant_mesh.h"
-#include "timeline/vtk_file.h"
+#include "timeline/files/collection_file.h"
+#include "timeline/files/vtk_file.h"
+#include "timeline/meshes/attribute_arrays.h"
+#include "timeline/meshes/chosen_parameters.h"
+#include "timeline/meshes/mesh_size.h"
+#include "timeline/meshes/plant_mesh.h"
 
 #include <fmt/format.h>
 

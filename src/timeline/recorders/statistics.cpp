@@ -10,7 +10,7 @@
 #include "base/bytes.h"
 #include "base/csv_file.h"
 #include "base/text.h"
-#include "timeline/highest_point.h"
+#include "timeline/measures/highest_point.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,34 @@
+#include "simulation/object/named_file.h"
+
+#include <fmt/format.h>
+
+namespace espalier::simulation {
+
+namespace fs = std::filesystem;
+
+fs::path named_file(const std::string& name, const fs::path& beside, const fs::path& folder, const Place& place) {
+    std::error_code ignored;
+    for (const fs::path& where : {beside, folder}) {
+        if (fs::is_regular_file(where / name, ignored)) return where / name;
+    }
+    const std::string there = beside.empty() ? "here" : "in " + beside.string();
+    throw UserError(place, fmt::format("there is no file '{}' {}{}", name, there,
+                                       folder.empty() || folder == beside ? "" : " or in " + folder.string()));
+}
+
+std::string toml_text(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            quoted += '\\';
+            quoted += c;
+        } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+        } else {
+            quoted += c;
+        }
+    }
+    return quoted + "\"";
+}
+
+}  // namespace espalier::simulation

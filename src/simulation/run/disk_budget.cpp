@@ -1,0 +1,56 @@
+#include "simulation/run/disk_budget.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace espalier::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Files that vanish meanwhile were temporary.
+std::uintmax_t bytes_below(const fs::path& folder) {
+    std::uintmax_t bytes = 0;
+    std::error_code error;
+    for (fs::recursive_directory_iterator item(folder, error), end; !error && item != end; item.increment(error)) {
+        std::error_code gone;
+        if (!item->is_regular_file(gone)) continue;
+        const std::uintmax_t size = item->file_size(gone);
+        if (!gone) bytes += size;
+    }
+    return bytes;
+}
+
+}  // namespace
+
+DiskBudget::DiskBudget(const fs::path& folder, std::uintmax_t bytes, bool resumed) : folder_(folder), bytes_(bytes) {
+    look();
+    if (!resumed) before_ = std::exchange(written_, 0);
+}
+
+bool DiskBudget::is_spent() {
+    if (std::chrono::steady_clock::now() >= next_) look();
+    return written_ > bytes_;
+}
+
+void DiskBudget::look() {
+    constexpr int part_of_the_time = 50;
+    const auto begin = std::chrono::steady_clock::now();
+    const std::uintmax_t bytes = bytes_below(folder_);
+    written_ = bytes - std::min(bytes, before_);
+    const auto end = std::chrono::steady_clock::now();
+    next_ = end + part_of_the_time * (end - begin);
+}
+
+std::string size_text(std::uintmax_t bytes) {
+    const char* const units[] = {"bytes", "KiB", "MiB", "GiB", "TiB"};
+    auto size = static_cast<double>(bytes);
+    std::size_t unit = 0;
+    for (; size >= 1024 && unit + 1 < std::size(units); ++unit) size /= 1024;
+    return fmt::format("{:.4g} {}", size, units[unit]);
+}
+
+}  // namespace espalier::simulation

@@ -1,0 +1,228 @@
+#include "espalier/simulation/simulation.h"
+
+#include "espalier/base/file.h"
+#include "espalier/timeline/timeline.h"
+
+#include "base/bytes.h"
+#include "simulation/run/disk_budget.h"
+#include "simulation/run/run_record.h"
+#include "simulation/run/sealed_file.h"
+#include "simulation/run/written_files.h"
+#include "simulation/world/answer_watch.h"
+#include "simulation/world/memory_budget.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+namespace espalier::simulation {
+namespace {
+
+constexpr std::uint64_t signature = 0x32'6e75'52'7370'61;  // "apsRun2"
+constexpr std::uint64_t most_checkpoint_bytes = std::uint64_t{1} << 40;
+
+class Run {
+public:
+    Run(const Scene& scene, const RunOptions& options)
+        : scene_(scene),
+          options_(options),
+          world_(scene, options.memory, files_folder(options)),
+          record_(world_, options) {
+        warn();
+        if (!options.output.empty()) open_timeline();
+        if (!timeline_ || !timeline_->records()) world_.grow_unseen();
+    }
+
+    RunResult walk() {
+        try {
+            grow();
+            if (timeline_ && !world_.at_end()) write_checkpoint();
+            if (timeline_) timeline_->finish();
+        } catch (const std::exception& error) {
+            end_failed(error.what());
+            throw;
+        }
+        const bool cut_short = !world_.at_end();
+        write_record(cut_short ? "interrupted" : "done");
+        if (timeline_ && !cut_short) remove_checkpoint();
+        return {world_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
+                world_.modules(),    seconds(),          peak_memory()};
+    }
+
+private:
+    static std::filesystem::path files_folder(const RunOptions& options) {
+        return options.output.empty() ? std::filesystem::path() : files_folder_of(options.output);
+    }
+
+    // Of what is new.
+    void warn() {
+        const std::vector<Diagnostic>& all = world_.warnings();
+        if (options_.warn && all.size() > warned_) {
+            options_.warn({all.begin() + static_cast<std::ptrdiff_t>(warned_), all.end()});
+        }
+        warned_ = all.size();
+    }
+
+    // A mistake in the scene's [timeline] should not leave an empty folder behind.
+    void open_timeline() {
+        if (options_.resume) return resume_timeline();
+        // An empty folder may have been made for this run.
+        const bool existed = std::filesystem::exists(options_.output) && !std::filesystem::is_empty(options_.output);
+        const auto files_before = files_before_run(options_.output);
+        try {
+            timeline_.emplace(options_.output, scene_.timeline, world_.last_step(), options_.overwrite);
+        } catch (const UserError&) {
+            if (!existed) remove_if_unused(options_.output);
+            throw;
+        }
+        remove_checkpoint();
+        if (options_.overwrite && files_before) remove_written_files(options_.output, *files_before);
+        record_.note_files_before(files_below(files_folder_of(options_.output)));
+        begin_recording();
+        record_.begin(*timeline_);
+    }
+
+    void begin_recording() {
+        if (scene_.frames) timeline_->choose(*scene_.frames);
+        timeline_->keep_at_most(share_memory(options_.memory, scene_.environment.processes.size()).frames);
+        world_.attach(*timeline_);
+        disk_.emplace(options_.output, options_.disk, options_.resume);
+        write_record("running");
+    }
+
+    void resume_timeline() {
+        const std::filesystem::path path = checkpoint_of(options_.output);
+        record_.note_files_before(files_before_run(options_.output).value_or(std::set<std::filesystem::path>{}));
+        std::ifstream in(path, std::ios::binary);
+        if (!in) throw UserError(fmt::format("there is no {} to go on from", path.string()));
+        if (get<std::uint64_t>(in) != signature) throw RunError(fmt::format("{} is no checkpoint", path.string()));
+        if (!is_sealed(path)) throw RunError(fmt::format("{} is damaged: it is not what was written", path.string()));
+        timeline_.emplace(options_.output, scene_.timeline, world_.last_step(), get_text(in, most_checkpoint_bytes));
+        record_.resume(*timeline_, in);
+        world_.restore(in);
+        begin_recording();
+    }
+
+    void write_checkpoint() {
+        std::ostringstream timeline;
+        timeline_->save(timeline);
+        write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
+            return save(temporary, timeline.str()) && seal(temporary);
+        });
+    }
+
+    bool save(const std::filesystem::path& path, const std::string& timeline) const {
+        std::ofstream out(path, std::ios::binary);
+        put(out, signature);
+        put_text(out, timeline);
+        record_.save(out);
+        world_.save(out);
+        return out.flush().good();
+    }
+
+    void remove_checkpoint() const {
+        std::error_code ignored;
+        std::filesystem::remove(checkpoint_of(options_.output), ignored);
+    }
+
+    static void remove_if_unused(const std::filesystem::path& folder) {
+        std::error_code ignored;
+        std::filesystem::remove(folder / ".lock", ignored);
+        std::filesystem::remove(folder, ignored);  // does nothing unless empty
+    }
+
+    void grow() {
+        std::optional<AnswerWatch> watch;
+        if (options_.patience > 0 && options_.expired && world_.environment().size() > 0) {
+            watch.emplace(world_.environment(), options_.patience,
+                          [this](const std::string& process) { give_up(process); });
+        }
+        if (!options_.resume) {
+            world_.start();
+            note_step();
+        }
+        while (!world_.at_end() && !interrupted()) {
+            world_.step();
+            note_step();
+            const bool due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
+            if (timeline_ && due && !world_.at_end()) write_checkpoint();
+            if (disk_ && !world_.at_end()) check_disk();
+        }
+    }
+
+    void check_disk() {
+        if (!disk_->is_spent()) return;
+        write_checkpoint();
+        throw RunError(fmt::format(
+            "step {}: the run has written {}, and --disk allows {}. All of it is whole; `espalier resume {} --disk "
+            "SIZE` "
+            "goes on",
+            world_.steps_done(), size_text(disk_->written()), size_text(options_.disk), options_.output.string()));
+    }
+
+    void note_step() {
+        record_.add_step(world_.times());
+        warn();
+        if (options_.progress)
+            options_.progress({world_.steps_done(), world_.last_step(), world_.modules(), seconds()});
+    }
+
+    // What made the run fail is what the user must read; a disk too full to write it down is not.
+    void end_failed(const std::string& why) {
+        if (!timeline_) return;
+        try {
+            timeline_->finish();
+        } catch (const std::exception&) {
+        }
+        try {
+            write_record("failed: " + why);
+        } catch (const std::exception&) {
+        }
+    }
+
+    void give_up(const std::string& process) {
+        const std::string why = fmt::format(
+            "process '{}' has not answered the queries of a step for {} s; --timeout SECONDS gives it longer", process,
+            options_.patience);
+        try {
+            write_record("failed: " + why);
+        } catch (const std::exception&) {
+        }
+        options_.expired(why);
+    }
+
+    void write_record(const std::string& exit) {
+        if (timeline_) record_.write(*timeline_, exit, seconds());
+    }
+
+    bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    const Scene& scene_;
+    const RunOptions& options_;
+    World world_;
+    RunRecord record_;
+    std::optional<Timeline> timeline_;
+    std::optional<DiskBudget> disk_;
+    std::size_t warned_ = 0;  ///< of the world's warnings
+};
+
+}  // namespace
+
+std::filesystem::path checkpoint_of(const std::filesystem::path& output) {
+    return output / "checkpoint";
+}
+
+RunResult run(const Scene& scene, const RunOptions& options) {
+    RunOptions resolved = options;
+    if (resolved.memory == 0) resolved.memory = default_memory();
+    if (resolved.disk == 0) resolved.disk = default_disk;
+    return Run(scene, resolved).walk();
+}
+
+}  // namespace espalier::simulation

@@ -1,0 +1,149 @@
+#include "simulation/world/growing_plant.h"
+
+#include "base/prefetch.h"
+#include "simulation/scene/keyframes.h"
+#include "simulation/scene/scene_keyframes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace espalier::simulation {
+namespace {
+
+// A column's beginning; what follows the processor asks for itself.
+template <class Column>
+void prefetch_column(const Column& column) {
+    constexpr std::size_t most = 1024;
+    prefetch(column.data(), std::min(column.size() * sizeof(column[0]), most));
+}
+
+}  // namespace
+
+GrowingPlant::GrowingPlant(std::uint32_t plant, const Plant& from, std::shared_ptr<const SymbolTable> symbols,
+                           const DerivationSettings& settings)
+    : number(plant),
+      description(&from),
+      derivation(from.model, settings),
+      settings_(settings),
+      model_(&source_of(*from.model)),
+      insertions_(from),
+      symbols_(std::move(symbols)),
+      stage_key_(settings.seed, settings.plant, Stream::stage),
+      has_pictures_(derivation.has_homomorphism()) {
+    note_derived();
+}
+
+void GrowingPlant::note_derived() {
+    modules = string->size();
+    length = derivation.length();
+    stopped = derivation.stopped();
+}
+
+void GrowingPlant::set_length(int steps) {
+    derivation.set_length(steps);
+    note_derived();
+}
+
+void GrowingPlant::write_axiom(ModuleString* spare) {
+    rewrite(
+        [&](const ModuleString&, ModuleString& to) {
+            derivation.start(to);
+            if (description->in_time) regrow(to);
+        },
+        spare);
+}
+
+void GrowingPlant::derive(ModuleString* spare) {
+    if (!description->in_time) {
+        return rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
+    }
+    rewrite(
+        [&](const ModuleString&, ModuleString& to) {
+            const ModuleString nothing;
+            derivation.step(nothing, to);  // counts the step
+            regrow(to);
+        },
+        spare);
+}
+
+// The seed and the steps are those of every other time, so that an organ keeps its identity and its random numbers.
+void GrowingPlant::regrow(ModuleString& to) {
+    regrown_.emplace(description->in_time->at_step(derivation.steps_done()), settings_);
+    regrown_->set_lineage(true);
+    ModuleString from;
+    regrown_->start(to);
+    while (regrown_->steps_done() < regrown_->length() && !regrown_->stopped()) {
+        std::swap(from, to);
+        regrown_->step(from, to);
+    }
+}
+
+template <class Rewrite>
+void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
+    modules_before = modules;
+    if (spare && modules <= PlantMemory::most_of_small && !string.is_shared()) {
+        // What a large plant left is too much for a small one.
+        if (spare->letters.capacity() > 64 + 4 * modules) *spare = {};
+        if (std::exchange(keeps_previous_, false)) previous_ = {};
+        rewrite(*string, *spare);
+        std::swap(*string, *spare);
+    } else {
+        rewrite(*string, previous_.for_writing());
+        std::swap(string, previous_);
+        keeps_previous_ = true;
+    }
+    insertions_.apply(derivation.steps_done(), *string);
+    note_derived();
+}
+
+void GrowingPlant::interpret(const FieldValues& fields) {
+    Interpretation& result = interpretation.for_writing();
+    const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
+    const std::shared_ptr<const Drawing> now =
+        description->drawing_in_time ? description->drawing_in_time->at_step(derivation.steps_done()) : nullptr;
+    TurtleSettings turtle_now;
+    if (now) {
+        turtle_now = now->turtle;
+        turtle_now.pose = description->turtle.pose;
+    }
+    espalier::interpret(model(), *symbols_, *string, now ? turtle_now : description->turtle, pictures,
+                        {number, &fields}, result);
+    asks_ = result.asks();
+    if (description->stages.empty()) return;
+    Interpretation& staged = staged_.for_writing();
+    staged = result;
+    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading};
+    apply(now ? now->stages : description->stages, plant);
+}
+
+void GrowingPlant::prefetch_values() const {
+    prefetch(&*string, sizeof(ModuleString));
+    prefetch(&*interpretation, sizeof(Interpretation));
+    prefetch(description, sizeof(Plant));
+}
+
+void GrowingPlant::prefetch_for_derivation() const {
+    derivation.prefetch();
+    prefetch_column(string->letters);
+    prefetch_column(string->parameters);
+    prefetch_column(string->births);
+}
+
+void GrowingPlant::prefetch_for_interpretation() const {
+    prefetch_column(string->letters);
+    prefetch_column(string->parameters);
+    prefetch_column(interpretation->geometry.internodes);
+}
+
+PlantFrame GrowingPlant::frame(std::vector<Quantity> quantities) const {
+    return {number,
+            description->name,
+            &model(),
+            string.share(),
+            description->stages.empty() ? interpretation.share() : staged_.share(),
+            std::move(quantities),
+            description->palette.get(),
+            description->view ? description->view->background.get() : nullptr};
+}
+
+}  // namespace espalier::simulation

@@ -1,0 +1,125 @@
+#include "simulation/world/memory_budget.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace espalier::simulation {
+namespace {
+
+// ", most of them F, which the production at plant.l:4:1 writes most of": what a plant grew too large by.
+std::string commonest_module(const Model& model, const ModuleString& string) {
+    if (string.empty()) return "";
+    std::vector<std::size_t> counts(model.alphabet.size());
+    for (const LetterId letter : string.letters) ++counts[letter];
+    const auto letter = static_cast<LetterId>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+    const Production* writer = nullptr;
+    std::ptrdiff_t most = 0;
+    for (const LSystem& system : model.systems) {
+        for (const Production& production : system.productions) {
+            const std::ptrdiff_t written =
+                std::count_if(production.successor.begin(), production.successor.end(),
+                              [&](const ModuleTemplate& module) { return module.letter == letter; });
+            if (written <= most) continue;
+            most = written;
+            writer = &production;
+        }
+    }
+    std::string text = ", most of them " + model.alphabet.name(letter);
+    if (writer) text += fmt::format(", which the production at {} writes most of", to_string(writer->place));
+    return text;
+}
+
+}  // namespace
+
+MemoryShares share_memory(std::size_t budget, std::size_t processes) {
+    const std::size_t fields = processes == 0 ? 0 : budget / 2;
+    const std::size_t plants = budget - fields;
+    // The rest is for the program itself, and for what is drawn of a step's strings before it is counted.
+    return {plants / 8 * 7, plants / 16, processes == 0 ? 0 : fields / processes};
+}
+
+void MemoryBudget::limit_strings(GrowingPlant& plant) const {
+    const std::size_t others = held_.total() - plant.memory.strings;
+    const std::size_t taken = others + plant.derivation.working_memory(*plant.string);
+    plant.derivation.set_memory(bytes_ - std::min(taken, bytes_));
+}
+
+void MemoryBudget::count_strings(GrowingPlant& plant) {
+    const std::size_t before = plant.memory.strings;
+    plant.memory.set_strings(plant.string_before(), plant.modules_before, *plant.string,
+                             plant.derivation.working_memory(*plant.string));
+    if (plant.memory.strings != before) strings_ += plant.memory.strings - before;
+}
+
+void MemoryBudget::check_strings(std::span<const GrowingPlant> plants, int step) {
+    const std::size_t modules_before = modules_;
+    const bool is_full = !has_room();
+    if (is_full && plants.size() > 1) refuse_strings(plants, step, modules_before);
+    sum(plants);
+    // How much will be drawn is extrapolated from the previous step: as much of a module as then.
+    const double growth = modules_before == 0 ? 1 : static_cast<double>(modules_) / static_cast<double>(modules_before);
+    require(held_.grown(std::max(growth, 1.0), !recorders_.empty()), plants, step);
+}
+
+void MemoryBudget::count_drawn(GrowingPlant& plant, int step, bool many_plants) const {
+    const std::size_t before = plant.memory.drawn;
+    plant.memory.set_drawn(*plant.interpretation, many_plants);
+    if (!plant.description->stages.empty()) plant.memory.add_staged(plant.drawn());
+    if (recorders_.empty()) return;
+    RecordedMemory recorded;
+    for (const Recorder* recorder : recorders_) {
+        recorded += recorder->memory(step, *plant.string, plant.drawn());
+    }
+    plant.memory.set_recorded(recorded, before);
+}
+
+void MemoryBudget::check_drawn(std::span<const GrowingPlant> plants, int step) {
+    sum(plants);
+    require(held_, plants, step);
+}
+
+void MemoryBudget::sum(std::span<const GrowingPlant> plants) {
+    held_ = {};
+    modules_ = 0;
+    for (const GrowingPlant& plant : plants) {
+        held_.add(plant.memory);
+        modules_ += plant.modules;
+    }
+    strings_ = held_.strings;
+    besides_ = held_.total() - held_.strings;
+}
+
+// Which plants were rewritten when the others were given up depends on the threads: the message is about the strings
+// before.
+void MemoryBudget::refuse_strings(std::span<const GrowingPlant> plants, int step, std::size_t modules) const {
+    const auto is_done = [&](const GrowingPlant& plant) { return plant.derivation.steps_done() == step; };
+    const auto before = [&](const GrowingPlant& plant) {
+        return is_done(plant) ? plant.modules_before : plant.modules;
+    };
+    const GrowingPlant& largest =
+        *std::max_element(plants.begin(), plants.end(),
+                          [&](const GrowingPlant& a, const GrowingPlant& b) { return before(a) < before(b); });
+    // Of a string whose memory may have been passed on, the commonest module is not known.
+    const bool is_kept = step > 0 && (!is_plentiful() || before(largest) > PlantMemory::most_of_small);
+    const ModuleString* string = is_done(largest) ? largest.string_before() : &*largest.string;
+    throw RunError(
+        fmt::format("step {}: {} modules grow beyond the {} MiB that --memory leaves for plants; the largest was '{}' "
+                    "with {} modules{}",
+                    step, modules, bytes_ >> 20, largest.description->name, before(largest),
+                    is_kept && string ? commonest_module(largest.model(), *string) : ""));
+}
+
+void MemoryBudget::require(const PlantMemory& needed, std::span<const GrowingPlant> plants, int step) const {
+    if (needed.total() <= bytes_) return;
+    const GrowingPlant& largest =
+        *std::max_element(plants.begin(), plants.end(),
+                          [](const GrowingPlant& a, const GrowingPlant& b) { return a.modules < b.modules; });
+    throw RunError(
+        fmt::format("step {}: {} modules take {} MiB, with what is drawn and recorded of them, but --memory "
+                    "leaves {} MiB for plants; the largest is '{}' with {} modules{}",
+                    step, modules_, needed.total() >> 20, bytes_ >> 20, largest.description->name, largest.modules,
+                    commonest_module(largest.model(), *largest.string)));
+}
+
+}  // namespace espalier::simulation

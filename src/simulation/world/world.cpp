@@ -1,0 +1,379 @@
+#include "espalier/simulation/world.h"
+
+#include "espalier/base/read_log.h"
+
+#include "base/bytes.h"
+#include "simulation/scene/expressions.h"
+#include "simulation/scene/scene_keyframes.h"
+#include "simulation/world/every_plant.h"
+#include "simulation/world/growing_plant.h"
+#include "simulation/world/memory_budget.h"
+#include "simulation/world/string_checkpoint.h"
+#include "turtle/asking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace espalier::simulation {
+namespace {
+
+constexpr std::uint64_t checkpoint_signature = 0x34'646c'726f'57;  // "World4"
+
+class Stopwatch {
+public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(std::chrono::steady_clock::now()) {}
+    ~Stopwatch() { seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+// A plant's name as the name of a folder; names that differ stay different.
+std::string folder_of(const std::string& name) {
+    std::string folder;
+    for (const char c : name) {
+        const bool plain =
+            std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || (c == '.' && !folder.empty());
+        folder += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return folder;
+}
+
+// What a scene leaves open: plants draw by their number in the scene, and bear their model's name with a number.
+Scene decided(Scene scene) {
+    std::set<std::string> names;
+    for (const Plant& plant : scene.plants) names.insert(plant.name);
+    for (std::size_t i = 0; i < scene.plants.size(); ++i) {
+        Plant& plant = scene.plants[i];
+        if (!plant.stream) plant.stream = static_cast<std::uint32_t>(i);
+        if (!plant.name.empty()) continue;
+        const std::string stem = std::filesystem::path(source_of(*plant.model).name).stem().string();
+        plant.name = stem;
+        for (int number = 2; !names.insert(plant.name).second; ++number)
+            plant.name = fmt::format("{}-{}", stem, number);
+    }
+    return scene;
+}
+
+}  // namespace
+
+struct World::State {
+    State(const Scene& described, std::size_t budget, const std::filesystem::path& files);
+
+    void make_environment();
+    void make_plants(const std::filesystem::path& files);
+    void set_lengths();
+    DerivationSettings derivation_settings(const Plant& plant, const std::filesystem::path& files) const;
+    double time() const { return step * scene.dt; }
+    void rewrite(void (GrowingPlant::*stage)(ModuleString*));
+    void note_ends();
+    void find_fields_read();
+    void take_fields();
+
+    Scene scene;
+    MemoryShares shares;
+    MemoryBudget memory;
+    bool is_seen = true;
+    ReadLog* reads = ReadLog::current();  ///< of the thread that makes the world
+    std::vector<GrowingPlant> plants;
+    std::unique_ptr<Environment> environment;
+    std::vector<std::string> fields_read;  ///< by turtles
+    FieldValues fields;                    ///< while turtles walk, and after a restart until then
+    bool has_restored_fields = false;
+    std::vector<Recorder*> recorders;
+    int step = 0;
+    int longest = 0;  ///< derivation length of the plants
+    bool stopped = false;
+    StageTimes times;
+    std::vector<Diagnostic> warnings;
+};
+
+void World::start() {
+    write_axioms();
+    interpret();
+    exchange();
+    record();
+}
+
+void World::step() {
+    derive();
+    interpret();
+    exchange();
+    record();
+}
+
+void World::write_axioms() {
+    state_->rewrite(&GrowingPlant::write_axiom);
+}
+
+void World::derive() {
+    ++state_->step;
+    state_->rewrite(&GrowingPlant::derive);
+}
+
+void World::State::rewrite(void (GrowingPlant::*stage)(ModuleString*)) {
+    const Stopwatch stopwatch(times.derive);
+    const bool is_plentiful = memory.is_plentiful();
+    for_every_plant(plants, reads, &GrowingPlant::prefetch_for_derivation,
+                    [&](GrowingPlant& plant, ModuleString& spare) {
+                        if (!memory.has_room()) return;
+                        memory.limit_strings(plant);
+                        (plant.*stage)(is_plentiful ? &spare : nullptr);
+                        memory.count_strings(plant);
+                    });
+    memory.check_strings(plants, step);
+    note_ends();
+}
+
+void World::State::note_ends() {
+    longest = 0;
+    stopped = false;
+    for (const GrowingPlant& plant : plants) {
+        longest = std::max(longest, plant.length);
+        stopped = stopped || plant.stopped;
+    }
+}
+
+void World::interpret() {
+    if (!state_->is_seen) return;
+    const Stopwatch stopwatch(state_->times.interpret);
+    state_->take_fields();
+    for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
+                    [&](GrowingPlant& plant, ModuleString&) {
+                        plant.interpret(state_->fields);
+                        state_->memory.count_drawn(plant, state_->step, size() > 1);
+                    });
+    state_->fields.forget();  // so that processes may write the next values over these
+    state_->memory.check_drawn(state_->plants, state_->step);
+}
+
+// What processes left after the step before; a restarted world has it from its checkpoint.
+void World::State::take_fields() {
+    if (!std::exchange(has_restored_fields, false)) fields.take(environment->fields(), fields_read);
+}
+
+void World::State::find_fields_read() {
+    std::set<std::string> names;
+    for (const GrowingPlant& plant : plants) {
+        for (std::string& name : fields_read_by(plant.model())) names.insert(std::move(name));
+    }
+    fields_read.assign(names.begin(), names.end());
+}
+
+void World::exchange() {
+    if (!state_->is_seen) return;
+    const Stopwatch stopwatch(state_->times.exchange);
+    std::vector<PlantView> views;
+    std::vector<ModuleString*> strings;
+    views.reserve(size());
+    strings.reserve(size());
+    for (GrowingPlant& plant : state_->plants) {
+        views.push_back(plant.view());
+        strings.push_back(&*plant.string);
+    }
+    if (const auto& in_time = state_->scene.environment.in_time) in_time->set(*state_->environment, state_->time());
+    state_->environment->exchange({state_->step, state_->time(), state_->scene.dt, views}, strings);
+    // Answers are kept as all parameters are.
+    for (const PlantView& plant : views) {
+        const Arithmetic arithmetic = plant.model->arithmetic;
+        if (!plant.asks || arithmetic == Arithmetic::double_precision) continue;
+        for (double& value : strings[plant.plant]->parameters) value = stored(value, arithmetic);
+    }
+}
+
+void World::record() {
+    state_->times.record = 0;
+    if (state_->recorders.empty()) return;
+    const Stopwatch stopwatch(state_->times.record);
+    const Frame now = frame();
+    for (Recorder* recorder : state_->recorders) recorder->record(now);
+}
+
+Frame World::frame() const {
+    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end()};
+    frame.plants.reserve(size());
+    for (const GrowingPlant& plant : state_->plants) {
+        frame.plants.push_back(plant.frame(state_->environment->statistics(plant.number)));
+    }
+    return frame;
+}
+
+std::filesystem::path folder_with(const Model& model) {
+    const std::filesystem::path folder = model.path.parent_path();
+    return folder.empty() ? "." : folder;
+}
+
+World::State::State(const Scene& described, std::size_t budget, const std::filesystem::path& files)
+    : scene(decided(described)),
+      shares(share_memory(budget, scene.environment.processes.size())),
+      memory(shares.plants) {
+    make_environment();
+    make_plants(files);
+    find_fields_read();
+    set_lengths();
+}
+
+void World::State::make_environment() {
+    const SceneEnvironment& described = scene.environment;
+    const auto count = static_cast<std::uint32_t>(scene.plants.size());
+    const EnvironmentContext context{"", scene.domain, scene.seed, count, shares.process, &warnings};
+    try {
+        environment = std::make_unique<Environment>(described.processes, context);
+    } catch (const UserError& error) {
+        throw explained(error, scene.computed);
+    }
+    for (const auto& process : described.processes) process.second.reject_unread();
+    if (described.in_time) described.in_time->check(*environment);
+    if (!described.default_process.empty()) environment->set_default(described.default_process);
+    if (described.routed) environment->route_by_first_parameter();
+    if (described.keeps_unanswered) environment->keep_unanswered();
+}
+
+void World::State::make_plants(const std::filesystem::path& files) {
+    std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
+    plants.reserve(scene.plants.size());
+    for (const Plant& plant : scene.plants) {
+        const Model& model = source_of(*plant.model);
+        environment->require_answers(model, plant.name);
+        std::shared_ptr<const SymbolTable>& table = symbols[plant.model.get()];
+        if (!table) table = symbol_table(model);
+        const auto number = static_cast<std::uint32_t>(plants.size());
+        plants.emplace_back(number, plant, table, derivation_settings(plant, files));
+    }
+}
+
+DerivationSettings World::State::derivation_settings(const Plant& plant, const std::filesystem::path& files) const {
+    DerivationSettings settings;
+    settings.seed = scene.seed;
+    settings.plant = *plant.stream;
+    settings.lineage = true;
+    settings.memory = memory.bytes();
+    settings.input_folder = folder_with(source_of(*plant.model));
+    if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
+    return settings;
+}
+
+// The scene's steps are the derivation length of all plants; if it gives none, the longest of theirs is. An animation
+// leaves them alone, but a run goes on to its first frame.
+void World::State::set_lengths() {
+    note_ends();
+    if (scene.steps || !scene.frames) {
+        const int length = scene.steps.value_or(longest);
+        for (GrowingPlant& plant : plants) plant.set_length(length);
+        note_ends();
+    } else if (!scene.last_frame && longest < scene.frames->first) {
+        scene.last_frame = scene.frames->first;
+    }
+}
+
+World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files)
+    : state_(std::make_unique<State>(scene, memory, files)) {}
+
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::attach(Recorder& recorder) {
+    state_->recorders.push_back(&recorder);
+    state_->memory.count_recorder(recorder);
+}
+
+void World::grow_unseen() {
+    State& state = *state_;
+    const bool asks = std::any_of(state.plants.begin(), state.plants.end(),
+                                  [](const GrowingPlant& plant) { return has_queries(plant.model().alphabet); });
+    state.is_seen = asks || !state.scene.environment.processes.empty();
+    for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
+}
+
+void World::save(std::ostream& out) const {
+    put(out, checkpoint_signature);
+    put(out, static_cast<std::int32_t>(state_->step));
+    put(out, static_cast<std::uint64_t>(size()));
+    for (const GrowingPlant& plant : state_->plants) {
+        plant.derivation.save(out);
+        save_string(*plant.string, out);
+        put(out, plant.memory);
+    }
+    state_->environment->save(out);
+    FieldValues fields;
+    fields.take(state_->environment->fields(), state_->fields_read);
+    fields.save(out);
+}
+
+void World::restore(std::istream& in) {
+    if (get<std::uint64_t>(in) != checkpoint_signature) throw RunError("this is not the checkpoint of a world");
+    const auto step = get<std::int32_t>(in);
+    if (get<std::uint64_t>(in) != size()) throw RunError("the checkpoint is of another scene");
+    for (GrowingPlant& plant : state_->plants) {
+        plant.derivation.restore(in);
+        restore_string(*plant.string, state_->memory.bytes(), in);
+        plant.note_derived();
+        plant.memory = get<PlantMemory>(in);
+    }
+    state_->environment->restore(in);
+    state_->fields.restore(in);
+    state_->has_restored_fields = true;
+    state_->step = step;
+    state_->note_ends();
+    state_->memory.check_drawn(state_->plants, step);
+}
+
+int World::steps_done() const {
+    return state_->step;
+}
+
+int World::last_step() const {
+    return state_->scene.last_frame.value_or(state_->longest);
+}
+
+bool World::stopped() const {
+    return state_->stopped;
+}
+
+std::size_t World::modules() const {
+    return state_->memory.modules();
+}
+
+const StageTimes& World::times() const {
+    return state_->times;
+}
+
+const ModuleString& World::string(std::size_t plant) const {
+    return *state_->plants[plant].string;
+}
+
+const Interpretation& World::interpretation(std::size_t plant) const {
+    return *state_->plants[plant].interpretation;
+}
+
+const Model& World::model(std::size_t plant) const {
+    return state_->plants[plant].model();
+}
+
+const Environment& World::environment() const {
+    return *state_->environment;
+}
+
+const Scene& World::scene() const {
+    return state_->scene;
+}
+
+const std::vector<Diagnostic>& World::warnings() const {
+    return state_->warnings;
+}
+
+std::size_t World::size() const {
+    return state_->plants.size();
+}
+
+}  // namespace espalier::simulation

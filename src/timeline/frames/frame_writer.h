@@ -1,0 +1,71 @@
+// Writes frames beside the run: a thread of its own works through a short queue.
+#pragma once
+
+#include "timeline/frames/kept_frame.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace espalier::timeline {
+
+class FrameWriter {
+public:
+    /// Called by the writing thread, frame after frame; `due`: as it was added.
+    using Write = std::function<void(const Frame&, bool due)>;
+
+    /// `fields`: those that frames which are due are kept with.
+    FrameWriter(std::vector<std::string> fields, Write write) : fields_(std::move(fields)), write_(std::move(write)) {}
+    /// Waits until everything is written.
+    ~FrameWriter();
+    FrameWriter(const FrameWriter&) = delete;
+    FrameWriter& operator=(const FrameWriter&) = delete;
+
+    /// Keeps the frame and returns; waits before that while the queue is full. After a failure nothing more is
+    /// written: throws it, here and in wait().
+    void add(const Frame& frame, bool due);
+    /// Returns when every frame is written.
+    void wait();
+
+    /// As many frames may be on their way, if together they take no more than so many bytes; one always may.
+    static constexpr std::size_t most_frames = 4;
+    static constexpr std::size_t most_bytes = std::size_t{256} << 20;
+    /// Fewer bytes than that, from now on. For the thread that adds.
+    void keep_at_most(std::size_t bytes) { room_ = std::min(bytes, most_bytes); }
+
+private:
+    struct Job {
+        KeptFrame frame;
+        bool due = false;
+        std::size_t bytes = 0;
+    };
+
+    void start();
+    std::unique_ptr<Job> make_room(std::size_t bytes);
+    bool has_room(std::size_t bytes) const;
+    void work();
+    std::exception_ptr attempt(const Job& job) const;
+
+    const std::vector<std::string> fields_;
+    const Write write_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::unique_ptr<Job>> waiting_;  ///< in order; the first is being written
+    /// They hold their frames until the run's thread releases these: it alone lets go of what is shared, and knows
+    /// thereby what it may write into.
+    std::vector<std::unique_ptr<Job>> done_;
+    std::size_t bytes_ = 0;  ///< of those that wait
+    std::size_t room_ = most_bytes;
+    std::exception_ptr failure_;
+    bool ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace espalier::timeline

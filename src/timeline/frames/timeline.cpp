@@ -1,0 +1,215 @@
+#include "espalier/timeline/timeline.h"
+
+#include "espalier/base/error.h"
+
+#include "base/bytes.h"
+#include "timeline/frames/frame_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+namespace espalier::timeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array indices{"plants.pvd", "fields.pvd", "lifespans.vtp", "statistics.csv", "background.vtp"};
+constexpr std::array reports{"run.json", "timings.csv"};
+
+bool holds_timeline(const fs::path& folder) {
+    const auto is_there = [&](const char* name) { return fs::exists(folder / name); };
+    return std::any_of(indices.begin(), indices.end(), is_there) ||
+           std::any_of(reports.begin(), reports.end(), is_there);
+}
+
+// "0012.vtp": named by a step's number.
+bool is_frame_file(const fs::path& path) {
+    const std::string stem = path.stem().string();
+    const std::string extension = path.extension().string();
+    const bool numbered =
+        !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    return numbered && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
+}
+
+// What a killed run was writing.
+bool is_half_written(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with('.') && name.find(".part") != std::string::npos;
+}
+
+// Folders that then hold nothing go, too.
+void remove_frame_files(const fs::path& folder) {
+    if (!fs::is_directory(folder)) return;
+    std::vector<fs::path> folders{folder};
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+        if (item.is_directory()) folders.push_back(item.path());
+        if (item.is_regular_file() && (is_frame_file(item.path()) || is_half_written(item.path()))) {
+            fs::remove(item.path());
+        }
+    }
+    std::error_code holds_something;
+    for (; !folders.empty(); folders.pop_back()) fs::remove(folders.back(), holds_something);
+}
+
+void remove_half_written(const fs::path& folder) {
+    std::vector<fs::path> halves;
+    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+        if (is_half_written(item.path())) halves.push_back(item.path());
+    }
+    for (const fs::path& path : halves) fs::remove(path);
+}
+
+// Indices first: what they no longer name is not part of a timeline.
+void remove_timeline(const fs::path& folder) {
+    try {
+        for (const char* name : indices) fs::remove(folder / name);
+        for (const char* name : reports) fs::remove(folder / name);
+        remove_frame_files(folder / "plants");
+        remove_frame_files(folder / "fields");
+    } catch (const fs::filesystem_error& error) {
+        throw RunError(
+            fmt::format("cannot remove the old timeline in {}: {}", folder.string(), error.code().message()));
+    }
+}
+
+// Keyframes alone, unless `first` or `every` says that there are others.
+FrameSelection frames_of(const Settings& table) {
+    FrameSelection frames;
+    constexpr double most = 1e9;
+    for (const double step : table.numbers_or("keyframes", {})) {
+        if (!(step >= 0 && step <= most && step == std::floor(step))) {
+            throw UserError(table.place("keyframes"),
+                            fmt::format("'keyframes' are steps, whole numbers from 0 on, not {}", step));
+        }
+        frames.keyframes.push_back(static_cast<int>(step));
+    }
+    std::sort(frames.keyframes.begin(), frames.keyframes.end());
+    const bool alone = !frames.keyframes.empty() && !table.has("first") && !table.has("every");
+    if (alone) return {frames.keyframes.front(), FrameSelection::never, {}, frames.keyframes};
+    frames.step = static_cast<int>(table.integer_or("every", 1, Range::between(1, most)));
+    frames.first = static_cast<int>(table.integer_or("first", 0, Range::between(0, most)));
+    return frames;
+}
+
+}  // namespace
+
+Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool overwrite)
+    : folder_(folder), lock_(folder), last_step_(last_step) {
+    if (!overwrite && holds_timeline(folder)) {
+        throw UserError(
+            fmt::format("{} already holds a timeline; choose another folder with --output, or replace it "
+                        "with --overwrite",
+                        folder.string()));
+    }
+    make_recorders(table);
+    if (overwrite) remove_timeline(folder);
+}
+
+Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const std::string& checkpoint)
+    : folder_(folder), lock_(folder), last_step_(last_step) {
+    make_recorders(table);
+    remove_half_written(folder);
+    std::istringstream in(checkpoint);
+    restore(in);
+}
+
+void Timeline::make_recorders(Settings& table) {
+    frames_ = frames_of(table);
+    next_ = frames_.after(-1);
+    const RecorderContext context{folder_, last_step_};
+    for (const auto& [name, type] : registered<RecorderType>()) {
+        if (auto recorder = type->make(table, context)) recorders_.push_back(std::move(recorder));
+    }
+    table.reject_unread();
+    std::vector<std::string> fields;
+    for (const auto& recorder : recorders_) {
+        sees_every_step_ = sees_every_step_ || recorder->sees_every_step();
+        const std::vector<std::string> wanted = recorder->fields();
+        fields.insert(fields.end(), wanted.begin(), wanted.end());
+    }
+    writer_ = std::make_unique<FrameWriter>(std::move(fields), [this](const Frame& frame, bool due) {
+        for (const auto& recorder : recorders_) {
+            if (due || recorder->sees_every_step()) recorder->record(frame);
+        }
+    });
+}
+
+Timeline::~Timeline() = default;
+
+void Timeline::choose(FrameSelection frames) {
+    frames_ = std::move(frames);
+    if (!resumed_) next_ = frames_.first;
+    exactly_ = true;
+}
+
+void Timeline::record(const Frame& frame) {
+    const bool chosen = frame.step >= next_;
+    if (chosen) next_ = frames_.after(frame.step);
+    const bool ends = frame.is_last || (!exactly_ && frame.step == last_step_);
+    const bool stopped = frame.is_last && frame.step < last_step_;
+    const bool due = chosen || stopped || (ends && !(exactly_ && recorded_));
+    if (due || sees_every_step_) writer_->add(frame, due);
+    if (due && !recorded_) writer_->wait();
+    recorded_ = recorded_ || due;
+}
+
+RecordedMemory Timeline::memory(int step, const ModuleString& string, const Interpretation& interpretation) const {
+    RecordedMemory sum;
+    for (const auto& recorder : recorders_) sum += recorder->memory(step, string, interpretation);
+    return sum;
+}
+
+void Timeline::keep_at_most(std::size_t bytes) {
+    writer_->keep_at_most(bytes);
+}
+
+void Timeline::wait() {
+    writer_->wait();
+}
+
+void Timeline::save(std::ostream& out) const {
+    writer_->wait();
+    put(out, next_);
+    put(out, static_cast<std::uint8_t>(recorded_));
+    put(out, static_cast<std::uint64_t>(recorders_.size()));
+    for (const auto& recorder : recorders_) recorder->save(out);
+}
+
+void Timeline::restore(std::istream& in) {
+    resumed_ = true;
+    next_ = get<int>(in);
+    recorded_ = get<std::uint8_t>(in) != 0;
+    if (get<std::uint64_t>(in) != recorders_.size()) throw RunError("the checkpoint is of another timeline");
+    for (const auto& recorder : recorders_) recorder->restore(in);
+}
+
+void Timeline::finish() {
+    std::exception_ptr first;
+    const auto attempt = [&first](const auto& action) {
+        try {
+            action();
+        } catch (...) {
+            if (!first) first = std::current_exception();
+        }
+    };
+    attempt([this] { writer_->wait(); });
+    // Those that see every step may have to write what they gathered: they need the room that others give back.
+    for (const bool sees_every_step : {false, true}) {
+        for (const auto& recorder : recorders_) {
+            if (recorder->sees_every_step() == sees_every_step) attempt([&recorder] { recorder->finish(); });
+        }
+    }
+    if (first) std::rethrow_exception(first);
+}
+
+void Timeline::write_run(const std::string& json) const {
+    write_text(folder_ / "run.json", json);
+}
+
+}  // namespace espalier::timeline
