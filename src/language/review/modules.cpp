@@ -1,0 +1,161 @@
+// Strings of modules: brackets, polygons, and modules that nothing knows.
+#include "base/text.h"
+#include "language/review/parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace espalier::language {
+
+void ModuleReview::review(const std::vector<ModuleTemplate>& modules, const char* where) {
+    review_brackets(modules, where);
+    review_polygons(modules);
+    review_symbols(modules);
+}
+
+void ModuleReview::review_brackets(const std::vector<ModuleTemplate>& modules, const char* where) {
+    std::vector<const ModuleTemplate*> open;
+    for (const ModuleTemplate& module : modules) {
+        if (module.letter == Alphabet::open_bracket) open.push_back(&module);
+        if (module.letter != Alphabet::close_bracket) continue;
+        if (open.empty()) {
+            findings_.warn(module.place, fmt::format("this ']' closes no branch of this {}", where));
+            return;
+        }
+        open.pop_back();
+    }
+    if (!open.empty())
+        findings_.warn(open.back()->place, fmt::format("this branch is not closed in this {}: ']' is missing", where));
+}
+
+void ModuleReview::review_polygons(const std::vector<ModuleTemplate>& modules) {
+    int open = 0;
+    for (const ModuleTemplate& module : modules) {
+        const std::string& symbol = uses_.alphabet().name(module.letter);
+        if (symbol == "{" && open++ == 1) {
+            findings_.warn(module.place,
+                           "this polygon begins within another one, whose vertices it does not share: is a "
+                           "'}' missing?");
+        }
+        if (symbol == "}" && open > 0) --open;
+    }
+}
+
+void ModuleReview::review_symbols(const std::vector<ModuleTemplate>& modules) {
+    for (std::size_t i = 0; i < modules.size(); ++i) {
+        const LetterId letter = modules[i].letter;
+        const std::string& symbol = uses_.alphabet().name(letter);
+        if (const std::size_t length = uses_.has_words() ? uses_.word_length(modules, i) : 0; length > 0) {
+            i += length - 1;
+        } else if (symbol == "'") {
+            // The reader has said so.
+        } else if (symbol == "?" && uses_.alphabet().arity(letter) == 0) {
+            review_question(modules, i);
+            ++i;  // the letter of ?E, ?P, ... belongs to it
+        } else if (symbol == "~") {
+            ++i;  // the name of a surface
+        } else if (const std::size_t drawn = turtle_symbol_length(modules, i); drawn > 0) {
+            i += drawn - 1;
+        } else if (!turtle_symbols_.empty() && !is_known(symbol) && reported_.insert(letter).second) {
+            findings_.warn(modules[i].place,
+                           fmt::format("{} has no effect: no production names it and the turtle does not "
+                                       "know it",
+                                       uses_.described(letter)));
+        }
+    }
+}
+
+// `?` asks the environment (?E), the turtle (?P ?H ?L ?U ?Q), or a process the model declares.
+void ModuleReview::review_question(const std::vector<ModuleTemplate>& modules, std::size_t i) {
+    std::string asked;
+    for (std::size_t k = i + 1; k < modules.size(); ++k) {
+        const std::string& symbol = uses_.alphabet().name(modules[k].letter);
+        const bool letter = symbol.size() == 1 && ((symbol[0] >= 'a' && symbol[0] <= 'z') ||
+                                                   (symbol[0] >= 'A' && symbol[0] <= 'Z') || symbol[0] == '_');
+        if (!letter) break;
+        asked += symbol;
+        if (uses_.alphabet().arity(modules[k].letter) > 0) break;
+    }
+    if (!asked.empty() && std::string_view("EPHLUQ").find(asked.front()) != std::string_view::npos) return;
+    if (asked.empty()) {
+        findings_.warn(modules[i].place, "this query names no process");
+    } else {
+        findings_.warn(modules[i].place, fmt::format("no process answers '?{0}': declare 'environment {0};'{1}", asked,
+                                                     did_you_mean(asked, uses_.model().processes)));
+    }
+}
+
+bool ModuleReview::is_known(const std::string& symbol) const {
+    if (uses_.is_mentioned(*uses_.alphabet().find_symbol(symbol)) || symbol.front() == '?') return true;
+    if (symbol == "[" || symbol == "]" || symbol == "%") return true;
+    if (symbol == "$" && (uses_.calls_any() || !uses_.called().empty())) return true;
+    return std::find(turtle_symbols_.begin(), turtle_symbols_.end(), symbol) != turtle_symbols_.end();
+}
+
+std::string ModuleReview::word(const std::vector<ModuleTemplate>& modules, std::size_t begin,
+                               std::size_t length) const {
+    std::string result;
+    for (std::size_t i = begin; i < begin + length; ++i) result += uses_.alphabet().name(modules[i].letter);
+    return result;
+}
+
+// How many modules from `i` on spell a symbol of the turtle, such as @o or @Gs; the longest counts.
+std::size_t ModuleReview::turtle_symbol_length(const std::vector<ModuleTemplate>& modules, std::size_t i) const {
+    std::size_t longest = 0;
+    for (std::size_t length = 1; length <= std::min<std::size_t>(4, modules.size() - i); ++length) {
+        const auto last = turtle_symbols_.end();
+        if (std::find(turtle_symbols_.begin(), last, word(modules, i, length)) != last) longest = length;
+    }
+    return longest;
+}
+
+// A production of T finds the T of @Ts as well. That is meant where T stands in @Ts only, say for O(d) --> O(2 * d)
+// and @O(1), and hardly where it stands alone too.
+void ModuleReview::review_symbol_parts(const LSystem& system) {
+    SymbolParts found;
+    collect_parts(system.axiom, {}, found);
+    for (const auto* productions : {&system.productions, &system.decomposition.productions}) {
+        for (const Production& production : *productions) collect_parts(production, found);
+    }
+    review_symbol_parts(system.productions, found);
+    review_symbol_parts(system.decomposition.productions, found);
+    if (system.homomorphism.maximum_depth) {
+        for (const Production& production : system.homomorphism.productions) collect_parts(production, found);
+    }
+    review_symbol_parts(system.homomorphism.productions, found);
+}
+
+void ModuleReview::collect_parts(const Production& production, SymbolParts& parts) const {
+    collect_parts(production.successor, production.strict.front().letter, parts);
+}
+
+// A letter that replaces itself stands alone there only because its symbol's beginning stays where it is.
+void ModuleReview::collect_parts(const std::vector<ModuleTemplate>& modules, std::optional<LetterId> replaced,
+                                 SymbolParts& parts) const {
+    for (std::size_t i = 0; i < modules.size();) {
+        const LetterId letter = modules[i].letter;
+        const std::string& symbol = uses_.alphabet().name(letter);
+        const bool pair = symbol == "~" || (symbol == "?" && uses_.alphabet().arity(letter) == 0);
+        const std::size_t length = pair ? 2 : std::max<std::size_t>(1, turtle_symbol_length(modules, i));
+        if (length == 1 && letter != replaced) parts.alone.insert(letter);
+        for (std::size_t k = i + 1; k < i + length && !pair; ++k) {
+            parts.parts.emplace(modules[k].letter, word(modules, i, length));
+        }
+        i += length;
+    }
+}
+
+void ModuleReview::review_symbol_parts(const std::vector<Production>& productions, const SymbolParts& parts) {
+    for (const Production& production : productions) {
+        const LetterId letter = production.strict.front().letter;
+        const bool plain = production.strict.size() == 1 && production.left.empty();
+        if (!plain || !parts.alone.contains(letter) || !parts.parts.contains(letter)) continue;
+        findings_.warn(production.place,
+                       fmt::format("this production replaces the {} in {} too: call the module otherwise",
+                                   uses_.described(letter), parts.parts.at(letter)));
+    }
+}
+
+}  // namespace espalier::language
