@@ -5,7 +5,8 @@ set(ESPALIER_DATA_DIR ${CMAKE_INSTALL_DATADIR}/espalier)
 file(RELATIVE_PATH to_libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 
 set_target_properties(espalier_library PROPERTIES EXPORT_NAME espalier)
-set(libraries espalier_library)
+set_target_properties(espalier_core PROPERTIES EXPORT_NAME core)
+set(libraries espalier_core espalier_library)
 if(ESPALIER_LOOK)
   set_target_properties(espalier_look PROPERTIES EXPORT_NAME look)
   list(APPEND libraries espalier_look)
@@ -14,8 +15,6 @@ if(ESPALIER_LOOK)
   install(TARGETS espalier_look_commands DESTINATION ${CMAKE_INSTALL_LIBDIR}/espalier)
 endif()
 
-# A minor version may change the interface until there is version 1.
-set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 foreach(library IN LISTS libraries)
   set_target_properties(${library} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${soversion} INSTALL_RPATH $ORIGIN)
   target_compile_features(${library} INTERFACE cxx_std_20)

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "command.h"
+#include "geometry/grid_operations.h"
 #include "looking_half.h"
 #include "model_library.h"
 
@@ -66,7 +67,11 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all{
-        {"processes", "the environment of the plants: [environment.<name>] process = \"...\"", parts_of<ProcessType>},
+        {"processes", "the environment of the plants: [environment.<name>] process = \"...\"",
+         [] {
+             open_grid_library();
+             return parts_of<ProcessType>();
+         }},
         {"symbols", "the symbols of the turtle and what they do", symbol_parts},
         {"recorders", "the files of a run: [timeline]", parts_of<RecorderType>},
         {"notations", "other ways to write a model, which run, derive and scenes take", parts_of<NotationType>},

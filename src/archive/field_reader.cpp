@@ -3,7 +3,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "archive/vtk_xml.h"
-#include "geometry/grid_file.h"
+#include "geometry/grids/grid_file.h"
 
 #include <openvdb/io/File.h>
 #include <openvdb/tools/Dense.h>

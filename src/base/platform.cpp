@@ -240,6 +240,11 @@ std::size_t machine_memory() {
 }
 
 std::size_t peak_memory() {
+    // Linux's rusage also counts what the program that started this one held.
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmHWM:")) return std::stoull(line.substr(line.find(':') + 1)) * 1024;
+    }
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
 #ifdef __APPLE__
@@ -385,6 +390,13 @@ void* open_library(const fs::path& file, bool shared, std::string& why) {
     void* const library = ::dlopen(file.c_str(), RTLD_LAZY | (shared ? RTLD_GLOBAL : RTLD_LOCAL));
     if (!library) why = ::dlerror();
     return library;
+}
+
+fs::path file_of(const void* function) {
+    ::Dl_info found{};
+    if (::dladdr(function, &found) == 0 || !found.dli_fname) return {};
+    std::error_code ignored;
+    return fs::absolute(found.dli_fname, ignored);
 }
 
 void* function_of(void* library, const char* name) {

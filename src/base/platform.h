@@ -170,6 +170,13 @@ int number_of(std::FILE* file);
 /// cannot be opened.
 void* open_library(const std::filesystem::path& file, bool shared, std::string& why);
 
+/// The file of the library or program that a function is in; empty where the system does not say.
+std::filesystem::path file_of(const void* function);
+template <class Result, class... Arguments>
+std::filesystem::path file_of(Result (*function)(Arguments...)) {
+    return file_of(reinterpret_cast<const void*>(function));
+}
+
 /// A function of an open library by its name; null if it has none.
 void* function_of(void* library, const char* name);
 

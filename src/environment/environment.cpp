@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "environment/exchange/answering.h"
 #include "environment/exchange/communication.h"
+#include "geometry/grid_operations.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -54,6 +55,7 @@ bool asks_processes(const Model& model) {
 
 Environment::Environment(const std::vector<std::pair<std::string, Settings>>& tables,
                          const EnvironmentContext& context) {
+    if (!tables.empty()) open_grid_library();
     for (const auto& [name, table] : tables) {
         Settings settings = table;
         communications_.emplace_back(table);

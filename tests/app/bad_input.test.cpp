@@ -183,6 +183,17 @@ TEST_CASE_METHOD(BadInput, "sizes have units, or are refused", "[app]") {
     }
 }
 
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE_METHOD(BadInput, "the peak memory of a run is its own, whoever started it", "[app]") {
+    write("bush.l", models::bush);
+    const std::size_t mib = std::size_t{1} << 20;
+    const std::vector<char> held(400 * mib, 'x');
+    CHECK(run("run bush.l --quiet --output out").code == 0);
+    const json record = json::parse(text_of(path() / "out" / "run.json"));
+    CHECK(record["peak_memory"].get<std::size_t>() < held.size() / 2);
+}
+#endif
+
 TEST_CASE_METHOD(BadInput, "a plant rich in organs stays within its memory to the last frame", "[app]") {
     write("balls.l",
           "lsystem: 1\nderivation length: 1000\naxiom: A(0)\nA(n) : n > 0 --> A(n - 1)\n"

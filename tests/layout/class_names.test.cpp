@@ -135,7 +135,8 @@ TEST_CASE("no two files define a class of the same name in the same namespace", 
 TEST_CASE("every class in the compiled libraries is one that the reading of the sources found", "[layout]") {
     const fs::path build = ESPALIER_BUILD_DIR;
     std::string files;
-    for (const char* name : {"libespalier.so", "libespalier_look.so", "libespalier_look_commands.so", "espalier"}) {
+    for (const char* name :
+         {"libespalier_core.so", "libespalier.so", "libespalier_look.so", "libespalier_look_commands.so", "espalier"}) {
         files += " '" + (build / name).string() + "'";
     }
     const auto known = files_of_classes();

@@ -178,10 +178,22 @@ TEST_CASE("the growing half is configured on a machine without VTK", "[library]"
                            "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
                        build.path()));
     const std::string commands = text_of(build.path() / "compile_commands.json");
-    CHECK(commands.find("src/simulation/world.cpp") != std::string::npos);
+    CHECK(commands.find("src/simulation/world/world.cpp") != std::string::npos);
     CHECK(commands.find("src/app/main.cpp") != std::string::npos);
     CHECK(commands.find("src/picture/") == std::string::npos);
     CHECK(commands.find("/vtk-") == std::string::npos);  // the folder of its headers
+}
+
+TEST_CASE("the program and the core are loaded without OpenVDB", "[library]") {
+    const Installed& installed = Installed::once();
+    for (const std::string& file : {installed.program(), (installed.libraries() / "libespalier_core.so").string()}) {
+        const Outcome loaded = shell("ldd '" + file + "'", installed.folder());
+        INFO(file);
+        REQUIRE(loaded.code == 0);
+        CHECK(loaded.text.find("libtbb") != std::string::npos);
+        CHECK(loaded.text.find("libopenvdb") == std::string::npos);
+        CHECK(loaded.text.find("libespalier.so") == std::string::npos);
+    }
 }
 
 TEST_CASE("the growing library is loaded without VTK and X11", "[library]") {

@@ -2,7 +2,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "catch.h"
-#include "geometry/grid_file.h"
+#include "geometry/grids/grid_file.h"
 #include "timeline/collections.h"
 #include "timeline/files/vti_file.h"
 #include "timeline/frames.h"

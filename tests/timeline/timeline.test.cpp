@@ -49,6 +49,13 @@ TEST_CASE("every file in recorders/ is registered, and explains itself", "[timel
     CHECK(files == names);
 }
 
+TEST_CASE("plants need no lineage for recorders that do not read them", "[timeline]") {
+    const RunFolder folder;
+    Settings table = timeline_table("statistics = false\nskeleton = false\nlifespans = false\nfields = [\"all\"]\n");
+    CHECK_FALSE(Timeline(folder.path / "none", std::move(table), 1).reads_plants());
+    CHECK(Timeline(folder.path / "some", timeline_table("skeleton = false\nlifespans = false\n"), 1).reads_plants());
+}
+
 TEST_CASE("two timelines into one folder are refused", "[timeline]") {
     const RunFolder folder;
     const Timeline first(folder.path, timeline_table(), 1);

@@ -41,6 +41,9 @@ public:
     virtual ~Recorder() = default;
     /// True for recorders that must see every step, whatever `every` says.
     virtual bool sees_every_step() const { return false; }
+    /// False for recorders that read neither the strings of plants nor what is drawn of them: a run in which nobody
+    /// does keeps no lineages and draws nothing.
+    virtual bool reads_plants() const { return true; }
     /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Frames of a timeline hold no
     /// others: to make a field that is not read would cost a step as much as the field itself.
     virtual std::vector<std::string> fields() const { return {}; }

@@ -28,8 +28,8 @@ public:
     ~Timeline() override;
 
     const std::filesystem::path& folder() const { return folder_; }
-    /// False if the table asks for no recorder.
-    bool records() const { return !recorders_.empty(); }
+    /// One of its recorders does.
+    bool reads_plants() const override;
     /// Exactly these steps become frames, instead of those that the table's `first` and `every` choose.
     void choose(FrameSelection frames);
     /// Frames come in the order of their steps. Recorders see those chosen; by `first` and `every` the run's last one

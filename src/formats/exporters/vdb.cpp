@@ -4,7 +4,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "archive/field_reader.h"
-#include "geometry/grid_file.h"
+#include "geometry/grids/grid_file.h"
 
 #include <fmt/format.h>
 

@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "environment/exchange/communication.h"
+#include "geometry/grid_operations.h"
 #include "simulation/object/named_file.h"
 #include "simulation/object/plain_lines.h"
 
@@ -132,6 +133,7 @@ Command command_of(const Lines& lines, std::vector<Diagnostic>& diagnostics) {
 }
 
 std::vector<std::string> known_programs() {
+    open_grid_library();
     std::vector<std::string> names{"multiple"};
     for (const auto& entry : registered<ProcessType>()) names.push_back(entry.first);
     std::sort(names.begin(), names.end());
@@ -139,6 +141,7 @@ std::vector<std::string> known_programs() {
 }
 
 bool is_process(const std::string& program) {
+    open_grid_library();
     return registered<ProcessType>().find(program) != registered<ProcessType>().end();
 }
 

@@ -142,6 +142,11 @@ void Timeline::make_recorders(Settings& table) {
 
 Timeline::~Timeline() = default;
 
+bool Timeline::reads_plants() const {
+    return std::any_of(recorders_.begin(), recorders_.end(),
+                       [](const auto& recorder) { return recorder->reads_plants(); });
+}
+
 void Timeline::choose(FrameSelection frames) {
     frames_ = std::move(frames);
     if (!resumed_) next_ = frames_.first;

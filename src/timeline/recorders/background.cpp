@@ -51,6 +51,8 @@ class BackgroundScene final : public Recorder {
 public:
     explicit BackgroundScene(const RecorderContext& context) : path_(context.folder / "background.vtp") {}
 
+    bool reads_plants() const override { return false; }
+
     void record(const Frame& frame) override {
         if (is_written_) return;
         is_written_ = true;

@@ -8,7 +8,7 @@
 #include "base/bytes.h"
 #include "base/folder.h"
 #include "base/text.h"
-#include "geometry/grid_file.h"
+#include "geometry/grid_operations.h"
 #include "timeline/files/collection_file.h"
 #include "timeline/files/vti_file.h"
 
@@ -37,6 +37,7 @@ public:
         vdb_ = std::find(files.begin(), files.end(), "vdb") != files.end();
     }
 
+    bool reads_plants() const override { return false; }
     std::vector<std::string> fields() const override { return names_; }
     bool wanted() const { return !names_.empty() && (vti_ || vdb_); }
 
@@ -62,7 +63,7 @@ public:
         put(out, static_cast<std::uint64_t>(written_.size()));
         for (const Written& last : written_) {
             put_text(out, last.name);
-            put(out, last.grid ? digest_of(*last.grid) : last.digest);
+            put(out, last.grid ? grid_operations().digest(*last.grid) : last.digest);
         }
     }
 
@@ -110,7 +111,8 @@ private:
         if (last.name.empty()) return false;
         if (!field.changes) return true;
         if (!field.grid) return false;
-        return last.grid ? same_field(*field.grid, *last.grid) : digest_of(*field.grid) == last.digest;
+        const geometry::GridOperations& grids = grid_operations();
+        return last.grid ? grids.same(*field.grid, *last.grid) : grids.digest(*field.grid) == last.digest;
     }
 
     // Returns the files' common name, without extension.
@@ -118,7 +120,7 @@ private:
         const std::string name = fmt::format("fields/{}/{:04}", field.name, frame.step);
         make_folder(folder_ / "fields" / field.name);
         if (vti_) write_vti(folder_ / (name + ".vti"), field, frame.time, frame.step);
-        if (vdb_) write_vdb(folder_ / (name + ".vdb"), field);
+        if (vdb_) grid_operations().write_vdb(folder_ / (name + ".vdb"), field);
         return name;
     }
 

@@ -1,11 +1,11 @@
-#include "geometry/grid_file.h"
+#include "geometry/grids/grid_file.h"
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 #include "espalier/geometry/openvdb_grid.h"
 
-#include "geometry/written_grid.h"
+#include "geometry/grids/written_grid.h"
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>

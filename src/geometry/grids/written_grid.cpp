@@ -1,4 +1,4 @@
-#include "geometry/written_grid.h"
+#include "geometry/grids/written_grid.h"
 
 #include <openvdb/io/Compression.h>
 
