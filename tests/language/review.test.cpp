@@ -164,3 +164,21 @@ TEST_CASE("a polygon within a polygon is pointed out", "[language]") {
           "3: this polygon begins within another one, whose vertices it does not share: is a '}' missing?");
     CHECK(warnings(lsystem_of("", "A", "A --> {.f.f.}[{.f.f.}]\n")) == "");
 }
+
+TEST_CASE("a polygon that nothing closes or opens is warned about at its place", "[language]") {
+    const auto found = review(*read(lsystem_of("", "A", "A --> F{F.F.\n")), {});
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].message == "this polygon is not closed in this successor, nor elsewhere: '}' is missing");
+    CHECK(found[0].place.line == 3);
+    CHECK(found[0].place.column == 8);
+    CHECK(warnings(lsystem_of("", "{A", "A --> AF\n")) ==
+          "2: this polygon is not closed in this axiom, nor elsewhere: '}' is missing");
+    CHECK(warnings(lsystem_of("", "A", "A --> F}F\n")) ==
+          "3: this '}' closes no polygon of this successor, nor of others");
+}
+
+TEST_CASE("a polygon may be opened by one string and closed by another", "[language]") {
+    CHECK(warnings(lsystem_of("", "A", "A --> {.B\nB --> F.}\n")) == "");
+    CHECK(warnings(lsystem_of("", "{.A}", "A --> F.A\n")) == "");
+    CHECK(warnings(lsystem_of("", "{.A}", "A --> F.A\n{ --> F{\n} --> F}\n")) == "");
+}

@@ -9,10 +9,16 @@
 
 namespace espalier::language {
 
-void ModuleReview::review(const std::vector<ModuleTemplate>& modules, const char* where) {
-    review_brackets(modules, where);
-    review_polygons(modules);
-    review_symbols(modules);
+void ModuleReview::review_axiom(const std::vector<ModuleTemplate>& axiom) {
+    review_brackets(axiom, "axiom");
+    review_polygons(axiom, "axiom", {});
+    review_symbols(axiom);
+}
+
+void ModuleReview::review_successor(const Production& production) {
+    review_brackets(production.successor, "successor");
+    review_polygons(production.successor, "successor", production.strict);
+    review_symbols(production.successor);
 }
 
 void ModuleReview::review_brackets(const std::vector<ModuleTemplate>& modules, const char* where) {
@@ -30,16 +36,43 @@ void ModuleReview::review_brackets(const std::vector<ModuleTemplate>& modules, c
         findings_.warn(open.back()->place, fmt::format("this branch is not closed in this {}: ']' is missing", where));
 }
 
-void ModuleReview::review_polygons(const std::vector<ModuleTemplate>& modules) {
-    int open = 0;
+// A production that replaces a '{' or '}' may leave one without its counterpart.
+void ModuleReview::review_polygons(const std::vector<ModuleTemplate>& modules, const char* where,
+                                   const std::vector<ModulePattern>& replaced) {
+    const auto replaces = [&](const std::string& symbol) {
+        return std::any_of(replaced.begin(), replaced.end(), [&](const ModulePattern& pattern) {
+            return uses_.alphabet().name(pattern.letter) == symbol;
+        });
+    };
+    const bool may_stay_open = replaces("{"), may_close = replaces("}");
+    std::vector<const ModuleTemplate*> open;
+    bool is_nested = false;
     for (const ModuleTemplate& module : modules) {
         const std::string& symbol = uses_.alphabet().name(module.letter);
-        if (symbol == "{" && open++ == 1) {
-            findings_.warn(module.place,
-                           "this polygon begins within another one, whose vertices it does not share: is a "
-                           "'}' missing?");
+        if (symbol == "{") {
+            if (open.size() == 1) {
+                is_nested = true;
+                findings_.warn(module.place,
+                               "this polygon begins within another one, whose vertices it does not share: is a "
+                               "'}' missing?");
+            }
+            open.push_back(&module);
         }
-        if (symbol == "}" && open > 0) --open;
+        if (symbol == "}" && open.empty() && !may_close) unopened_.emplace_back(module.place, where);
+        if (symbol == "}" && !open.empty()) open.pop_back();
+    }
+    if (!open.empty() && !is_nested && !may_stay_open) unclosed_.emplace_back(open.back()->place, where);
+}
+
+// A polygon may be opened by one production and closed by another.
+void ModuleReview::review_ends_of_polygons() {
+    if (!unclosed_.empty() && !unopened_.empty()) return;
+    for (const auto& [place, where] : unclosed_) {
+        findings_.warn(place,
+                       fmt::format("this polygon is not closed in this {}, nor elsewhere: '}}' is missing", where));
+    }
+    for (const auto& [place, where] : unopened_) {
+        findings_.warn(place, fmt::format("this '}}' closes no polygon of this {}, nor of others", where));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace espalier::language {
@@ -25,8 +26,10 @@ public:
     ModuleReview(const ModelUses& uses, const std::vector<std::string>& turtle_symbols, Findings& findings)
         : uses_(uses), turtle_symbols_(turtle_symbols), findings_(findings) {}
 
-    /// `where`: "axiom" or "successor".
-    void review(const std::vector<ModuleTemplate>& modules, const char* where);
+    void review_axiom(const std::vector<ModuleTemplate>& axiom);
+    void review_successor(const Production& production);
+    /// After all strings: polygons that no string of the model closes or opens.
+    void review_ends_of_polygons();
     /// Productions that replace a part of a turtle symbol, too.
     void review_symbol_parts(const LSystem& system);
 
@@ -38,7 +41,8 @@ private:
     };
 
     void review_brackets(const std::vector<ModuleTemplate>& modules, const char* where);
-    void review_polygons(const std::vector<ModuleTemplate>& modules);
+    void review_polygons(const std::vector<ModuleTemplate>& modules, const char* where,
+                         const std::vector<ModulePattern>& replaced);
     void review_symbols(const std::vector<ModuleTemplate>& modules);
     void review_question(const std::vector<ModuleTemplate>& modules, std::size_t i);
     void review_symbol_parts(const std::vector<Production>& productions, const SymbolParts& parts);
@@ -53,6 +57,8 @@ private:
     const std::vector<std::string>& turtle_symbols_;
     Findings& findings_;
     std::set<LetterId> reported_;
+    /// Where a string has no '}' for a '{', or no '{' for a '}', with the kind of string.
+    std::vector<std::pair<Place, const char*>> unclosed_, unopened_;
 };
 
 /// Which modules contexts consider.

@@ -12,7 +12,7 @@ std::vector<Diagnostic> review(const Model& model, const std::vector<std::string
     review_words(uses, findings);
     const auto review_set = [&](const std::vector<Production>& productions, bool stochastic) {
         review_rules(productions, stochastic, uses, findings);
-        for (const Production& production : productions) modules.review(production.successor, "successor");
+        for (const Production& production : productions) modules.review_successor(production);
     };
     for (const LSystem& system : model.systems) {
         review_set(system.decomposition.productions, false);
@@ -20,10 +20,11 @@ std::vector<Diagnostic> review(const Model& model, const std::vector<std::string
         review_set(system.productions, system.seed.has_value());
         review_filter(system, uses, findings);
         review_homomorphism(system.homomorphism, uses, findings);
-        modules.review(system.axiom, "axiom");
+        modules.review_axiom(system.axiom);
         review_statements(system, findings);
         modules.review_symbol_parts(system);
     }
+    modules.review_ends_of_polygons();
     review_processes(uses, findings);
     review_calls(uses, findings);
     return findings.in_order();
