@@ -1,5 +1,5 @@
 // Outlines of leaves, as the turtle walks around them.
-#include "language/weber_penn/translation.h"
+#include "language/weber_penn/translated_species.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

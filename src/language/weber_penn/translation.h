@@ -13,7 +13,4 @@ namespace espalier::language::weber_penn {
 /// goes wrong in a level is placed where the file sets the first of its parameters.
 TranslatedText model_of(const Species& species, const std::string& file);
 
-/// A leaf of length `size` as polygons: modules that move the turtle around its outline.
-std::string leaf_polygons(const Species& species, const std::string& size);
-
 }  // namespace espalier::language::weber_penn
