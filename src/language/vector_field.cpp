@@ -6,6 +6,7 @@
 #include "language/parser/scanner.h"
 #include "lsystem/programs/constant.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace espalier::language {
@@ -43,6 +44,12 @@ std::size_t skip_blanks(std::string_view text, std::size_t k) {
     return k;
 }
 
+/// What would end the name, begin a comment or could not be shown is no part of it.
+bool is_in_field_names(char c) {
+    return static_cast<unsigned char>(c) >= ' ' && c != '\x7f' &&
+           std::string_view("/\\\";#").find(c) == std::string_view::npos;
+}
+
 /// The word before the parentheses, and the name between them; nothing if the text does not begin like this.
 struct Reading {
     std::string_view word, name;
@@ -57,7 +64,10 @@ std::optional<Reading> reading_at(std::string_view text) {
         if (close == text.npos || text[close] != ')') continue;
         std::size_t end = close;
         while (end > begin && is_blank(text[end - 1])) --end;
-        if (end > begin) return Reading{word, text.substr(begin, end - begin), close + 1};
+        const std::string_view name = text.substr(begin, end - begin);
+        if (!name.empty() && std::all_of(name.begin(), name.end(), is_in_field_names)) {
+            return Reading{word, name, close + 1};
+        }
     }
     return std::nullopt;
 }

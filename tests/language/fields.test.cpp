@@ -35,6 +35,7 @@ TEST_CASE("a field that is none is refused at its place", "[language]") {
     const auto field = [](const std::string& text) { return messages(text + "\n" + lsystem_of("", "F", "")); };
     CHECK_THAT(field("field swirl = -z, 0;"), Catch::Contains("1:20: expected ','"));
     CHECK_THAT(field("field sun = gradient();"), Catch::Contains("1:"));
+    CHECK_THAT(field("field sun = gradient(a;b);"), Catch::Contains("1:"));
     CHECK_THAT(field("field sun = gradient(light), 0;"), Catch::Contains("1:28: "));
     CHECK_THAT(field("field swirl = -w, 0, x;"), Catch::Contains("'w' is not a constant"));
     CHECK_THAT(field("field swirl = ran(1), 0, x;"),

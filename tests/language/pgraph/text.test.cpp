@@ -126,6 +126,8 @@ TEST_CASE("A World is refused that is no function of the place, an FFD whose mov
     const auto component = [](const std::string& lines) { return graph_mistakes(lines + "\ncamera -> thing\n"); };
     CHECK(component("World thing\n  gravity 0, -1") ==
           "3:11: 'gravity' is x, y, z, or gradient(FIELD) or vector(FIELD)");
+    CHECK(component("World thing\n  gravity gradient(wa\x1bter)") ==
+          "3:11: 'gravity' is x, y, z, or gradient(FIELD) or vector(FIELD)");
     CHECK(component("World thing\n  gravity gradient(water)\n  light vector( wind )").empty());
     CHECK(component("World thing\n  gravity slope(water)") ==
           "3:11: 'gravity' is x, y, z, or gradient(FIELD) or vector(FIELD)");
