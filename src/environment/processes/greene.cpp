@@ -7,6 +7,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "environment/shade/exposure.h"
+#include "environment/shade/sky_directions.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -29,17 +29,6 @@ bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& directi
     return false;
 }
 
-std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples) {
-    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-    std::vector<glm::dvec3> directions;
-    for (std::int64_t i = 0; i < samples; ++i) {
-        const double y = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
-        const double across = std::sqrt(1 - y * y), turn = golden_angle * static_cast<double>(i);
-        directions.emplace_back(across * std::cos(turn), y, across * std::sin(turn));
-    }
-    return directions;
-}
-
 std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
                                  const glm::dvec3& north) {
     const double phi = glm::radians(latitude);

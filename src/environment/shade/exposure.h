@@ -9,9 +9,6 @@
 
 namespace espalier::environment {
 
-/// Directions of equal solid angle over the upper half of the sphere (a Fibonacci lattice).
-std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples);
-
 /// Where the sun stands at `samples` times, evenly from sunrise to sunset of each day of the year; nothing for days
 /// without a sunrise. `north` is horizontal, latitude in degrees. Declination after Cooper 1969.
 std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace espalier::environment {
 namespace {
@@ -57,6 +58,17 @@ std::vector<SkyDirection> sky(std::int64_t samples, double ratio, const Weight& 
 
 std::vector<SkyDirection> uniform_sky(std::int64_t samples, double lower_to_upper) {
     return sky(samples, lower_to_upper, [](const glm::dvec3&) { return 1.0; });
+}
+
+std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples) {
+    const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+    std::vector<glm::dvec3> directions;
+    for (std::int64_t i = 0; i < samples; ++i) {
+        const double y = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
+        const double across = std::sqrt(1 - y * y), turn = golden_angle * static_cast<double>(i);
+        directions.emplace_back(across * std::cos(turn), y, across * std::sin(turn));
+    }
+    return directions;
 }
 
 std::vector<SkyDirection> chiba_overcast_sky(std::int64_t samples, double lower_to_upper) {
