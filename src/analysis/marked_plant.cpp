@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 
 #include "archive/xml.h"
+#include "base/text_cursor.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,7 +12,6 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -25,28 +25,28 @@ using archive::XmlElement;
 /// The numbers of a text and the letters between them.
 class SvgText {
 public:
-    SvgText(std::string_view text, const fs::path& file) : text_(text), file_(file) {}
+    SvgText(std::string_view text, const fs::path& file) : text_(text, file.string()), file_(file) {}
 
     bool at_end() {
-        text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n,"), text_.size()));
-        return text_.empty();
+        text_.skip(" \t\r\n,");
+        return text_.at_end();
     }
-    bool next_is_number() { return !at_end() && std::string_view("0123456789+-.").find(text_.front()) != text_.npos; }
+    bool next_is_number() {
+        return !at_end() && std::string_view("0123456789+-.").find(text_.next()) != std::string_view::npos;
+    }
     char take_letter() {
-        const char letter = at_end() ? '\0' : text_.front();
-        if (!text_.empty()) text_.remove_prefix(1);
+        const char letter = at_end() ? '\0' : text_.next();
+        text_.accept({&letter, 1});
         return letter;
     }
     double take_number() {
         at_end();
-        if (!text_.empty() && text_.front() == '+') text_.remove_prefix(1);
-        double number = 0;
-        const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), number);
-        if (error != std::errc() || !std::isfinite(number)) {
-            throw UserError(fmt::format("{}: expected a number, found '{}'", file_.string(), text_.substr(0, 20)));
+        const std::optional<double> number = text_.exact_number();
+        if (!number) {
+            throw UserError(
+                fmt::format("{}: expected a number, found '{}'", file_.string(), text_.rest().substr(0, 20)));
         }
-        text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
-        return number;
+        return *number;
     }
     glm::dvec2 take_point() {
         const double x = take_number();
@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    std::string_view text_;
+    TextCursor text_;
     const fs::path& file_;
 };
 

@@ -26,6 +26,14 @@ bool TextCursor::accept(std::string_view literal) {
 }
 
 std::optional<double> TextCursor::number() {
+    const std::size_t begin = at_;
+    const std::optional<double> value = exact_number();
+    if (value && std::isfinite(static_cast<float>(*value))) return static_cast<float>(*value);
+    at_ = begin;
+    return std::nullopt;
+}
+
+std::optional<double> TextCursor::exact_number() {
     std::string_view digits = rest();
     if (digits.starts_with('+')) digits.remove_prefix(1);
     const std::size_t sign = digits.starts_with('-') && digits.data() == rest().data() ? 1 : 0;
@@ -34,10 +42,9 @@ std::optional<double> TextCursor::number() {
     if (first >= digits.size() || !is_digit(digits[first])) return std::nullopt;
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const float kept = static_cast<float>(value);
-    if (error != std::errc() || !std::isfinite(kept)) return std::nullopt;
+    if (error != std::errc()) return std::nullopt;
     at_ += std::size_t(end - rest().data());
-    return kept;
+    return value;
 }
 
 std::optional<int> TextCursor::integer() {

@@ -33,6 +33,8 @@ public:
     bool accept(std::string_view literal);
     /// A number in the decimal notation, kept with 32 bits as cpfg keeps it; none if the text here is none.
     std::optional<double> number();
+    /// The same with all its digits.
+    std::optional<double> exact_number();
     /// The whole number the text here begins with; none if it begins with none or with one beyond 32 bits.
     std::optional<int> integer();
     /// What stands before the next of the characters that end a word; may be empty.

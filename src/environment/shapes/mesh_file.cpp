@@ -6,6 +6,7 @@
 #include "base/platform.h"
 #include "environment/shapes/mesh_formats.h"
 #include "geometry/polygon_triangles.h"
+#include "geometry/side_files/obj_mesh.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -36,12 +37,19 @@ void require_file(const std::filesystem::path& file, const Place& place) {
     }
 }
 
+PolygonMesh read_obj(const std::filesystem::path& file) {
+    geometry::ObjMesh read = geometry::read_obj_mesh(read_text(file), file.string());
+    PolygonMesh mesh{std::move(read.positions), {}, std::move(read.ends)};
+    for (const geometry::ObjMesh::Corner& corner : read.corners) {
+        mesh.corners.push_back(static_cast<std::int64_t>(corner.position));
+    }
+    return mesh;
+}
+
 PolygonMesh read_polygons(const std::filesystem::path& file, const Place& place) {
     const std::string extension = lower_case_extension(file);
-    const auto parse = extension == ".ply"   ? parse_ply
-                       : extension == ".stl" ? parse_stl
-                       : extension == ".obj" ? parse_obj
-                                             : nullptr;
+    if (extension == ".obj") return read_obj(file);
+    const auto parse = extension == ".ply" ? parse_ply : extension == ".stl" ? parse_stl : nullptr;
     if (!parse) {
         throw UserError(place, fmt::format("{} is no mesh that can be read: its name must end in .obj, .stl or .ply",
                                            file.string()));

@@ -231,31 +231,7 @@ PolygonMesh parse_text_stl(std::string_view text) {
     return mesh;
 }
 
-// --- OBJ ------------------------------------------------------------------------------------------------
-
-/// "7", "7/1", "7//3" and "7/1/3" all name point 7, the first being 1; -1 is the last point so far.
-std::int64_t obj_corner(std::string_view word, std::size_t points) {
-    const double number = number_of(word.substr(0, word.find('/')));
-    if (!(std::abs(number) < 1e15) || number == 0) return -1;
-    return static_cast<std::int64_t>(number < 0 ? static_cast<double>(points) + number : number - 1);
-}
-
 }  // namespace
-
-PolygonMesh parse_obj(std::string_view bytes) {
-    PolygonMesh mesh;
-    while (!bytes.empty()) {
-        std::string_view line = take_line(bytes);
-        const std::string_view keyword = take_word(line);
-        if (keyword == "v") mesh.points.push_back(take_point(line));
-        if (keyword != "f") continue;
-        for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-            mesh.corners.push_back(obj_corner(word, mesh.points.size()));
-        }
-        mesh.ends.push_back(mesh.corners.size());
-    }
-    return mesh;
-}
 
 PolygonMesh parse_stl(std::string_view bytes) {
     // Some binary files begin with "solid" too; those whose length fits their count are binary.

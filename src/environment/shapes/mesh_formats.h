@@ -1,4 +1,4 @@
-// OBJ, STL and PLY as polygons.
+// STL and PLY as polygons.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -22,7 +22,6 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-PolygonMesh parse_obj(std::string_view bytes);
 PolygonMesh parse_stl(std::string_view bytes);
 PolygonMesh parse_ply(std::string_view bytes);
 
