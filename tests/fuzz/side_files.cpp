@@ -6,6 +6,7 @@
 #include "espalier/geometry/palette.h"
 #include "espalier/turtle/view_file.h"
 
+#include "archive/meshes/bark.h"
 #include "language/side_files/side_files.h"
 #include "simulation/object/animation_file.h"
 #include "simulation/object/specifications.h"
@@ -121,9 +122,19 @@ void read_menu(std::string_view text) {
     read_specifications(written(text));
 }
 
-constexpr std::array readers{read_view,      read_surface, read_triangles,  read_contour, read_function,
-                             read_functions, read_curve,   read_scene,      read_map,     read_material_file,
-                             read_animation, read_menu,    read_object_file};
+// Pictures that it names are not read.
+void read_bark_file(std::string_view text) {
+    const Bark bark = read_bark(written(text));
+    if (bark.heights || bark.size > 64) return;
+    const HeightMap map = archive::heights_of(bark);
+    for (const float height : map.heights) require(height >= 0 && height <= 1);
+    archive::normals_of(bark, map);
+    archive::shades_of(bark, map);
+}
+
+constexpr std::array readers{read_view,      read_surface, read_triangles,   read_contour,  read_function,
+                             read_functions, read_curve,   read_scene,       read_map,      read_material_file,
+                             read_animation, read_menu,    read_object_file, read_bark_file};
 
 }  // namespace
 
