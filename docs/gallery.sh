@@ -121,6 +121,7 @@ system borchert "Apical control" "Borchert & Honda 1984" models/trees/vigour.l
 system ternary "Bent by a tropism" "Prusinkiewicz & Lindenmayer 1990" models/trees/ternary.l
 system colonization "Space colonization" "Runions, Lane & Prusinkiewicz 2007" environments/tree.toml
 system palubicki "Self-organizing tree" "Palubicki et al. 2009" environments/self-organizing.toml --set plant.0.define.YEARS=16
+system wind "Wind" "Weber & Penn 1995" environments/wind.toml
 end_row
 
 section "Plants and their environment"

@@ -82,6 +82,8 @@ for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir 
 done
 species black-oak --define ScaleV=3
 species weeping-willow --define Branches_3=60 --define QUALITY=0.5
+grow wind environments/wind.toml
+render wind.png wind --sheet 4x1 --size 220x280
 for shape in 1 2 3; do
     grow "collision-$shape" models/phyllotaxis/collision.l --define SHAPE=$shape --every 900
     render "collision-$shape.png" "collision-$shape" --size 260x300 --elevation 25

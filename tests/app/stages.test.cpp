@@ -108,6 +108,7 @@ TEST_CASE_METHOD(Leafy, "a picture that is missing is told before the run", "[ap
 
 TEST_CASE_METHOD(Leafy, "stages are listed and explained", "[app]") {
     const Outcome all = run("list stages");
-    for (const char* name : {"droop", "leaves", "pipe-radii", "smooth", "stem"}) CHECK_THAT(all.out, Contains(name));
+    for (const char* name : {"droop", "leaves", "pipe-radii", "smooth", "stem", "sway"})
+        CHECK_THAT(all.out, Contains(name));
     CHECK_THAT(run("list stages droop").out, Contains("lambda") && Contains("Brzoska 2019"));
 }

@@ -291,6 +291,29 @@ TEST_CASE("species: the surface of a trunk has lobes of the depth that was set",
     CHECK(most == Approx(0.5 * 1.2).epsilon(0.01));
 }
 
+TEST_CASE("species: an aspen sways in a gust, and is at rest before and after", "[species]") {
+    World world(read_scene(source_path("environments/wind.toml"),
+                           {{{"plant.0.stage.0.speed", "0"}, {"plant.0.define.QUALITY", "0.02"}}, {}, {}}));
+    world.start();
+    const Column<Internode>& at_rest = world.interpretation(0).geometry.internodes;
+    const auto top = std::max_element(at_rest.begin(), at_rest.end(),
+                                      [](const auto& a, const auto& b) { return a.tip.y < b.tip.y; }) -
+                     at_rest.begin();
+    std::vector<double> distances;
+    for (;; world.step()) {
+        const auto& drawn = world.frame().plants[0].interpretation->geometry.internodes;
+        const auto& grown = world.interpretation(0).geometry.internodes;
+        distances.push_back(glm::distance(drawn[std::size_t(top)].tip, grown[std::size_t(top)].tip));
+        if (world.at_end()) break;
+    }
+    CHECK(distances.size() == 49);
+    CHECK(distances.front() == 0);
+    CHECK(distances.back() == 0);
+    const double most = *std::max_element(distances.begin(), distances.end());
+    CHECK(most > 0.3);
+    CHECK(most < 4);
+}
+
 TEST_CASE("species: all of the library derive and draw, about as high as their scale", "[species]") {
     int count = 0;
     for (const auto& file : std::filesystem::directory_iterator(source_path("models/species"))) {

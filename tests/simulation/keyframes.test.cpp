@@ -99,6 +99,11 @@ TEST_CASE("a plant that grows anew has in every segment the value of the step", 
           std::vector<std::string>{"SF(1)F(1)F(1)F(1)A", "SF(1.5)F(1.5)F(1.5)F(1.5)A", "SF(2)F(2)F(2)F(2)A"});
 }
 
+TEST_CASE("without keyframes a plant that grows anew has grown before the first step, and stays", "[scene]") {
+    const Scenes scenes;
+    CHECK(scenes.strings("regrow = true\n", 2) == std::vector<std::string>(3, "SF(1)F(1)F(1)F(1)A"));
+}
+
 TEST_CASE("a plant of an age has the values of that time", "[scene]") {
     const Scenes scenes;
     CHECK(scenes.strings("age = 3\n" + growth, 1)[1] == "SF(2.5)A");

@@ -20,6 +20,7 @@ struct StagedPlant {
     const ModuleString& string;  ///< that was interpreted: internodes name its modules
     RandomKey key;               ///< of the plant; take samples by Identity, so that an organ keeps them as others come
     glm::dvec3 heading{0, 1, 0};  ///< of the turtle at the beginning
+    double time = 0;              ///< of the frame, in the scene's unit
 };
 
 /// Constructors take (Settings&) and read their parameters; the scene rejects unread ones. Thread safe.

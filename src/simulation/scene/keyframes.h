@@ -43,11 +43,16 @@ public:
     using Make = std::function<std::shared_ptr<const CompiledModel>(double time)>;
 
     ModelInTime(Make make, double dt) : make_(std::move(make)), dt_(dt) {}
-    std::shared_ptr<const CompiledModel> at_step(int step) const { return make_(step * dt_); }
+    /// A model that is the same at all times: the plant has grown before the first step.
+    explicit ModelInTime(std::shared_ptr<const CompiledModel> model) : constant_(std::move(model)) {}
+
+    std::shared_ptr<const CompiledModel> at_step(int step) const { return constant_ ? constant_ : make_(step * dt_); }
+    bool is_constant() const { return constant_ != nullptr; }
 
 private:
+    std::shared_ptr<const CompiledModel> constant_;
     Make make_;
-    double dt_;
+    double dt_ = 1;
 };
 
 }  // namespace espalier::simulation

@@ -177,9 +177,8 @@ private:
         const std::vector<Keyframes> keyframes = read_keyframes(table, table.path("model"));
         const bool has_age = table.has("age"), regrows = table.flag_or("regrow", false);
         const double age = has_age ? table.number("age", Range::not_negative()) : 0;
-        if ((has_age || regrows) && keyframes.empty()) {
-            throw UserError(table.place(has_age ? "age" : "regrow"),
-                            "this plant has no [[plant.keyframes]] to look at");
+        if (has_age && keyframes.empty()) {
+            throw UserError(table.place("age"), "this plant has no [[plant.keyframes]] to look at");
         }
         if (has_age && regrows) throw UserError(table.place("age"), "a plant has either an 'age' or 'regrow'");
         for (const Keyframes& each : keyframes) {
@@ -195,6 +194,10 @@ private:
         }
         plant.model = compiled_model(table, defines, in_time, plant.view.get());
         if (!regrows) return;
+        if (keyframes.empty()) {
+            plant.in_time = std::make_shared<const ModelInTime>(plant.model);
+            return;
+        }
         const std::filesystem::path path = table.path("model");
         const ReadOptions options = read_options(defines, read_arithmetic(table), plant.view.get());
         plant.in_time = std::make_shared<const ModelInTime>(

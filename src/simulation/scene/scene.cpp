@@ -247,7 +247,8 @@ const char* scene_help() {
   keyframes    [[plant.keyframes]]: { name = "HEIGHT", times = [0, 20], values = [1, 8], spline = false }: a #define of
                the model has these values at these times
   age          the time at which the keyframes are read; default: that of each step
-  regrow       false; true: every step grows the plant anew, with the values of that time
+  regrow       false; true: every step grows the plant anew, with the values of that time; without keyframes it
+               has grown before step 0 and stays
   arithmetic   "double", or "cpfg": computes as cpfg does, with 32-bit parameters
   view         view file (.v): settings of the turtle, surfaces, contours, functions, curves
   colour_map   a file (.map) for set 1, or { 1 = file, 2 = file }

@@ -58,10 +58,14 @@ void GrowingPlant::derive(ModuleString* spare) {
         return rewrite([&](const ModuleString& from, ModuleString& to) { derivation.step(from, to); }, spare);
     }
     rewrite(
-        [&](const ModuleString&, ModuleString& to) {
+        [&](const ModuleString& from, ModuleString& to) {
             const ModuleString nothing;
             derivation.step(nothing, to);  // counts the step
-            regrow(to);
+            if (regrown_ && description->in_time->is_constant()) {
+                to = from;
+            } else {
+                regrow(to);
+            }
         },
         spare);
 }
@@ -96,7 +100,7 @@ void GrowingPlant::rewrite(const Rewrite& rewrite, ModuleString* spare) {
     note_derived();
 }
 
-void GrowingPlant::interpret(const FieldValues& fields) {
+void GrowingPlant::interpret(const FieldValues& fields, double time) {
     Interpretation& result = interpretation.for_writing();
     const Derivation* pictures = has_pictures_ ? &drawing() : nullptr;
     const std::shared_ptr<const Drawing> now =
@@ -112,7 +116,7 @@ void GrowingPlant::interpret(const FieldValues& fields) {
     if (description->stages.empty()) return;
     Interpretation& staged = staged_.for_writing();
     staged = result;
-    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading};
+    StagedPlant plant{staged.geometry, *string, stage_key_, description->turtle.pose.heading, time};
     apply(now ? now->stages : description->stages, plant);
 }
 

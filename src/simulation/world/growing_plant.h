@@ -29,8 +29,8 @@ public:
     // reads its string; else, or if `spare` is null, in memory of the plant's own.
     void write_axiom(ModuleString* spare);
     void derive(ModuleString* spare);
-    /// `fields`: what its vector fields read.
-    void interpret(const FieldValues& fields);
+    /// `fields`: what its vector fields read; `time`: of its geometry stages.
+    void interpret(const FieldValues& fields, double time);
     void set_length(int steps);
     /// After its string and its derivation were restored from a checkpoint.
     void note_derived();

@@ -149,7 +149,7 @@ void World::interpret() {
     state_->take_fields();
     for_every_plant(state_->plants, state_->reads, &GrowingPlant::prefetch_for_interpretation,
                     [&](GrowingPlant& plant, ModuleString&) {
-                        plant.interpret(state_->fields);
+                        plant.interpret(state_->fields, state_->time());
                         state_->memory.count_drawn(plant, state_->step, size() > 1);
                     });
     state_->fields.forget();  // so that processes may write the next values over these

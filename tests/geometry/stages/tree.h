@@ -66,9 +66,10 @@ public:
         return *this;
     }
 
-    Tree& stage(Settings parameters) {
+    Tree& stage(Settings parameters, double time = 0) {
         const auto read = read_geometry_stage(parameters);
         StagedPlant plant{geometry, string, RandomKey(1, 0, Stream::stage)};
+        plant.time = time;
         apply({read}, plant);
         return *this;
     }
