@@ -90,6 +90,7 @@ system fern "Fern that unrolls" "after Prusinkiewicz & Lindenmayer 1990" models/
 system compound "Compound leaf" "Prusinkiewicz & Lindenmayer 1990" models/leaves/compound-leaf.l
 system rose-leaf "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990" models/leaves/rose-leaf.l
 system field "Field of flowers" "Prusinkiewicz & Lindenmayer 1990" models/stochastic/flower-field.l
+system timed-leaf "Leaf in continuous time" "Prusinkiewicz & Lindenmayer 1990" models/leaves/compound-leaf-timed.l --define TIME=11
 end_row
 
 section "Phyllotaxis"

@@ -188,3 +188,39 @@ TEST_CASE("Elementary automata: rules 30, 90 and 110 on a ring, with their whole
         CHECK(past == std::string(centre.rbegin(), centre.rend()));
     }
 }
+
+TEST_CASE("anabaena-timed: at whole times it is the discrete filament, whatever the step", "[cells]") {
+    for (const auto& [step, at_once] : {std::pair{"1", 1}, {"0.1", 10}, {"0.3", 10}, {"0.125", 8}, {"7", 1}}) {
+        LonePlant timed(file("anabaena-timed"), {{"DT", step}});
+        LonePlant discrete(file("anabaena"));
+        const int whole = static_cast<int>(std::lround(std::stod(step) * at_once));
+        for (int time = whole; time <= 7; time += whole) {
+            timed.grow(at_once);
+            discrete.grow(whole);
+            CHECK(symbols_of(timed.string, timed.model->alphabet) ==
+                  symbols_of(discrete.string, discrete.model->alphabet));
+            for (const double age : timed.string.parameters) CHECK(age == Approx(0).margin(1e-12));
+        }
+    }
+}
+
+TEST_CASE("anabaena-timed: the filament grows by the golden section at every time", "[cells]") {
+    const double golden = (std::sqrt(5) + 1) / 2;
+    for (const double step : {0.1, 0.37, 2.6}) {
+        LonePlant filament(file("anabaena-timed"), {{"DT", std::to_string(step)}});
+        for (double time = step; time < 8; time += step) {
+            filament.grow(1);
+            CHECK(total_length(filament.interpretation.geometry) == Approx(std::pow(golden, time - 1)).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("anabaena-timed: the ages of a time are the same whatever steps led to it", "[cells]") {
+    LonePlant coarse(file("anabaena-timed"), {{"DT", "5.4"}}), fine(file("anabaena-timed"), {{"DT", "0.2"}});
+    coarse.grow(1);
+    fine.grow(27);
+    REQUIRE(coarse.string.letters == fine.string.letters);
+    for (std::size_t i = 0; i < coarse.string.parameters.size(); ++i) {
+        CHECK(coarse.string.parameters[i] == Approx(fine.string.parameters[i]).epsilon(1e-9));
+    }
+}

@@ -209,3 +209,40 @@ TEST_CASE("fern: the tip is coiled, what is old is straight, and pinnae stand in
     CHECK(is_symmetric(tips_of(frond.interpretation.geometry), 1e-9));
     CHECK(frond.counts()["["] % 2 == 0);
 }
+
+TEST_CASE("compound-leaf-timed: at whole times every segment is as long as in the discrete leaf", "[leaves]") {
+    LonePlant timed("models/leaves/compound-leaf-timed.l", {{"DT", "0.1"}}), discrete("models/leaves/compound-leaf.l");
+    for (int time = 1; time <= 7; ++time) {
+        timed.grow(10);
+        discrete.grow(1);
+        const Column<Internode>&drawn = timed.interpretation.geometry.internodes,
+              &expected = discrete.interpretation.geometry.internodes;
+        REQUIRE(drawn.size() == expected.size());
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            CHECK(glm::distance(drawn[i].base, expected[i].base) < 1e-9);
+            CHECK(glm::distance(drawn[i].tip, expected[i].tip) < 1e-9);
+        }
+    }
+}
+
+TEST_CASE("compound-leaf-timed: lengths are continuous, and the rate of the main axis is", "[leaves]") {
+    constexpr double dt = 0.005;
+    LonePlant leaf("models/leaves/compound-leaf-timed.l", {{"DT", "0.005"}, {"D", "0.7"}});
+    std::vector<double> whole{0}, main{0};
+    for (int step = 1; step <= 1000; ++step) {
+        leaf.grow(1);
+        whole.push_back(total_length(leaf.interpretation.geometry));
+        double axis = 0;
+        for (const Internode& internode : leaf.interpretation.geometry.internodes) {
+            if (internode.order == 0) axis += length_of(internode);
+        }
+        main.push_back(axis);
+    }
+    for (std::size_t i = 2; i < main.size(); ++i) {
+        const double rate = (main[i] - main[i - 1]) / dt, before = (main[i - 1] - main[i - 2]) / dt;
+        CHECK(std::abs(rate - before) < 0.005 * rate);
+        // No length appears at once: the whole changes by what a step of its growth is, 1.5^t times the steps.
+        CHECK(whole[i] - whole[i - 1] < 0.015 * whole[i] + 0.01);
+        CHECK(whole[i] > whole[i - 1]);
+    }
+}

@@ -13,8 +13,8 @@ const std::array<std::string, 16> header{"lsystem", "ring",        "seed",   "de
                                          "ignore",  "consider",    "define", "start each",
                                          "start",   "end each",    "end",    "axiom",
                                          "module",  "environment", "const",  "field"};
-const std::array<std::string, 6> section{"decomposition", "homomorphism", "maximum depth",
-                                         "warnings",      "no warnings",  "endlsystem"};
+const std::array<std::string, 9> section{"decomposition", "homomorphism", "timed",       "time step", "ageing",
+                                         "maximum depth", "warnings",     "no warnings", "endlsystem"};
 
 }  // namespace
 

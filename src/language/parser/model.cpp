@@ -1,6 +1,7 @@
 #include "language/parser/model.h"
 
 #include "base/text.h"
+#include "language/parser/constant.h"
 #include "language/parser/declarations.h"
 #include "language/parser/expressions.h"
 #include "language/parser/keywords.h"
@@ -8,6 +9,7 @@
 #include "language/parser/productions.h"
 #include "language/parser/scanner.h"
 #include "language/parser/symbols.h"
+#include "language/parser/timed.h"
 
 #include <fmt/format.h>
 
@@ -116,6 +118,7 @@ private:
         looked_ahead_ = false;
         names_.begin(*system_, model_.systems.size() - 1);
         productions_.take_first_weight();
+        timed_ = {};
         const Location begin = in_.here();
         label();
         rules_ = nullptr;
@@ -128,6 +131,7 @@ private:
         // A sub-L-system's axiom is never used.
         if (!axiom_read_ && model_.systems.size() == 1)
             mistakes_.error(begin, "this L-system has no axiom: 'axiom: ...' is missing");
+        timed_.add_to(*system_, model_.alphabet);
         names_.finish();
     }
 
@@ -194,7 +198,9 @@ private:
         if (!std::exchange(axiom_read_, true) && model_.systems.size() == 1) {  // said once
             mistakes_.error(in_.here(), "a production before the axiom: 'axiom: ...' is missing");
         }
+        const Location at = in_.here();
         Production read = productions_.production();
+        if (rules_ == &timed_.rules) TimedRules::require_terminal_age(read, at);
         const std::optional<Location> weight = productions_.take_first_weight();
         const bool stochastic = system_->seed || (rules_ && rules_->seed);
         if (weight && !stochastic && !std::exchange(weight_reported_, true)) {
@@ -262,7 +268,9 @@ private:
     bool section_line() {
         if (in_.accept_keyword("decomposition")) return begin_section(system_->decomposition, "decomposition");
         if (in_.accept_keyword("homomorphism")) return begin_section(system_->homomorphism, "homomorphism");
+        if (in_.accept_keyword("timed")) return begin_section(timed_.rules, "timed");
         if (!rules_) return false;
+        if (rules_ == &timed_.rules && timed_line()) return true;
         if (in_.accept_keyword("maximum depth")) {
             rules_->maximum_depth = value_of("maximum depth");
         } else if (in_.accept_keyword("seed")) {
@@ -279,9 +287,28 @@ private:
         return true;
     }
 
+    bool timed_line() {
+        const Location at = in_.here();
+        if (in_.accept_keyword("time step")) {
+            timed_.time_step = value_of("time step");
+            const std::optional<double> value = constant_value(*timed_.time_step);
+            if (value && *value <= 0)
+                throw SyntaxError{at, fmt::format("a time step must be greater than 0, not {}", *value)};
+        } else if (in_.accept_keyword("ageing")) {
+            in_.expect(":", "after 'ageing'");
+            timed_.ageing = productions_.symbol_list();
+        } else {
+            return false;
+        }
+        return true;
+    }
+
     bool begin_section(RuleSet& rules, const char* name) {
         if (rules.present) mistakes_.error(in_.here(), fmt::format("a second '{}' in one L-system", name));
         rules.present = true;
+        if (system_->decomposition.present && timed_.rules.present) {
+            mistakes_.error(in_.here(), "an L-system has timed productions or a decomposition, not both");
+        }
         rules_ = &rules;
         in_.accept(":");
         // "warnings" and "no warnings" may stand on the keyword's own line.
@@ -387,6 +414,7 @@ private:
     DeclarationParser declarations_;
     Model& model_;
     LSystem* system_ = nullptr;
+    TimedRules timed_;           // of the L-system at hand
     RuleSet* rules_ = nullptr;   // null among the productions proper
     bool complete_;              // nothing was wrong before parsing that may have hidden a part
     bool looked_ahead_ = false;  // for definitions, in the L-system at hand
