@@ -92,6 +92,12 @@ const TextureCopy& TextureCopies::copy(const std::string& file, TextureMap map) 
     return at->second = {name, is_transparent(png)};
 }
 
+const TextureCopy& TextureCopies::add(const std::string& file, const std::string& png) {
+    const std::string name = plain(fmt::format("{}-{}.png", job_.name, file));
+    write_text(job_.folder / name, png);
+    return copies_[{file, TextureMap::colours}] = {name, is_transparent(png)};
+}
+
 std::string TextureCopies::free_name(const std::string& stem, const std::string& png) const {
     const auto is_taken = [&](const std::string& name) {
         const bool is_ours =

@@ -1,5 +1,6 @@
 #include "formats/usd_instances.h"
 
+#include "formats/usd_mesh.h"
 #include "formats/usd_text.h"
 
 #include <fmt/format.h>
@@ -47,26 +48,11 @@ void Instancers::append_shapes(std::string& text, std::uint32_t plant) const {
     const std::vector<Shape>& shapes = shapes_.at(plant);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const NodeShape& shape = *shapes[i].shape;
-        fmt::format_to(std::back_inserter(text),
-                       "                def Mesh \"shape_{}\" (\n                    prepend apiSchemas = "
-                       "[\"MaterialBindingAPI\"]\n                )\n                {{\n"
-                       "                    uniform bool doubleSided = true\n"
-                       "                    uniform token subdivisionScheme = \"none\"\n"
-                       "                    rel material:binding = </world/materials/{}>\n",
-                       i, shapes[i].material.empty() ? UsdMaterials::of_colours : shapes[i].material);
-        const auto add = [&](const char* declaration, const char* interpolation, std::string value) {
-            Samples samples(declaration, interpolation);
-            samples.add(0, std::move(value));
-            samples.append_to(text, 20);
-        };
-        add("int[] faceVertexCounts", "", numbers(std::vector<int>(shape.triangles.size(), 3)));
-        add("int[] faceVertexIndices", "", corners(shape.triangles));
-        add("point3f[] points", "", vectors(shape.points));
-        add("normal3f[] normals", "vertex", vectors(shape.normals));
-        add("texCoord2f[] primvars:st", "vertex", places(shape.uvs));
-        add("color3f[] primvars:displayColor", "uniform", colours(shape.rgb));
-        add("float3[] extent", "", extent(shape.points, 0));
-        text += "                }\n";
+        const std::string& material = shapes[i].material;
+        append_mesh(text, fmt::format("shape_{}", i),
+                    {shape.triangles, shape.points, shape.normals, shape.uvs, shape.rgb,
+                     material.empty() ? UsdMaterials::of_colours : material},
+                    16);
     }
     text += "            }\n";
 }
@@ -97,9 +83,7 @@ void Instancers::append_places(std::string& text, std::uint32_t plant) const {
         ids.add(step, numbers(frames[frame].ids));
         positions.add(step, vectors(frames[frame].positions));
         scales.add(step, vectors(frames[frame].scales));
-        turns.add(step, list(frames[frame].turns, [](std::string& to, const glm::quat& q) {
-                      fmt::format_to(std::back_inserter(to), "({}, {}, {}, {})", q.w, q.x, q.y, q.z);
-                  }));
+        turns.add(step, turns_as_text(frames[frame].turns));
     }
     for (const Samples* samples : {&shapes, &ids, &positions, &scales, &turns}) samples->append_to(text);
 }

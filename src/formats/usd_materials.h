@@ -21,6 +21,8 @@ public:
 
     explicit UsdMaterials(const ExportJob& job) : run_(job.run), copies_(job) {}
 
+    /// A picture that is in no file yet; materials name it by `texture`. Throws RunError.
+    void add_picture(const std::string& texture, const std::string& png) { copies_.add(texture, png); }
     /// The name of its prim below /world/materials; "" for a plain colour without a picture.
     const std::string& name(const MeshMaterial& look);
     /// The scope of all that were asked for: a UsdPreviewSurface each, whose picture is read by `st` and times the

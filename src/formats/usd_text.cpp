@@ -30,6 +30,12 @@ std::string vectors(const std::vector<glm::vec3>& range) {
     return list(range, put_vector);
 }
 
+std::string turns_as_text(const std::vector<glm::quat>& range) {
+    return list(range, [](std::string& text, const glm::quat& q) {
+        fmt::format_to(std::back_inserter(text), "({}, {}, {}, {})", q.w, q.x, q.y, q.z);
+    });
+}
+
 std::string places(const std::vector<glm::vec2>& uvs) {
     return list(uvs, [](std::string& text, const glm::vec2& uv) {
         fmt::format_to(std::back_inserter(text), "({}, {})", uv.x, uv.y);

@@ -5,6 +5,7 @@
 #include "formats/colour.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include <iterator>
 #include <string>
@@ -48,6 +49,8 @@ std::string numbers(const auto& range) {
 }
 
 std::string vectors(const std::vector<glm::vec3>& range);
+/// Of a quath[]: w first.
+std::string turns_as_text(const std::vector<glm::quat>& range);
 std::string places(const std::vector<glm::vec2>& uvs);
 std::string colours(const std::vector<Rgb>& range);
 std::string corners(const std::vector<std::array<std::uint32_t, 3>>& triangles);

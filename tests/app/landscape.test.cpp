@@ -42,8 +42,9 @@ struct LandscapePlace : Workplace {
 
 TEST_CASE("landscape draws and exports the plants of a stand, and says how many there are", "[landscape]") {
     const LandscapePlace place;
-    const Outcome outcome =
-        place.run("landscape land.toml --output made/a.png --output made/a.glb --cards cards --size 80x60 --json");
+    const Outcome outcome = place.run(
+        "landscape land.toml --output made/a.png --output made/a.glb --output made/a.usda --cards cards --size 80x60 "
+        "--json");
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     const auto json = nlohmann::json::parse(outcome.out);
@@ -60,6 +61,7 @@ TEST_CASE("landscape draws and exports the plants of a stand, and says how many 
     CHECK(json["triangles"] == triangles);
     CHECK(place.bytes("made/a.png").substr(1, 3) == "PNG");
     CHECK(place.bytes("made/a.glb").substr(0, 4) == "glTF");
+    CHECK(place.bytes("made/a.usda").find("def PointInstancer") != std::string::npos);
     CHECK(place.run("landscape land.toml --output made/b.png --size 80x60").code == 0);
     CHECK(place.bytes("made/a.png") == place.bytes("made/b.png"));
     CHECK(place.run("landscape land.toml --output made/c.png --size 80x60 --set light.azimuth=60").code == 0);
@@ -74,7 +76,7 @@ TEST_CASE("landscape says what is wrong, and where", "[landscape]") {
         CHECK_FALSE(std::filesystem::exists(place.path() / "a.png"));
         return outcome.err;
     };
-    CHECK_THAT(message("--output a.jpg"), Contains("a .png or .glb file"));
+    CHECK_THAT(message("--output a.jpg"), Contains("a .png, .glb or .usda file"));
     CHECK_THAT(message("--set stand.run=nowhere"), Contains("--set stand.run: nowhere"));
     CHECK_THAT(message("--set species.0.colour=7"), Contains("colour 1") && Contains("there are 7, 2"));
     CHECK_THAT(message("--set detail.levels=[5,20]"), Contains("begin with 0"));

@@ -7,7 +7,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/folder.h"
-#include "formats/landscape_glb.h"
+#include "formats/landscape_file.h"
 #include "landscape_scene.h"
 #include "picture_options.h"
 
@@ -45,7 +45,7 @@ public:
         app().add_option("file", file_, "the landscape, a .toml file")->required();
         app()
             .add_option("--output", output_,
-                        "the picture, a .png file, or the landscape as a .glb file; may be repeated")
+                        "the picture, a .png file, or the landscape as a .glb or .usda file; may be repeated")
             ->required()
             ->allow_extra_args(false);
         app().add_option("--size", size_, "WIDTHxHEIGHT of the picture in pixels")->capture_default_str();
@@ -60,6 +60,7 @@ public:
 Examples:
   espalier landscape environments/landscapes/hills.toml --output landscape.png
   espalier landscape environments/landscapes/hills.toml --output landscape.glb --cards cards
+  espalier landscape environments/landscapes/hills.toml --output landscape.usda
   espalier landscape environments/landscapes/hills.toml --output near.png --set camera.eye=[0,2,40] --size 800x600)");
     }
 
@@ -84,8 +85,8 @@ private:
     std::vector<fs::path> outputs() const { return {output_.begin(), output_.end()}; }
 
     static void require_extension(const fs::path& output) {
-        if (output.extension() == ".png" || output.extension() == ".glb") return;
-        throw UserError(fmt::format("--output {}: expected the name of a .png or .glb file", output.string()));
+        if (output.extension() == ".png" || is_landscape_file(output)) return;
+        throw UserError(fmt::format("--output {}: expected the name of a .png, .glb or .usda file", output.string()));
     }
 
     /// Of the species that have any: as they look from the eye, from the middle of the terrain.
