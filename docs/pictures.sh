@@ -90,9 +90,9 @@ for shape in 1 2 3; do
 done
 grow contact-pressure models/phyllotaxis/contact-pressure.l --every 180
 render contact-pressure.png contact-pressure --size 200x300 --elevation 25
-for sides in 3 6 12; do
+for sides in 3 6 12 24; do
     grow "cells-$sides" environments/cells.toml --set plant.0.define.SIDES=$sides
-    render "cells-$sides.png" "cells-$sides" --size 260x260 --azimuth 0 --step 14 --elevation $((sides == 12 ? 20 : 90)) --no-ground
+    render "cells-$sides.png" "cells-$sides" --size 260x260 --azimuth 0 --step 14 --elevation $((sides > 6 ? 20 : 90)) --no-ground
 done
 grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --set 'environment.cells.rule="wishes"' --steps 27
 render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground

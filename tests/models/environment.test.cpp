@@ -143,6 +143,63 @@ TEST_CASE("cells: a cube of Ulam's cells has all 48 symmetries of the cube", "[e
     }
 }
 
+TEST_CASE("cells: tetrahedra that fill space grow as a separate program finds, with the first one's symmetries",
+          "[environment]") {
+    // The centres of tetragonal disphenoids are the corners of truncated octahedra that fill space: of the coordinates
+    // one is odd, and the even ones differ by 2 modulo 4. Neighbours share a triangle.
+    using Site = std::array<long, 3>;
+    const auto is_site = [](const Site& site) {
+        std::vector<long> even;
+        for (const long x : site) {
+            if (x % 2 == 0) even.push_back(x);
+        }
+        return even.size() == 2 && (even[0] - even[1]) % 4 != 0;
+    };
+    const Site first{0, 1, 2};
+    std::set<Site> expected{first};
+    std::vector<int> counts{1};
+    for (int step = 0; step < 8; ++step) {
+        std::map<Site, int> touched;
+        for (const Site& cell : expected) {
+            for (int way = 0; way < 12; ++way) {
+                Site next = cell;
+                next[std::size_t(way / 4)] += way & 1 ? 1 : -1;
+                next[std::size_t((way / 4 + 1) % 3)] += way & 2 ? 1 : -1;
+                if (is_site(next)) ++touched[next];
+            }
+        }
+        for (const auto& [place, neighbours] : touched) {
+            if (neighbours == 1) expected.insert(place);
+        }
+        counts.push_back(static_cast<int>(expected.size()));
+    }
+    CHECK(counts == std::vector<int>{1, 5, 13, 21, 45, 77, 85, 109, 157});
+    const SceneOptions options = overriding({{"plant.0.define.SIDES", "24"}});
+    CHECK(cells_of("environments/cells.toml", 8, options) == counts);
+
+    SceneOptions of_eight = options;
+    of_eight.steps = 8;
+    const auto world = grown("environments/cells.toml", of_eight);
+    // The first turtle heads against one edge of a square and has the other to its left.
+    const glm::dmat3 axes(glm::dvec3(-1, 1, 0) / std::sqrt(2.0), glm::dvec3(-1, -1, 0) / std::sqrt(2.0), {0, 0, 1});
+    const glm::dmat3 turtle({0, 0, -1}, {-1, 0, 0}, {0, -1, 0});  // heading, left and up behind &(90)
+    std::set<Site> cells;
+    const ModuleString& string = world->string(0);
+    for (const Query& query : world->interpretation(0).queries) {
+        if (world->model(0).alphabet.name(string.letters[query.module - 1]) != "K") continue;
+        const glm::dvec3 place = std::sqrt(2.0) * (axes * (glm::transpose(turtle) * query.pose.position));
+        cells.insert(
+            {first[0] + std::lround(place.x), first[1] + std::lround(place.y), first[2] + std::lround(place.z)});
+    }
+    CHECK(cells == expected);
+    for (const Site& cell : cells) {
+        const long x = cell[0] - first[0], y = cell[1] - first[1], z = cell[2] - first[2];
+        CHECK(cells.contains({first[0] - x, cell[1], cell[2]}));
+        CHECK(cells.contains({cell[0], cell[1], first[2] - z}));
+        CHECK(cells.contains({first[0] + z, first[1] - y, first[2] + x}));
+    }
+}
+
 TEST_CASE("cells: with wishes to the side in every third step only, the births are Holladay's", "[environment]") {
     const std::vector<int> cells =
         cells_of("environments/cells.toml", 10,
