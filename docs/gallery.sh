@@ -99,6 +99,7 @@ system sunflower "Sunflower head" "Vogel 1979" models/phyllotaxis/sunflower-head
 system zinnia "Zinnia" "Prusinkiewicz & Lindenmayer 1990" models/phyllotaxis/zinnia.l
 system pineapple "Pineapple" "Ridley 1986" models/phyllotaxis/pineapple.l
 system collision "Organs that touch" "Fowler, Prusinkiewicz & Battjes 1992" models/phyllotaxis/collision.l -- --elevation 25
+system gourd "Organs on a drawn profile" "Fowler, Prusinkiewicz & Battjes 1992" models/phyllotaxis/collision.l --view models/phyllotaxis/gourd.v --define SHAPE=4 -- --elevation 15
 system pressure "Contact pressure" "Adler 1974" models/phyllotaxis/contact-pressure.l
 system meinhardt "Reaction and diffusion" "Meinhardt 1982" environments/reaction-diffusion.toml
 system veins "Nets" "Meinhardt 1976" environments/vein-net.toml

@@ -88,6 +88,8 @@ for shape in 1 2 3; do
     grow "collision-$shape" models/phyllotaxis/collision.l --define SHAPE=$shape --every 900
     render "collision-$shape.png" "collision-$shape" --size 260x300 --elevation 25
 done
+grow collision-4 models/phyllotaxis/collision.l --view models/phyllotaxis/gourd.v --define SHAPE=4 --every 900
+render collision-4.png collision-4 --size 260x300 --elevation 15
 grow contact-pressure models/phyllotaxis/contact-pressure.l --every 180
 render contact-pressure.png contact-pressure --size 200x300 --elevation 25
 for sides in 3 6 12 24; do

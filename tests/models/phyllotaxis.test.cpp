@@ -225,7 +225,8 @@ struct Receptacle {
     std::vector<double> radii, azimuths, parts;
 
     explicit Receptacle(const std::string& shape)
-        : plant_("models/phyllotaxis/collision.l", {{"SHAPE", shape}, {"MOST", "300"}}) {
+        : plant_(read_view_file(source_path("models/phyllotaxis/gourd.v")), "models/phyllotaxis/collision.l",
+                 {{"SHAPE", shape}, {"MOST", "300"}}) {
         plant_.grow(300);
         for (const Organ& organ : plant_.interpretation.geometry.organs) {
             if (organ.shape != Organ::Shape::sphere) continue;
@@ -249,7 +250,7 @@ private:
 
 TEST_CASE("collision: no organs overlap, and each above the base touches an earlier one a Fibonacci number before",
           "[phyllotaxis]") {
-    for (const char* shape : {"1", "2", "3"}) {
+    for (const char* shape : {"1", "2", "3", "4"}) {
         const Receptacle receptacle(shape);
         const std::size_t count = receptacle.places.size();
         REQUIRE(count > 80);

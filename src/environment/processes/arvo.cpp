@@ -6,6 +6,7 @@
 #include "espalier/geometry/background.h"
 #include "espalier/lsystem/lsystem.h"
 
+#include "base/bytes.h"
 #include "environment/parameter_file.h"
 
 #include <glm/geometric.hpp>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace espalier::environment {
 namespace {
@@ -57,6 +59,31 @@ std::optional<ClimbHit> hit_of(const ClimbTriangle& triangle, const ClimbRay& ra
     return ClimbHit{along, ray.from + along * ray.direction, outward};
 }
 
+/// A ball, a cylinder or a cone that a plant asks to be there.
+struct ClimbObject {
+    enum class Kind : std::uint8_t { ball, cylinder, cone };
+    std::uint64_t owner;  ///< the query
+    Kind kind;
+    glm::dvec3 base, tip;
+    double base_radius, tip_radius;
+
+    std::shared_ptr<const Shape> shape() const {
+        Settings table;
+        if (kind == Kind::ball) {
+            table = {{"shape", "sphere"}, {"center", base}, {"radius", base_radius}};
+        } else if (kind == Kind::cylinder) {
+            table = {{"shape", "cylinder"}, {"base", base}, {"tip", tip}, {"radius", base_radius}};
+        } else {
+            table = {{"shape", "cone"},
+                     {"base", base},
+                     {"tip", tip},
+                     {"base_radius", base_radius},
+                     {"tip_radius", tip_radius}};
+        }
+        return read_shape(table);
+    }
+};
+
 /// What climbers meet: the solid of the scene, the triangles of a file, and what the plants ask to be there.
 class ClimbObstacles {
 public:
@@ -79,8 +106,21 @@ public:
         }
     }
 
-    void begin_step() { asked_.clear(); }
-    void add(Settings shape) { asked_.push_back(read_shape(shape)); }
+    void forget_objects() { asked_.clear(), objects_.clear(); }
+    /// Instead of what the same query has asked for before.
+    void add(const ClimbObject& object) {
+        const auto [known, is_new] = objects_.insert_or_assign(object.owner, object);
+        asked_[known->first] = object.shape();
+    }
+    std::size_t objects() const { return objects_.size(); }
+    void save(std::ostream& out) const {
+        espalier::put(out, static_cast<std::uint64_t>(objects_.size()));
+        for (const auto& [owner, object] : objects_) espalier::put(out, object);
+    }
+    void restore(std::istream& in) {
+        forget_objects();
+        for (auto left = espalier::get<std::uint64_t>(in); left > 0; --left) add(espalier::get<ClimbObject>(in));
+    }
 
     std::optional<ClimbHit> first(const ClimbRay& ray) const {
         std::optional<ClimbHit> nearest;
@@ -88,13 +128,15 @@ public:
             if (hit && (!nearest || hit->along < nearest->along)) nearest = hit;
         };
         for (const auto& shape : lasting_) keep(hit_of(*shape, ray));
-        for (const auto& shape : asked_) keep(hit_of(*shape, ray));
+        for (const auto& [owner, shape] : asked_) keep(hit_of(*shape, ray));
         for (const ClimbTriangle& triangle : triangles_) keep(hit_of(triangle, ray));
         return nearest;
     }
 
 private:
-    std::vector<std::shared_ptr<const Shape>> lasting_, asked_;
+    std::vector<std::shared_ptr<const Shape>> lasting_;
+    std::map<std::uint64_t, ClimbObject> objects_;  ///< of plants, by owner
+    std::map<std::uint64_t, std::shared_ptr<const Shape>> asked_;
     std::vector<ClimbTriangle> triangles_;
 };
 
@@ -113,7 +155,7 @@ public:
                               "tries for Q", "tries for surface", "obstacles", "seed"})) {}
 
     void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
-        obstacles_.begin_step();
+        if (!keeps_objects_) obstacles_.forget_objects();
         for (const Query& query : queries) {
             if (query.parameters.empty()) add_object(query, world);
         }
@@ -141,11 +183,15 @@ public:
 
     std::pair<int, int> query_arity() const override { return {0, 20}; }
 
+    void save(std::ostream& out) const override { obstacles_.save(out); }
+    void restore(std::istream& in) override { obstacles_.restore(in); }
+
 private:
     Arvo(Settings& settings, const EnvironmentContext& context, ParameterFile file)
         : obstacles_(settings, file.file("obstacles"), context.warnings),
           surface_distance_(file.number("surface distance", 0.05, Range::positive())),
           farthest_(file.number("max surface distance", 1, Range::positive())),
+          keeps_objects_(settings.flag_or("keep_objects", false)),
           tries_for_place_(file.whole("tries for Q", 16, Range::between(1, 1e6))),
           tries_for_surface_(file.whole("tries for surface", 16, Range::between(0, 1e6))),
           key_(mix(context.seed, static_cast<std::uint64_t>(file.whole("seed", 0, Range::between(0, 2e9)))), 0,
@@ -161,15 +207,15 @@ private:
         const std::string& symbol = world.plants[query.plant].model->alphabet.name(query.following);
         const std::span<const double> sizes = query.following_parameters;
         const glm::dvec3& base = query.pose.position;
+        const std::uint64_t owner = keeps_objects_ ? mix(query.identity, query.plant) : obstacles_.objects();
+        const auto tip = [&](double height) { return base + height * query.pose.heading; };
+        using enum ClimbObject::Kind;
         if (symbol == "S" && sizes.size() == 1 && sizes[0] > 0) {
-            obstacles_.add({{"shape", "sphere"}, {"center", base}, {"radius", sizes[0]}});
+            obstacles_.add({owner, ball, base, base, sizes[0], sizes[0]});
         } else if (symbol == "C" && sizes.size() == 2 && sizes[0] > 0 && sizes[1] > 0) {
-            const glm::dvec3 tip = base + sizes[1] * query.pose.heading;
-            obstacles_.add({{"shape", "cylinder"}, {"base", base}, {"tip", tip}, {"radius", sizes[0]}});
+            obstacles_.add({owner, cylinder, base, tip(sizes[1]), sizes[0], sizes[0]});
         } else if (symbol == "C" && sizes.size() == 3 && sizes[0] > 0 && sizes[1] >= 0 && sizes[2] > 0) {
-            const glm::dvec3 tip = base + sizes[2] * query.pose.heading;
-            obstacles_.add(
-                {{"shape", "cone"}, {"base", base}, {"tip", tip}, {"base_radius", sizes[0]}, {"tip_radius", sizes[1]}});
+            obstacles_.add({owner, cone, base, tip(sizes[2]), sizes[0], sizes[1]});
         }
     }
 
@@ -227,6 +273,7 @@ private:
 
     ClimbObstacles obstacles_;
     double surface_distance_, farthest_;
+    bool keeps_objects_;
     std::int64_t tries_for_place_, tries_for_surface_;
     RandomKey key_;
     std::vector<std::uint64_t> climbing_, stuck_;  ///< tips of each plant in this step
@@ -249,6 +296,7 @@ const std::string& arvo_help() {
 
 solid                 the table of a shape: solid = { shape = "sphere", center = [0, 1, 0], radius = 1 }
 obstacles             a file of objects like those of `background scene` in view files
+keep_objects          false: objects of plants are there for the step; true: they stay when their queries are gone
 surface_distance      0.05 m
 max_surface_distance  1 m
 tries_for_Q           16

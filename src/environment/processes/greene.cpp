@@ -1,12 +1,14 @@
 // greene: vines that seek their way in the voxels near the surfaces of a solid, towards sun and sky.
 // Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space: segments are tried at
 // random in allowed voxels, collisions rejected and the best trial taken; the light of a voxel is the share of the
-// sun's path and of the sky that is seen from it.
+// sun's path and of the sky that is seen from it, past the solid and through the leaves.
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/bytes.h"
 #include "environment/shade/exposure.h"
+#include "environment/shade/leaf_area.h"
 #include "environment/shade/sky_directions.h"
 
 #include <glm/geometric.hpp>
@@ -68,6 +70,11 @@ struct VoxelLight {
     double sun = 0, sky = 0;
 };
 
+/// In which directions nothing solid is seen from a voxel.
+struct VoxelView {
+    std::vector<bool> sun, sky;
+};
+
 struct VineTrial {
     glm::dvec3 direction, place;
     openvdb::Coord voxel;
@@ -90,6 +97,8 @@ public:
           least_cosine_(std::cos(glm::radians(settings.number_or("spread", 60, Range::between(0, 180))))),
           most_nodes_(settings.number_or("most_nodes", 3, Range::positive())),
           sun_share_(settings.number_or("sun_share", 0.5, Range::between(0, 1))),
+          extinction_(settings.number_or("extinction", 0, Range::not_negative())),
+          leaves_(room_.voxel),
           sky_(sky_hemisphere(settings.integer_or("sky_samples", 128, Range::between(1, 1e6)))),
           totals_(context.plants) {
         const double latitude = settings.number_or("latitude", 50, Range::between(-90, 90));
@@ -104,6 +113,7 @@ public:
     }
 
     void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
+        if (extinction_ > 0) leaves_.collect(world.plants);
         nodes_.clear();
         for (const Query& query : queries) ++nodes_[room_.voxel_of(query.pose.position)];
         tried_.assign(queries.size(), {});
@@ -130,6 +140,24 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    void save(std::ostream& out) const override {
+        std::vector<openvdb::Coord> voxels;
+        for (const auto& [voxel, light] : light_) voxels.push_back(voxel);
+        std::sort(voxels.begin(), voxels.end());
+        espalier::put(out, static_cast<std::uint64_t>(voxels.size()));
+        for (const openvdb::Coord& voxel : voxels) {
+            espalier::put(out, std::array{voxel.x(), voxel.y(), voxel.z()});
+            espalier::put(out, light_.at(voxel));
+        }
+    }
+    void restore(std::istream& in) override {
+        light_.clear();
+        for (auto left = espalier::get<std::uint64_t>(in); left > 0; --left) {
+            const auto [x, y, z] = espalier::get<std::array<int, 3>>(in);
+            light_[{x, y, z}] = espalier::get<VoxelLight>(in);
+        }
+    }
 
 private:
     /// Exposures of the trials of one step.
@@ -165,16 +193,36 @@ private:
             if (queries[i].parameters.size() >= 5) asked.push_back(room_.voxel_of(queries[i].pose.position));
             for (const VineTrial& trial : tried_[i]) asked.push_back(trial.voxel);
         }
-        std::erase_if(asked, [&](const openvdb::Coord& voxel) { return light_.count(voxel) > 0; });
+        // Leaves change the light of a voxel, the solid does not.
+        if (extinction_ == 0)
+            std::erase_if(asked, [&](const openvdb::Coord& voxel) { return light_.count(voxel) > 0; });
         std::sort(asked.begin(), asked.end());
         asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+        std::vector<VoxelView*> views;
+        for (const openvdb::Coord& voxel : asked) views.push_back(&views_[voxel]);
         std::vector<VoxelLight> seen(asked.size());
         tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
             const glm::dvec3 centre = room_.centre_of(asked[i]);
-            seen[i] = {unobstructed(*room_.solid, centre, sun_, room_.voxel / 16),
-                       unobstructed(*room_.solid, centre, sky_, room_.voxel / 16)};
+            VoxelView& view = *views[i];
+            if (view.sky.empty()) {
+                view.sun = unobstructed(*room_.solid, centre, sun_, room_.voxel / 16);
+                view.sky = unobstructed(*room_.solid, centre, sky_, room_.voxel / 16);
+            }
+            seen[i] = {light_from(centre, sun_, view.sun), light_from(centre, sky_, view.sky)};
         });
-        for (std::size_t i = 0; i < asked.size(); ++i) light_.emplace(asked[i], seen[i]);
+        for (std::size_t i = 0; i < asked.size(); ++i) light_[asked[i]] = seen[i];
+        if (extinction_ == 0) views_.clear();
+    }
+
+    /// The mean of what comes through the leaves from all directions; 0 without directions.
+    double light_from(const glm::dvec3& place, std::span<const glm::dvec3> directions,
+                      const std::vector<bool>& free) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            if (!free[i]) continue;
+            sum += extinction_ > 0 ? std::exp(-extinction_ * leaves_.crossed(place, directions[i])) : 1;
+        }
+        return directions.empty() ? 0 : sum / static_cast<double>(directions.size());
     }
 
     double exposure(const VoxelLight& light) const { return sun_share_ * light.sun + (1 - sun_share_) * light.sky; }
@@ -239,9 +287,11 @@ private:
     VineWeights weights_;
     RandomKey key_;
     std::int64_t trials_;
-    double least_cosine_, most_nodes_, sun_share_;
+    double least_cosine_, most_nodes_, sun_share_, extinction_;
+    LeafArea leaves_;
     std::vector<glm::dvec3> sky_, sun_;
-    std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< of the voxels looked at so far; the solid does not move
+    std::unordered_map<openvdb::Coord, VoxelView> views_;   ///< past the solid, where leaves make the light change
+    std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< of the voxels looked at so far, as last seen
     std::unordered_map<openvdb::Coord, double> nodes_;      ///< of this step
     std::vector<std::vector<VineTrial>> tried_;             ///< of this step, for each query
     std::vector<Totals> totals_;
@@ -278,8 +328,11 @@ sun_share     0.5: exposure = sun_share * sun + (1 - sun_share) * sky
 latitude      50 degrees;  north  [0, 0, -1]
 days          [80, 172, 264]: days of the year; sun_samples  32 times a day, from sunrise to sunset
 sky_samples   128 directions
+extinction    0: only the solid casts shadow. k > 0: leaves do, and of the light of a direction exp(-k leaf area that
+              it crosses, per area across it) comes through; 0.5 for leaves that are turned in all directions evenly
 
-Field: name, the exposure of the voxels that have been looked at. Only the solid casts shadow, not the vines.
+Field: name, the exposure of the voxels that have been looked at, as it was then. Leaves are the polygons, patches,
+discs and surfaces that plants have drawn; each is in the voxel of its middle.
 Statistics of a plant: grown and stuck, numbers of tips; chosen and rejected, mean exposures of the trials.
 
 )") + shape_help();

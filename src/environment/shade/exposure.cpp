@@ -50,14 +50,12 @@ std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, 
     return directions;
 }
 
-double unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
-                    double least_step) {
-    if (directions.empty()) return 0;
+std::vector<bool> unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
+                               double least_step) {
     const double range = range_of(solid, from);
-    const auto free = std::count_if(directions.begin(), directions.end(), [&](const glm::dvec3& direction) {
-        return !meets(solid, from, direction, range, least_step);
-    });
-    return static_cast<double>(free) / static_cast<double>(directions.size());
+    std::vector<bool> free;
+    for (const glm::dvec3& direction : directions) free.push_back(!meets(solid, from, direction, range, least_step));
+    return free;
 }
 
 }  // namespace espalier::environment

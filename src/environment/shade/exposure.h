@@ -17,9 +17,8 @@ std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, 
 /// Whether a ray of that length meets the solid. It steps from distance to distance, at least by `least_step`.
 bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& direction, double length, double least_step);
 
-/// The share of `directions` in which a ray from `from` meets nothing of `solid`, as `meets` finds; 0 inside it.
-/// Without directions it is 0.
-double unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
-                    double least_step);
+/// In which of `directions` a ray from `from` meets nothing of `solid`, as `meets` finds; in none inside it.
+std::vector<bool> unobstructed(const Shape& solid, const glm::dvec3& from, std::span<const glm::dvec3> directions,
+                               double least_step);
 
 }  // namespace espalier::environment

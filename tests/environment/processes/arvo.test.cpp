@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <sstream>
 
 using namespace espalier;
 using namespace espalier::environment;
@@ -113,6 +114,35 @@ TEST_CASE("plants place obstacles by a query without parameters before S or C", 
     CHECK_FALSE(is_hit("C", {1, 2}, 4.99));
     CHECK(is_hit("C", {1, 0.5, 2}, 5.01));
     CHECK_FALSE(is_hit("X", {1}, 9));  // nothing stays from step to step
+}
+
+TEST_CASE("objects stay when their queries are gone, if the scene keeps them", "[arvo]") {
+    EnvironmentContext context;
+    context.plants = 1;
+    Environment environment = environment_of("[light]\nprocess = \"arvo\"\nkeep_objects = true", context);
+    // A ball of 1 m `identity` m above the ground, if any, and then whether a ray upwards meets something.
+    const auto is_hit = [](Environment& world, std::uint64_t identity, double height, double length, int step) {
+        AskingPlants plants;
+        plants.add({{{0, height, 0}, {}}, {{0, 0, 0}, {length}}});
+        Query& object = plants.interpretation(0).queries[0];
+        const std::vector<double> sizes{1};
+        object.identity = identity;
+        object.following = plants.model().alphabet.letter(identity > 0 ? "S" : "X", 1);
+        object.following_parameters = sizes;
+        plants.exchange(world, step);
+        return plants.parameters()[0] == 1;
+    };
+    CHECK(is_hit(environment, 1, 9, 8.01, 0));
+    CHECK(is_hit(environment, 0, 0, 8.01, 1));  // it stays
+    CHECK(is_hit(environment, 2, 5, 4.01, 2));
+    CHECK(is_hit(environment, 2, 7, 6.01, 3));  // its query moves the second
+    CHECK_FALSE(is_hit(environment, 0, 0, 5.9, 4));
+    std::stringstream checkpoint;
+    environment.save(checkpoint);
+    Environment restored = environment_of("[light]\nprocess = \"arvo\"\nkeep_objects = true", context);
+    restored.restore(checkpoint);
+    CHECK(is_hit(restored, 0, 0, 6.01, 5));
+    CHECK_FALSE(is_hit(restored, 0, 0, 5.9, 6));
 }
 
 TEST_CASE("the parameter file of cpfg's program names a file of obstacles", "[arvo]") {

@@ -144,6 +144,50 @@ TEST_CASE("a tip is refused that is far from the surface, or among as many nodes
     CHECK(granted({0.05, 1.05, 0.5}, 0) == 0);
 }
 
+namespace {
+
+/// Exposure at the origin of a voxel of 1 m, below square leaves that lie flat at these heights.
+double light_below(const std::vector<double>& heights, double half, const std::string& lines) {
+    Environment environment = environment_of(std::string("[light]\nprocess = \"greene\"\nvoxel = 1\nsolid = ") +
+                                             far_ball + "\nsky_samples = 8192\nsun_share = 0\n" + lines);
+    AskingPlants plants;
+    plants.add({{{0.5, 0.5, 0.5}, {0, 0, 0, 0, 0}}});
+    PlantGeometry& geometry = plants.interpretation(0).geometry;
+    for (const double y : heights) {
+        for (double x = -half; x < half; ++x) {
+            for (double z = -half; z < half; ++z) {
+                geometry.polygons.push_back({0, std::uint32_t(geometry.vertices.size()), 4, 0, 0});
+                for (const glm::dvec3& corner : {glm::dvec3(x, y, z), glm::dvec3(x + 1, y, z),
+                                                 glm::dvec3(x + 1, y, z + 1), glm::dvec3(x, y, z + 1)})
+                    geometry.vertices.push_back(corner);
+            }
+        }
+    }
+    plants.exchange(environment);
+    return plants.parameters()[4];
+}
+
+}  // namespace
+
+TEST_CASE("leaves hide the sky as the mean of exp(-k LAI / sin(height)) over it", "[greene]") {
+    // A canopy almost without end, of one layer of leaves in a layer of voxels: light from the height with the sine s
+    // crosses the leaf area 1 / s. The mean over the sky is the exponential integral of the second order, E2(k).
+    const double e2_of_half = 0.3266439;
+    CHECK(light_below({2.5}, 200, "extinction = 0.5") == Approx(e2_of_half).margin(0.01));
+    const double e2_of_one = 0.1484955;
+    CHECK(light_below({2.5, 3.5}, 200, "extinction = 0.5") == Approx(e2_of_one).margin(0.01));
+    CHECK(light_below({2.5}, 4, "") == 1);
+    CHECK(light_below({}, 60, "extinction = 0.5") == 1);
+    CHECK(light_below({-2.5}, 60, "extinction = 0.5") == 1);
+}
+
+TEST_CASE("leaves may cover a part of the sky", "[greene]") {
+    const double small = light_below({2.5}, 1, "extinction = 0.5"), large = light_below({2.5}, 4, "extinction = 0.5");
+    CHECK(small < 1);
+    CHECK(large < small);
+    CHECK(light_below({2.5}, 4, "extinction = 2") < large);
+}
+
 TEST_CASE("faults of greene's settings are told by name", "[greene]") {
     const auto fault = [](const std::string& lines) {
         return message_of(
@@ -151,5 +195,6 @@ TEST_CASE("faults of greene's settings are told by name", "[greene]") {
     };
     CHECK(lacks(fault("north = [0, 1, 0]"), {"'north'", "horizontal"}) == "");
     CHECK(lacks(fault("trials = 0"), {"'trials'", "1"}) == "");
+    CHECK(lacks(fault("extinction = -1"), {"'extinction'"}) == "");
     CHECK(lacks(fault("sun_share = 2"), {"'sun_share'"}) == "");
 }

@@ -1,0 +1,37 @@
+// How much leaf a ray of light passes: the area of all that plants have drawn flat, in voxels.
+#pragma once
+
+#include "espalier/environment/environment_process.h"
+#include "espalier/geometry/openvdb_grid.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
+
+namespace espalier::environment {
+
+/// Polygons, patches, discs and surfaces count; each is in the voxel of its middle. Voxels are [i, i + 1) times
+/// `voxel`.
+class LeafArea {
+public:
+    explicit LeafArea(double voxel);
+
+    /// Forgets what was there, and takes the leaves of these plants.
+    void collect(std::span<const PlantView> plants);
+    /// Leaf area that a ray crosses from a point on, per area across the ray; it turns in all directions evenly.
+    double crossed(const glm::dvec3& from, const glm::dvec3& direction) const;
+    /// m^2, of all voxels.
+    double total() const { return total_; }
+
+private:
+    void add(const glm::dvec3& middle, double area);
+    void add_polygon(std::span<const glm::dvec3> corners);
+    void add_surface(const Organ& organ, const SurfaceMesh& mesh);
+    void add(const PlantGeometry& geometry);
+
+    double voxel_, total_ = 0;
+    openvdb::FloatGrid::Ptr areas_;  ///< m^2
+    openvdb::CoordBBox box_;
+};
+
+}  // namespace espalier::environment
