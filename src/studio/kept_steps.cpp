@@ -16,10 +16,8 @@ std::size_t KeptSteps::add(const timeline::Frame& frame) {
     step.packet = std::make_shared<const std::string>(std::move(packet.bytes));
     for (const timeline::PlantFrame& plant : frame.plants) step.strings.push_back(plant.string);
     const std::lock_guard lock(mutex_);
-    if (!packet.shapes.empty()) {
-        shapes_.push_back(std::move(packet.shapes));
-        textures_ = writer_.textures();
-    }
+    if (!packet.shapes.empty()) shapes_.push_back(std::move(packet.shapes));
+    if (textures_.size() < writer_.textures().size()) textures_ = writer_.textures();
     in_memory_ += step.bytes();
     steps_[frame.step] = std::move(step);
     while (in_memory_ > memory_) file_oldest();
@@ -57,7 +55,7 @@ std::vector<std::string> KeptSteps::shapes() const {
     return shapes_;
 }
 
-std::vector<std::filesystem::path> KeptSteps::textures() const {
+std::vector<WornPicture> KeptSteps::textures() const {
     const std::lock_guard lock(mutex_);
     return textures_;
 }

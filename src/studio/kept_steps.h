@@ -25,7 +25,7 @@ public:
     static constexpr std::size_t most_memory = std::size_t(512) << 20;  ///< bytes
 
     KeptSteps(std::uint32_t growth, std::filesystem::path file, std::size_t memory = most_memory)
-        : writer_(growth), file_(std::move(file)), memory_(memory) {}
+        : writer_(growth, file.parent_path()), file_(std::move(file)), memory_(memory) {}
 
     /// Returns the number of internodes. Throws RunError if the disk is full.
     std::size_t add(const timeline::Frame& frame);
@@ -35,8 +35,8 @@ public:
     std::string packet(int step) const;
     /// The messages with all surfaces that packets have used so far, in the order in which they came.
     std::vector<std::string> shapes() const;
-    /// The pictures that these surfaces wear.
-    std::vector<std::filesystem::path> textures() const;
+    /// What packets have worn so far.
+    std::vector<WornPicture> textures() const;
     /// The strings of the plants at a step that there is.
     std::vector<ModuleString> strings(int step) const;
     /// The string of one plant.
@@ -69,7 +69,7 @@ private:
     mutable std::mutex mutex_;
     std::map<int, Step> steps_;
     std::vector<std::string> shapes_;
-    std::vector<std::filesystem::path> textures_;
+    std::vector<WornPicture> textures_;
 };
 
 }  // namespace espalier::studio

@@ -2,6 +2,7 @@
 
 #include "espalier/geometry/surface.h"
 
+#include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
 #include "studio/message_bytes.h"
 #include "timeline/meshes/organ_mesh.h"
@@ -13,15 +14,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace espalier::studio {
 namespace {
 
 constexpr std::uint32_t disc = 0, sphere = 1, outline = 2, first_surface = 3;
+constexpr std::size_t most_label = 200;  ///< bytes
 
 using Rgba = std::array<std::uint8_t, 4>;
 using Normal = std::array<std::int8_t, 4>;
 using Point = std::array<float, 3>;
+using OnPicture = std::array<float, 2>;
 
 /// The colours of a plant's indices, each worked out once.
 class Colours {
@@ -99,15 +103,40 @@ struct Triangles {
     std::vector<Point> points;
     std::vector<Normal> normals;
     std::vector<Rgba> colours;
+    std::vector<OnPicture> uvs;
     std::vector<std::uint32_t> modules, indices;
+    std::vector<std::uint32_t> textures;  ///< of the triangles
 
-    std::uint32_t add(const glm::dvec3& point, const glm::dvec3& normal, Rgba colour, std::uint32_t module) {
-        points.push_back(point_of(point));
-        normals.push_back(normal_of(normal));
+    std::uint32_t add(const SurfaceVertex& vertex, Rgba colour, std::uint32_t module) {
+        points.push_back(point_of(vertex.position));
+        normals.push_back(normal_of(vertex.normal));
         colours.push_back(colour);
+        uvs.push_back({static_cast<float>(vertex.uv.x), static_cast<float>(vertex.uv.y)});
         modules.push_back(module);
         return static_cast<std::uint32_t>(points.size() - 1);
     }
+    /// What was added since wears this texture.
+    void wear(std::uint32_t texture) { textures.resize(indices.size() / 3, texture); }
+
+    /// Puts triangles that wear the same texture behind each other.
+    void sort() {
+        if (std::is_sorted(textures.begin(), textures.end())) return;
+        std::vector<std::uint32_t> order(textures.size()), sorted;
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return textures[a] < textures[b]; });
+        for (const std::uint32_t triangle : order) {
+            for (std::size_t k = 0; k < 3; ++k) sorted.push_back(indices[3 * std::size_t{triangle} + k]);
+        }
+        indices = std::move(sorted);
+        std::sort(textures.begin(), textures.end());
+    }
+};
+
+struct ShownLabel {
+    Point position;
+    Rgba colour;
+    std::uint32_t module;
+    const std::string* text;
 };
 
 /// Organs of one shape.
@@ -160,9 +189,11 @@ public:
             Colours colours(plant.palette);
             add_internodes(plant.interpretation->geometry, firsts[i], colours);
             add_polygons(plant.interpretation->geometry, firsts[i], colours);
-            add_mesh(plant.interpretation->geometry.mesh, firsts[i], colours);
+            add_mesh(plant.interpretation->geometry, firsts[i], colours);
             add_organs(plant.interpretation->geometry, firsts[i], colours);
+            add_labels(plant.interpretation->geometry, firsts[i], colours);
         }
+        triangles_.sort();
         return {shapes_message(), packet(firsts), internodes_.size()};
     }
 
@@ -179,9 +210,19 @@ private:
                                    static_cast<std::uint8_t>(std::min<int>(internode.order, 255)),
                                    first + internode.module});
         }
+        if (geometry.textures.empty()) return;
+        limb_textures_.resize(internodes_.size() - geometry.internodes.size());
+        for (const std::uint16_t texture : geometry.textures) {
+            limb_textures_.push_back(static_cast<std::uint16_t>(picture(geometry, texture)));
+        }
     }
 
-    void add_polygon(std::span<const glm::dvec3> corners, Rgba colour, std::uint32_t module) {
+    // As pages count pictures; 0 for none.
+    std::uint32_t picture(const PlantGeometry& geometry, std::uint32_t texture) {
+        return geometry.shapes ? writer_.texture_of(*geometry.shapes, texture) : 0;
+    }
+
+    void add_polygon(std::span<const glm::dvec3> corners, Rgba colour, std::uint32_t module, std::uint32_t texture) {
         if (corners.size() < 3) return;
         const glm::dvec3 normal = normal_of_polygon(corners);
         std::vector<std::uint32_t> cut = geometry::triangles_of(corners, normal);
@@ -189,31 +230,36 @@ private:
             cut.insert(cut.end(), {0, i - 1, i});
         }
         const auto origin = static_cast<std::uint32_t>(triangles_.points.size());
-        for (const glm::dvec3& corner : corners) triangles_.add(corner, normal, colour, module);
+        std::vector<glm::dvec2> uvs(corners.size());
+        if (texture > 0) uvs = geometry::texture_coordinates(corners, normal);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            triangles_.add({corners[i], normal, uvs[i]}, colour, module);
+        }
         for (const std::uint32_t corner : cut) triangles_.indices.push_back(origin + corner);
+        triangles_.wear(texture);
     }
 
     void add_polygons(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
         for (const Polygon& polygon : geometry.polygons) {
             add_polygon(std::span(geometry.vertices).subspan(polygon.first, polygon.count),
-                        colours.of(polygon.colour, false), first + polygon.module);
+                        colours.of(polygon.colour, false), first + polygon.module,
+                        picture(geometry, polygon.look.texture));
         }
     }
 
     // Pieces of a cylinder share rings: a vertex is the first piece's that uses it.
-    void add_mesh(const DrawnMesh& mesh, std::uint32_t first, Colours& colours) {
+    void add_mesh(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
+        const DrawnMesh& mesh = geometry.mesh;
         constexpr std::uint32_t unused = 0xFFFFFFFF;
         std::vector<std::uint32_t> written(mesh.vertices.size(), unused);
         for (const MeshPiece& piece : mesh.pieces) {
             const Rgba colour = colours.of(piece.colour, piece.kind == MeshPiece::Kind::cylinder);
             for (const std::uint32_t index : std::span(mesh.triangles).subspan(piece.first, piece.count)) {
                 std::uint32_t& place = written[index];
-                const SurfaceVertex& vertex = mesh.vertices[index];
-                if (place == unused) {
-                    place = triangles_.add(vertex.position, vertex.normal, colour, first + piece.module);
-                }
+                if (place == unused) place = triangles_.add(mesh.vertices[index], colour, first + piece.module);
                 triangles_.indices.push_back(place);
             }
+            triangles_.wear(picture(geometry, piece.look.texture));
         }
     }
 
@@ -223,7 +269,7 @@ private:
             const bool is_surface = organ.shape == Organ::Shape::surface;
             const std::optional<std::uint32_t> shape = shape_of(organ, geometry.shapes);
             if (!shape) {
-                add_polygon(timeline::rhombus_of(organ), colour, first + organ.module);
+                add_polygon(timeline::rhombus_of(organ), colour, first + organ.module, 0);
                 continue;
             }
             const Pose& pose = organ.pose;
@@ -233,6 +279,13 @@ private:
             group.places.push_back(matrix(size.x * pose.left, size.y * pose.heading, size.z * pose.up, pose.position));
             group.colours.push_back(colour);
             group.modules.push_back(first + organ.module);
+        }
+    }
+
+    void add_labels(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
+        for (const Label& label : geometry.labels) {
+            labels_.push_back(
+                {point_of(label.position), colours.of(label.colour, false), first + label.module, &label.text});
         }
     }
 
@@ -255,7 +308,10 @@ private:
         if (is_new) {
             place->second = first_surface + static_cast<std::uint32_t>(writer_.shapes_.size()) - 1;
             writer_.kept_.push_back(shapes);
-            new_shapes_.push_back({place->second, writer_.texture_of(*shapes, texture), &surface});
+            const bool as_whole =
+                texture > 0 && texture <= shapes->textures.size() && shapes->textures[texture - 1].per_surface;
+            new_shapes_.push_back(
+                {place->second, writer_.texture_of(*shapes, texture), organ.surface, shapes, as_whole});
         }
         return place->second;
     }
@@ -269,12 +325,15 @@ private:
     }
 
     struct NewShape {
-        std::uint32_t number, texture;
-        const Surface* surface;
+        std::uint32_t number, texture, surface;
+        std::shared_ptr<const Shapes> shapes;
+        bool as_whole;  ///< one picture over the whole surface
     };
 
     static void put_shape(const NewShape& shape, MessageBytes& out) {
-        const SurfaceMesh mesh = mesh_of(*shape.surface);
+        timeline::SurfaceMeshes meshes(shape.shapes);
+        const timeline::SurfaceMeshes::Entry& entry = *meshes.find(shape.surface);
+        const SurfaceMesh& mesh = entry.mesh;
         std::vector<std::uint32_t> triangles;
         std::uint32_t at = 0;
         for (const std::uint32_t corners : mesh.faces) {
@@ -287,8 +346,9 @@ private:
                 static_cast<std::uint32_t>(triangles.size()));
         for (const SurfaceVertex& vertex : mesh.vertices) out.put(point_of(vertex.position));
         for (const SurfaceVertex& vertex : mesh.vertices) out.put(point_of(vertex.normal));
-        for (const SurfaceVertex& vertex : mesh.vertices) {
-            out.put(static_cast<float>(vertex.uv.x), static_cast<float>(vertex.uv.y));
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            const glm::dvec2& uv = shape.as_whole ? entry.whole[i] : mesh.vertices[i].uv;
+            out.put(static_cast<float>(uv.x), static_cast<float>(uv.y));
         }
         out.put_all(std::span<const std::uint32_t>(triangles));
     }
@@ -313,28 +373,56 @@ private:
             out.put_all(std::span<const Rgba>(group.colours));
             out.put_all(std::span<const std::uint32_t>(group.modules));
         }
+        put_textures(out);
+        put_labels(out);
         return out.take();
+    }
+
+    void put_textures(MessageBytes& out) const {
+        struct Range {
+            std::uint32_t texture, first, count;  ///< indices
+        };
+        std::vector<Range> ranges;
+        for (std::uint32_t i = 0; i < triangles_.textures.size(); ++i) {
+            const std::uint32_t texture = triangles_.textures[i];
+            if (texture == 0) continue;
+            if (ranges.empty() || ranges.back().texture != texture) ranges.push_back({texture, 3 * i, 0});
+            ranges.back().count += 3;
+        }
+        const bool has_limbs = std::any_of(limb_textures_.begin(), limb_textures_.end(), [](auto t) { return t > 0; });
+        std::vector<std::uint16_t> of_limbs;
+        if (has_limbs) {
+            of_limbs = limb_textures_;
+            of_limbs.resize((internodes_.size() + 1) / 2 * 2);  // a multiple of 4 bytes
+        }
+        out.put(static_cast<std::uint32_t>(ranges.size()), static_cast<std::uint32_t>(labels_.size()),
+                static_cast<std::uint32_t>(has_limbs));
+        out.put_all(std::span<const Range>(ranges));
+        if (!ranges.empty()) out.put_all(std::span<const OnPicture>(triangles_.uvs));
+        out.put_all(std::span<const std::uint16_t>(of_limbs));
+    }
+
+    void put_labels(MessageBytes& out) const {
+        for (const ShownLabel& label : labels_) {
+            out.put(label.position, label.colour, label.module);
+            out.put_text(label.text->substr(0, most_label));
+        }
     }
 
     PacketWriter& writer_;
     const timeline::Frame& frame_;
     const Extent extent_;
     std::vector<InternodeBytes> internodes_;
+    std::vector<std::uint16_t> limb_textures_;  ///< of the internodes; shorter where the last ones have none
     Triangles triangles_;
+    std::vector<ShownLabel> labels_;
     std::map<std::uint32_t, Group> groups_;
     std::vector<NewShape> new_shapes_;
 };
 
-// 0 for none, and for pictures that browsers do not show.
 std::uint32_t PacketWriter::texture_of(const Shapes& shapes, std::uint32_t texture) {
     if (texture == 0 || texture > shapes.textures.size()) return 0;
-    const std::filesystem::path& file = shapes.textures[texture - 1].file;
-    const std::string extension = file.extension().string();
-    if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") return 0;
-    const auto known = std::find(textures_.begin(), textures_.end(), file);
-    const auto number = static_cast<std::uint32_t>(known - textures_.begin()) + 1;
-    if (known == textures_.end()) textures_.push_back(file);
-    return number;
+    return pictures_.number(shapes.textures[texture - 1].file);
 }
 
 Packet PacketWriter::write(const timeline::Frame& frame) {

@@ -3,6 +3,8 @@
 
 #include "espalier/timeline/frame.h"
 
+#include "studio/worn_pictures.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -26,11 +28,12 @@ struct Packet {
 /// Writes the packets of one growth.
 class PacketWriter {
 public:
-    explicit PacketWriter(std::uint32_t growth) : growth_(growth) {}
+    /// Pictures that browsers do not show are written into `folder` as some that they do.
+    PacketWriter(std::uint32_t growth, std::filesystem::path folder) : growth_(growth), pictures_(std::move(folder)) {}
 
     Packet write(const timeline::Frame& frame);
-    /// The pictures that shapes of the packets so far wear; texture 1 is the first.
-    const std::vector<std::filesystem::path>& textures() const { return textures_; }
+    /// What the packets so far wear; texture 1 is the first.
+    const std::vector<WornPicture>& textures() const { return pictures_.all(); }
 
 private:
     /// Of an organ with a surface: what stands for it in groups.
@@ -46,7 +49,7 @@ private:
     std::uint32_t texture_of(const Shapes& shapes, std::uint32_t texture);
 
     std::uint32_t growth_;
-    std::vector<std::filesystem::path> textures_;
+    WornPictures pictures_;
     std::map<ShapeKey, std::uint32_t> shapes_;
     std::vector<std::shared_ptr<const Shapes>> kept_;  ///< so that no other has the address of one
 };

@@ -55,13 +55,13 @@ Json names(const std::vector<std::string>& all) {
 
 Session::Request Session::request_named(const std::string& name) {
     static const std::map<std::string, Request> requests{
-        {"hello", &Session::hello},     {"library", &Session::library},     {"help", &Session::help},
-        {"open", &Session::open},       {"open-text", &Session::open_text}, {"change", &Session::change},
-        {"undo", &Session::undo},       {"redo", &Session::redo},           {"grow", &Session::grow},
-        {"stop", &Session::stop},       {"look", &Session::look},           {"frame", &Session::frame},
-        {"column", &Session::column},   {"pick", &Session::pick},           {"field", &Session::field},
-        {"graph", &Session::graph},     {"save", &Session::save},           {"export", &Session::export_run},
-        {"dismiss", &Session::dismiss},
+        {"hello", &Session::hello},   {"library", &Session::library},     {"help", &Session::help},
+        {"open", &Session::open},     {"open-text", &Session::open_text}, {"change", &Session::change},
+        {"undo", &Session::undo},     {"redo", &Session::redo},           {"grow", &Session::grow},
+        {"stop", &Session::stop},     {"look", &Session::look},           {"frame", &Session::frame},
+        {"column", &Session::column}, {"pick", &Session::pick},           {"field", &Session::field},
+        {"graph", &Session::graph},   {"save", &Session::save},           {"export", &Session::export_run},
+        {"limbs", &Session::limbs},   {"dismiss", &Session::dismiss},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));

@@ -86,6 +86,7 @@ void Session::tick() {
     guard([this] {
         begin_next_growth();
         std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
+        std::erase_if(limb_runs_, [](const auto& run) { return run.second->has_ended(); });
         if (unkept_) keep();
     });
 }
@@ -290,9 +291,10 @@ void Session::show(Viewer& viewer) {
 
 void Session::send_packet(Viewer& viewer, int step) {
     const std::vector<std::string> shapes = growth_->steps().shapes();
-    if (viewer.growth != growth_->number()) viewer.shapes = 0;
+    if (viewer.growth != growth_->number()) viewer.shapes = viewer.textures = 0;
     viewer.growth = growth_->number();
-    if (viewer.shapes < shapes.size()) viewer.page.send_text(textures_json().dump());
+    const std::size_t textures = growth_->steps().textures().size();
+    if (std::exchange(viewer.textures, textures) < textures) viewer.page.send_text(textures_json().dump());
     for (; viewer.shapes < shapes.size(); ++viewer.shapes) viewer.page.send_bytes(shapes[viewer.shapes]);
     viewer.page.send_bytes(growth_->steps().packet(step));
 }
@@ -359,9 +361,13 @@ Json Session::fields_json() const {
 }
 
 Json Session::textures_json() {
-    Json files = Json::array();
-    for (const fs::path& file : growth_->steps().textures()) files.push_back(files_.number(file));
-    return {{"say", "textures"}, {"growth", growth_->number()}, {"files", files}};
+    Json files = Json::array(), reliefs = Json::array();
+    const auto number = [this](const fs::path& file) { return file.empty() ? Json() : Json(files_.number(file)); };
+    for (const WornPicture& worn : growth_->steps().textures()) {
+        files.push_back(number(worn.colours));
+        reliefs.push_back(number(worn.normals));
+    }
+    return {{"say", "textures"}, {"growth", growth_->number()}, {"files", files}, {"reliefs", reliefs}};
 }
 
 Json Session::statistics_json(std::size_t first) const {

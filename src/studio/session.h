@@ -7,6 +7,7 @@
 #include "studio/export_job.h"
 #include "studio/growth.h"
 #include "studio/handed_files.h"
+#include "studio/limb_mesh.h"
 #include "studio/written_numbers.h"
 
 #include <nlohmann/json.hpp>
@@ -72,6 +73,7 @@ private:
     Json column(Viewer& viewer, const Json& request);
     Json pick(Viewer& viewer, const Json& request);
     Json field(Viewer& viewer, const Json& request);
+    Json limbs(Viewer& viewer, const Json& request);
     Json save(Viewer& viewer, const Json& request);
     Json export_run(Viewer& viewer, const Json& request);
     Json dismiss(Viewer& viewer, const Json& request);
@@ -158,6 +160,7 @@ private:
 
     int exports_ = 0;
     std::unique_ptr<ExportRun> export_;
+    std::vector<std::pair<const Page*, std::unique_ptr<LimbRun>>> limb_runs_;  ///< of pages; those but the last end
 };
 
 }  // namespace espalier::studio

@@ -13,6 +13,7 @@ struct Session::Viewer {
     std::optional<int> step = {};  ///< that it looks at; none: the last
     std::uint32_t growth = 0;      ///< whose shapes it has
     std::size_t shapes = 0;        ///< messages of them
+    std::size_t textures = 0;      ///< of this growth that it knows
 };
 
 }  // namespace espalier::studio

@@ -24,7 +24,7 @@ export function openDialog(title: string, ...content: Node[]): HTMLDialogElement
 /** A menu below a button. */
 export function menuButton(
   button: HTMLButtonElement,
-  entries: () => { name: string; hint?: string; run: () => void }[],
+  entries: () => { name: string; hint?: string; on?: boolean; run: () => void }[],
 ): HTMLElement {
   const list = h("div", "menu", { role: "menu", hidden: true });
   const close = () => {
@@ -33,13 +33,14 @@ export function menuButton(
   };
   const open = () => {
     list.replaceChildren(
-      ...entries().map(({ name, hint, run }) =>
+      ...entries().map(({ name, hint, on, run }) =>
         h(
           "button",
           "menu-entry",
           {
             type: "button",
-            role: "menuitem",
+            role: on === undefined ? "menuitem" : "menuitemcheckbox",
+            "aria-checked": on === undefined ? null : String(on),
             onclick: () => {
               close();
               run();

@@ -1,5 +1,6 @@
 /** A film of all steps, recorded from the canvas. */
 import { download } from "./elements.js";
+import type { LimbLook } from "./limbs.js";
 import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import type { PlantScene } from "./view/index.js";
@@ -11,6 +12,7 @@ export class Film {
     private readonly studio: Studio,
     private readonly scene: PlantScene,
     private readonly timeline: Timeline,
+    private readonly limbs: LimbLook,
   ) {}
 
   async toggle(): Promise<void> {
@@ -48,6 +50,9 @@ export class Film {
     for (let step = 0; step <= last && this.running; step++) {
       await frames.fetch(step);
       frames.look(step);
+      if (recorder.state === "recording") recorder.pause();
+      await this.limbs.settled();
+      recorder.resume();
       this.scene.draw();
       await new Promise((done) => setTimeout(done, this.timeline.interval));
     }

@@ -208,6 +208,7 @@ export interface Requests {
   column: { send: { growth: number; step: number; name: string }; get: object };
   pick: { send: { growth: number; step: number; module: number }; get: Picked };
   field: { send: { growth: number; name: string }; get: object };
+  limbs: { send: { skin: null } | { growth: number; step: number; skin: "tubes" | "smooth" }; get: object };
   save: { send: { path?: string }; get: { path: string } };
   export: { send: { format: string; step?: number; film?: boolean }; get: object };
   dismiss: { send: { message: number }; get: object };
@@ -236,6 +237,6 @@ export type Said =
   | { say: "columns"; growth: number; columns: string[] }
   | { say: "fields"; growth: number; fields: FieldName[] }
   | { say: "message"; number: number; severity: Problem["severity"]; text: string }
-  | { say: "textures"; growth: number; files: number[] }
+  | { say: "textures"; growth: number; files: (number | null)[]; reliefs: (number | null)[] }
   | { say: "exported"; files: HandedFile[] }
   | { say: "progress"; what: string; done: number };

@@ -25,6 +25,10 @@ function escaped(text: string): string {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 }
 
+async function bytesOf(blob: Promise<Blob> | null): Promise<string> {
+  return blob ? toBase64(new Uint8Array(await (await blob).arrayBuffer())) : "";
+}
+
 async function recordingOf(
   studio: Studio,
   scene: PlantScene,
@@ -38,9 +42,21 @@ async function recordingOf(
     progress((index + 1) / steps.length);
   }
   const shapes = await Promise.all(studio.shapeMessages.map(async (message) => toBase64(await compress(message))));
-  const images = await Promise.all(studio.images.map(async (blob) => toBase64(new Uint8Array(await (await blob).arrayBuffer()))));
-  const { document } = studio;
-  return { title: document?.name ?? "Plant", theme: studio.theme, steps, packets, shapes, images, camera: scene.orbit.state };
+  const images = await Promise.all(studio.pictures.map(({ colours }) => bytesOf(colours)));
+  const reliefs = await Promise.all(studio.pictures.map(({ normals }) => bytesOf(normals)));
+  const shown = studio.limbs;
+  const limbs = shown && steps.includes(shown.step) ? [toBase64(await compress(shown.message))] : [];
+  return {
+    title: studio.document?.name ?? "Plant",
+    theme: studio.theme,
+    steps,
+    packets,
+    shapes,
+    images,
+    reliefs,
+    limbs,
+    camera: scene.orbit.state,
+  };
 }
 
 async function htmlOf(recording: Recording): Promise<string> {

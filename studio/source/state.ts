@@ -14,7 +14,7 @@ import type {
   Statistics,
   StudioDocument,
 } from "./protocol.js";
-import type { BinaryMessage, Column, Field, Packet, Shapes } from "./view/index.js";
+import type { BinaryMessage, Column, Field, Limbs, Packet, PictureSource, Shapes } from "./view/index.js";
 
 export interface Message {
   /** Negative for messages of the page itself. */
@@ -37,7 +37,8 @@ interface Events {
   progress: { what: string; done: number };
   packet: Packet;
   shapes: Shapes;
-  images: Promise<Blob>[];
+  pictures: PictureSource[];
+  limbs: Limbs;
   column: Column;
   field: Field;
   shown: Packet;
@@ -60,8 +61,10 @@ export class Studio {
   help: Help | null = null;
   /** The shapes of the present growth, as they came. */
   shapeMessages: ArrayBuffer[] = [];
-  /** The images of its shapes. */
-  images: Promise<Blob>[] = [];
+  /** What it wears. */
+  pictures: PictureSource[] = [];
+  /** The limbs with bark or skin that show; null while none do. */
+  limbs: Limbs | null = null;
   private readonly handed = new Map<number, Promise<Blob>>();
   messages: Message[] = [];
   theme: "light" | "dark";
@@ -157,7 +160,7 @@ export class Studio {
         this.messages = [...this.messages.filter(({ number }) => number !== message.number), message];
         return this.emit("messages", this.messages);
       case "textures":
-        return this.fetchImages(message.files);
+        return this.fetchPictures(message.files, message.reliefs);
       case "exported":
         return this.emit("exported", message.files);
       case "progress":
@@ -192,17 +195,21 @@ export class Studio {
       this.emit("packet", message);
     } else if (message.kind === "shapes") this.learn(message);
     else if (message.kind === "column") this.emit("column", message);
+    else if (message.kind === "limbs") this.emit("limbs", message);
     else this.emit("field", message);
   }
 
+  private fetchPictures(files: (number | null)[], reliefs: (number | null)[]): void {
+    this.pictures = files.map((file, i) => ({ colours: this.fileOf(file), normals: this.fileOf(reliefs[i]) }));
+    this.emit("pictures", this.pictures);
+  }
+
   /** A file is fetched once, however many growths use it. */
-  private fetchImages(files: number[]): void {
-    this.images = files.map((number) => {
-      const blob = this.handed.get(number) ?? this.connection.file(number);
-      this.handed.set(number, blob);
-      return blob;
-    });
-    this.emit("images", this.images);
+  private fileOf(number: number | null): Promise<Blob> | null {
+    if (number === null) return null;
+    const blob = this.handed.get(number) ?? this.connection.file(number);
+    this.handed.set(number, blob);
+    return blob;
   }
 
   private learn(shapes: Shapes): void {

@@ -15,6 +15,7 @@ import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
 import { Film } from "./film.js";
+import { LimbLook } from "./limbs.js";
 
 export class Viewport {
   readonly element: HTMLElement;
@@ -27,6 +28,7 @@ export class Viewport {
   private readonly fieldTools = h("div", "field-tools", { hidden: true });
   private readonly legend = h("div", "legend", { hidden: true, "aria-live": "polite" });
   private readonly scale = h("div", "scale-note");
+  private readonly limbs: LimbLook;
   private colouring = remembered("colouring", "");
   private fieldName = "";
   private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
@@ -41,7 +43,8 @@ export class Viewport {
     this.scene = new PlantScene(this.canvas);
     this.scene.theme = themes[studio.theme];
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
-    const film = new Film(this.studio, this.scene, timeline);
+    this.limbs = new LimbLook(studio, this.scene);
+    const film = new Film(this.studio, this.scene, timeline, this.limbs);
     this.buildFieldTools();
     this.element = h(
       "div",
@@ -49,7 +52,7 @@ export class Viewport {
       {},
       this.canvas,
       this.toolbar(film),
-      h("div", "picture-left", {}, this.fieldTools, this.legend),
+      h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
       this.scale,
       this.hint(),
     );
@@ -64,7 +67,7 @@ export class Viewport {
   private listen(): void {
     const { studio } = this;
     studio.on("theme", (theme) => (this.scene.theme = themes[theme]));
-    studio.on("images", (images) => this.scene.setImages(images));
+    studio.on("pictures", (pictures) => this.scene.setPictures(pictures));
     studio.on("shapes", ({ shapes }) => this.scene.learn(shapes));
     studio.on("shown", (packet) => this.show(packet));
     studio.on("columns", () => this.fillColours());
@@ -90,21 +93,12 @@ export class Viewport {
   }
 
   private toolbar(film: Film): HTMLElement {
-    const shadows = remembered("shadows", true);
-    const ground = remembered("ground", true);
-    this.scene.setShadows(shadows);
-    this.scene.setGround(ground);
+    for (const { key, apply } of this.looks) apply(remembered(key, true));
     const look = menuButton(
-      iconButton("layers", "Ground and shadows", () => undefined),
+      iconButton("layers", "What is drawn: ground, shadows, labels, smooth skin", () => undefined),
       () => [
-        {
-          name: remembered("shadows", true) ? "Hide shadows" : "Show shadows",
-          run: () => this.flip("shadows", (on) => this.scene.setShadows(on)),
-        },
-        {
-          name: remembered("ground", true) ? "Hide the ground" : "Show the ground",
-          run: () => this.flip("ground", (on) => this.scene.setGround(on)),
-        },
+        { name: "Smooth skin", hint: "limbs as one surface", on: this.limbs.isSmooth, run: () => this.limbs.setSmooth(!this.limbs.isSmooth) },
+        ...this.looks.map(({ name, key, apply }) => ({ name, on: remembered(key, true), run: () => flip(key, apply) })),
       ],
     );
     const pictures = menuButton(
@@ -148,12 +142,6 @@ export class Viewport {
     return hint;
   }
 
-  private flip(key: string, apply: (on: boolean) => void): void {
-    const on = !remembered(key, true);
-    remember(key, on);
-    apply(on);
-  }
-
   private async snapshot(scale: number): Promise<void> {
     try {
       const name = this.studio.document?.name ?? "plant";
@@ -162,6 +150,13 @@ export class Viewport {
       this.studio.tell("error", errorText(error));
     }
   }
+
+  /** What the picture may show besides the plant. */
+  private readonly looks: { name: string; key: string; apply: (on: boolean) => void }[] = [
+    { name: "Shadows", key: "shadows", apply: (on) => this.scene.setShadows(on) },
+    { name: "Ground", key: "ground", apply: (on) => this.scene.setGround(on) },
+    { name: "Labels of the model", key: "labels", apply: (on) => this.scene.setLabels(on) },
+  ];
 
   private fillColours(): void {
     const { columns } = this.studio;
@@ -281,4 +276,10 @@ export class Viewport {
     place.addEventListener("input", update);
     this.fieldTools.append(mode, place);
   }
+}
+
+function flip(key: string, apply: (on: boolean) => void): void {
+  const on = !remembered(key, true);
+  remember(key, on);
+  apply(on);
 }

@@ -30,12 +30,19 @@ using studio::Opened;
 
 std::atomic<bool> ended{false};
 
-// As `espalier run` reads it.
+// The view file that lies beside a model and has its name; none if there is none.
+fs::path view_beside(const fs::path& model) {
+    const fs::path view = fs::path(model).replace_extension(".v");
+    return !fs::is_directory(model) && fs::is_regular_file(view) ? view : fs::path();
+}
+
+// As `espalier run` reads it, with `--view` of a view file beside a model.
 Scene read(const Opened& opened) {
     const SceneOptions options{{}, opened.steps, opened.seed};
     if (is_scene(opened.path)) return read_scene(opened.path, options);
     ModelArguments arguments;
     arguments.file = opened.path;
+    arguments.view = view_beside(opened.path);
     return scene_of_object(object_of(arguments), options);
 }
 

@@ -10,7 +10,34 @@ export interface ShapeGroup {
   modules: Uint32Array;
 }
 
-export interface Packet {
+/** Indices that wear one picture; 0 is none. */
+export interface TextureRange {
+  texture: number;
+  first: number;
+  count: number;
+}
+
+export interface TriangleMesh {
+  positions: Float32Array;
+  normals: Int8Array;
+  colours: Uint8Array;
+  modules: Uint32Array;
+  indices: Uint32Array;
+  /** All indices, one range behind the other. */
+  ranges: TextureRange[];
+  /** Where the vertices lie on the pictures; null if nothing wears one. */
+  onPicture: Float32Array | null;
+}
+
+/** A text that the model wrote at a place. */
+export interface Label {
+  position: Vector;
+  colour: Vector;
+  module: number;
+  text: string;
+}
+
+export interface Packet extends TriangleMesh {
   kind: "packet";
   growth: number;
   step: number;
@@ -25,12 +52,19 @@ export interface Packet {
   internodeCount: number;
   /** Six numbers an internode, as the graphics card reads them. */
   internodes: Uint32Array;
-  positions: Float32Array;
-  normals: Int8Array;
-  colours: Uint8Array;
-  modules: Uint32Array;
-  indices: Uint32Array;
   groups: ShapeGroup[];
+  /** Whether limbs wear pictures, such as bark. */
+  wornLimbs: boolean;
+  labels: Label[];
+}
+
+/** Limbs as tubes or with a smooth skin, which the server makes when it is asked. */
+export interface Limbs extends TriangleMesh {
+  kind: "limbs";
+  growth: number;
+  step: number;
+  smooth: boolean;
+  message: ArrayBuffer;
 }
 
 export interface Shape {
@@ -73,7 +107,7 @@ export interface Field {
   values: Uint8Array;
 }
 
-export type BinaryMessage = Packet | Shapes | Column | Field;
+export type BinaryMessage = Packet | Shapes | Column | Field | Limbs;
 
 class Reader {
   private readonly view: DataView;
@@ -130,6 +164,7 @@ export function readMessage(buffer: ArrayBuffer): BinaryMessage {
   if (letters === "ESS1") return readShapes(reader, buffer);
   if (letters === "ESC1") return readColumn(reader);
   if (letters === "ESF1") return readField(reader);
+  if (letters === "ESM1") return readLimbs(reader, buffer);
   throw new Error(`A binary message begins with ${letters}, which this page does not know.`);
 }
 
@@ -149,6 +184,13 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
   const indices = reader.numbers(indexCount);
   const groups: ShapeGroup[] = [];
   for (let i = 0; i < groupCount; i++) groups.push(readGroup(reader));
+  const [rangeCount, labelCount, wornLimbs] = reader.numbers(3);
+  const worn = readRanges(reader, rangeCount);
+  const onPicture = rangeCount > 0 ? reader.floats(vertices * 2) : null;
+  if (wornLimbs > 0) reader.bytes(Math.ceil(internodeCount / 2) * 4);
+  const labels: Label[] = [];
+  for (let i = 0; i < labelCount; i++) labels.push(readLabel(reader));
+  const plain = worn[0]?.first ?? indexCount;
   return {
     kind: "packet",
     growth,
@@ -166,7 +208,43 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
     colours,
     modules,
     indices,
+    ranges: [{ texture: 0, first: 0, count: plain }, ...worn],
+    onPicture,
     groups,
+    wornLimbs: wornLimbs > 0,
+    labels,
+  };
+}
+
+function readRanges(reader: Reader, count: number): TextureRange[] {
+  return Array.from({ length: count }, () => ({ texture: reader.u32(), first: reader.u32(), count: reader.u32() }));
+}
+
+function readLabel(reader: Reader): Label {
+  const position = reader.vector();
+  const [red, green, blue] = reader.bytes(4);
+  return { position, colour: [red, green, blue], module: reader.u32(), text: reader.name() };
+}
+
+function readLimbs(reader: Reader, message: ArrayBuffer): Limbs {
+  const growth = reader.u32();
+  const step = reader.i32();
+  const smooth = reader.u32() > 0;
+  const [vertices, indexCount, rangeCount] = reader.numbers(3);
+  const ranges = readRanges(reader, rangeCount);
+  return {
+    kind: "limbs",
+    growth,
+    step,
+    smooth,
+    message,
+    ranges,
+    positions: reader.floats(vertices * 3),
+    normals: reader.signed(vertices * 4),
+    colours: reader.bytes(vertices * 4),
+    modules: reader.numbers(vertices),
+    onPicture: reader.floats(vertices * 2),
+    indices: reader.numbers(indexCount),
   };
 }
 

@@ -2,7 +2,7 @@
 import type { CameraState } from "./camera.js";
 import { themes, type Theme } from "./colours.js";
 import { decompress, fromBase64 } from "./compression.js";
-import { readMessage, type Packet } from "./packets.js";
+import { readMessage, type Limbs, type Packet } from "./packets.js";
 import { PlantScene } from "./scene3d.js";
 import { steer } from "./steer.js";
 
@@ -14,6 +14,10 @@ export interface Recording {
   packets: string[];
   shapes: string[];
   images: string[];
+  /** The pictures of relief of the images, "" where there is none. */
+  reliefs: string[];
+  /** Limbs with bark or skin, of the steps that showed them. */
+  limbs: string[];
   camera: CameraState;
 }
 
@@ -22,12 +26,17 @@ async function unpack(text: string): Promise<ArrayBuffer> {
   return bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength) as ArrayBuffer;
 }
 
+function blobOf(text: string): Promise<Blob> | null {
+  return text ? Promise.resolve(new Blob([fromBase64(text) as Uint8Array<ArrayBuffer>])) : null;
+}
+
 class Player {
   private readonly scene: PlantScene;
   private readonly slider = document.createElement("input");
   private readonly button = document.createElement("button");
   private readonly label = document.createElement("output");
   private readonly packets = new Map<number, Promise<Packet>>();
+  private readonly limbs = new Map<number, Limbs>();
   private at = 0;
   private playing = false;
 
@@ -44,9 +53,12 @@ class Player {
   }
 
   async start(): Promise<void> {
-    this.scene.setImages(
-      this.recording.images.map((text) => Promise.resolve(new Blob([fromBase64(text) as Uint8Array<ArrayBuffer>]))),
-    );
+    const { images, reliefs } = this.recording;
+    this.scene.setPictures(images.map((text, i) => ({ colours: blobOf(text), normals: blobOf(reliefs[i]) })));
+    for (const text of this.recording.limbs) {
+      const message = readMessage(await unpack(text));
+      if (message.kind === "limbs") this.limbs.set(message.step, message);
+    }
     for (const text of this.recording.shapes) {
       const message = readMessage(await unpack(text));
       if (message.kind === "shapes") this.scene.learn(message.shapes);
@@ -92,6 +104,7 @@ class Player {
     const packet = await this.packet(index);
     if (this.at !== index) return;
     this.scene.show(packet);
+    this.scene.wear(this.limbs.get(packet.step) ?? null);
     this.slider.value = String(index);
     this.label.textContent = `step ${packet.step}`;
     document.body.dataset.step = String(packet.step);

@@ -17,7 +17,9 @@ import { themes, type Theme } from "./colours.js";
 import { FieldView, type FieldLook } from "./fields.js";
 import { Ground } from "./ground.js";
 import { Internodes } from "./internodes.js";
-import { boundsOf, type Column, type Field, type Packet, type Shape, type Vector } from "./packets.js";
+import { Labels } from "./labels.js";
+import { boundsOf, type Column, type Field, type Limbs, type Packet, type Shape, type Vector } from "./packets.js";
+import { Pictures, type PictureSource } from "./pictures.js";
 import { markTable, Pass, shadowDepth, sharedUniforms, useTheme, valueTable } from "./shading.js";
 import { Shapes } from "./shapes.js";
 import { Triangles } from "./triangles.js";
@@ -58,7 +60,11 @@ export class PlantScene {
   private readonly backdrop = new Backdrop();
   private readonly ground: Ground;
   private readonly internodes: Internodes;
+  private readonly pictures = new Pictures();
   private readonly triangles: Triangles;
+  /** Limbs with bark or skin, instead of the internodes. */
+  private readonly limbs: Triangles;
+  private readonly labels: Labels;
   private readonly shapes: Shapes;
   private readonly fieldView: FieldView;
   private readonly shadowCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
@@ -75,6 +81,7 @@ export class PlantScene {
   private width = 1;
   private height = 1;
   private groundShown = true;
+  private labelsShown = true;
   private shadows = true;
   packet: Packet | null = null;
 
@@ -84,8 +91,10 @@ export class PlantScene {
     this.orbit = new OrbitCamera(() => this.request());
     this.ground = new Ground(this.uniforms);
     this.internodes = new Internodes(this.uniforms);
-    this.triangles = new Triangles(this.uniforms);
-    this.shapes = new Shapes(this.uniforms, this.scene);
+    this.triangles = new Triangles(this.uniforms, this.pictures, false);
+    this.limbs = new Triangles(this.uniforms, this.pictures, true);
+    this.labels = new Labels(this.uniforms);
+    this.shapes = new Shapes(this.uniforms, this.pictures, this.scene);
     this.fieldView = new FieldView(this.uniforms, this.scene);
     this.scene.matrixWorldAutoUpdate = false;
     this.scene.add(
@@ -95,6 +104,8 @@ export class PlantScene {
       this.internodes.thick,
       this.internodes.thin,
       this.triangles.mesh,
+      this.limbs.mesh,
+      this.labels.mesh,
     );
     this.theme = themes.light;
   }
@@ -103,6 +114,7 @@ export class PlantScene {
     useTheme(this.uniforms, theme);
     this.backdrop.useTheme(theme);
     this.ground.useTheme(theme);
+    this.labels.useTheme(theme);
     this.request();
   }
 
@@ -114,9 +126,9 @@ export class PlantScene {
     this.shapes.learn(shapes);
   }
 
-  /** The images of the shapes of a growth. */
-  setImages(blobs: Promise<Blob>[]): void {
-    this.shapes.setImages(blobs, () => {
+  /** The pictures that a growth wears. */
+  setPictures(sources: readonly PictureSource[]): void {
+    this.pictures.set(sources, () => {
       this.shadowStale = true;
       this.request();
     });
@@ -128,10 +140,20 @@ export class PlantScene {
     this.internodes.show(packet);
     this.triangles.show(packet);
     this.shapes.show(packet);
+    this.labels.show(packet.labels);
+    this.limbs.clear();
     this.bounds = boundsOf(packet);
     this.shadowStale = true;
     if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
     this.followGrowth(packet);
+    this.request();
+  }
+
+  /** Draws the limbs of the packet with bark or skin from now on; null: as internodes. */
+  wear(limbs: Limbs | null): void {
+    if (limbs) this.limbs.show(limbs);
+    else this.limbs.clear();
+    this.shadowStale = true;
     this.request();
   }
 
@@ -188,6 +210,11 @@ export class PlantScene {
 
   lookAtField(look: FieldLook): void {
     this.fieldView.look(look);
+    this.request();
+  }
+
+  setLabels(shown: boolean): void {
+    this.labelsShown = shown;
     this.request();
   }
 
@@ -358,6 +385,8 @@ export class PlantScene {
     this.uniforms.pass.value = pass;
     this.setEye(pass === Pass.shadow);
     this.internodes.choose(pass === Pass.shadow ? null : this.orbit.camera.position, this.uniforms.pixel.value as number);
+    if (this.limbs.mesh.visible) this.internodes.thick.visible = this.internodes.thin.visible = false;
+    this.labels.mesh.visible = picture && this.labelsShown && !this.labels.empty;
     this.backdrop.mesh.visible = picture;
     this.ground.mesh.visible = picture && this.groundShown && !this.isFlat();
     this.ground.veil.visible = this.ground.mesh.visible && this.reachesBelow();
@@ -379,6 +408,7 @@ export class PlantScene {
     eye.set(...camera.position.toArray(), 1);
     const rows = this.height * this.renderer.getPixelRatio();
     this.uniforms.pixel.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / rows;
+    this.uniforms.screenPixel.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / this.height;
   }
 }
 

@@ -81,6 +81,7 @@ export function sharedUniforms(): Uniforms {
     pass: { value: Pass.picture },
     eye: { value: new Vector4(0, 0, 1, 0) },
     pixel: { value: 0.001 },
+    screenPixel: { value: 0.001 },
     sun: { value: new Vector3(0.45, 0.8, 0.4).normalize() },
     sunColour: { value: new Color() },
     skyColour: { value: new Color() },
@@ -224,13 +225,16 @@ export function plantMaterial(parts: ShaderParts): RawShaderMaterial {
   });
 }
 
-/** Shades a surface from both sides; `image` is GLSL for the colour of its image there, as a vec4. */
-export function surfaceFragment(head: string, image: string): string {
+/**
+ * Shades a surface from both sides; `image` is GLSL for the colour of its image there, as a vec4, and `bend` for its normal. Wood
+ * lets no light through.
+ */
+export function surfaceFragment(head: string, image: string, isWood = false, bend = "normal"): string {
   return /* glsl */ `
-${head}
 in vec3 turned, towards;
 in vec4 mixed;
 in float light;
+${head}
 
 void main() {
   vec4 painted = ${image};
@@ -242,8 +246,9 @@ void main() {
     return;
   }
   vec3 normal = normalize(dot(turned, towards) < 0.0 ? -turned : turned);
+  normal = ${bend};
   // A thin leaf lets some light through: its shaded side is never quite dark.
-  float through = 0.35 * max(dot(-normal, sun), 0.0) * light;
+  float through = ${isWood ? "0.0" : "0.35 * max(dot(-normal, sun), 0.0) * light"};
   result = shade(albedo, normal, light);
   result.rgb = sqrt(result.rgb * result.rgb + albedo * through);
 }

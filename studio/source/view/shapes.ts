@@ -3,17 +3,16 @@ import {
   BufferGeometry,
   DataTexture,
   FloatType,
-  LinearMipmapLinearFilter,
   Mesh,
-  RepeatWrapping,
   RGBAFormat,
   RGIntegerFormat,
-  Texture,
   UnsignedIntType,
   type IUniform,
   type Scene,
+  type Texture,
 } from "three";
 import type { Packet, Shape, ShapeGroup } from "./packets.js";
+import type { Pictures } from "./pictures.js";
 import { plantMaterial, surfaceFragment, type Uniforms } from "./shading.js";
 
 const perRow = 512;
@@ -62,23 +61,6 @@ function floatTexture(values: Float32Array, texels: number, width: number): Data
   const padded = new Float32Array(rows * width * 4);
   padded.set(values);
   const texture = new DataTexture(padded, width, rows, RGBAFormat, FloatType);
-  texture.needsUpdate = true;
-  return texture;
-}
-
-function whiteTexture(): Texture {
-  const texture = new DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1, RGBAFormat);
-  texture.needsUpdate = true;
-  return texture;
-}
-
-/** The bottom row of the image has the texture coordinate 0. */
-async function imageTexture(blob: Blob): Promise<Texture> {
-  const texture = new Texture(await createImageBitmap(blob, { imageOrientation: "flipY", premultiplyAlpha: "none" }));
-  texture.flipY = false;
-  texture.wrapS = texture.wrapT = RepeatWrapping;
-  texture.minFilter = LinearMipmapLinearFilter;
-  texture.generateMipmaps = true;
   texture.needsUpdate = true;
   return texture;
 }
@@ -194,35 +176,14 @@ class GroupMesh {
 
 export class Shapes {
   private readonly known = new Map<number, Corners>();
-  /** White until an image has been read. */
-  private images: IUniform<Texture>[] = [];
-  private sources: Promise<Blob>[] = [];
-  private readonly white = whiteTexture();
   private groups: GroupMesh[] = [];
 
   constructor(
     private readonly shared: Uniforms,
+    private readonly pictures: Pictures,
     private readonly scene: Scene,
   ) {
     for (const shape of [disc(0), sphere(), disc(0.47)]) this.known.set(shape.shape, cornersOf(shape));
-  }
-
-  /** The images that shapes refer to, from 1 on. `changed` is called when one has been read. */
-  setImages(blobs: Promise<Blob>[], changed: () => void): void {
-    if (blobs.length === this.sources.length && blobs.every((blob, i) => blob === this.sources[i])) return;
-    this.sources = blobs;
-    for (const { value } of this.images) if (value !== this.white) value.dispose();
-    this.images = blobs.map((blob) => {
-      const uniform: IUniform<Texture> = { value: this.white };
-      blob.then(imageTexture).then(
-        (texture) => {
-          uniform.value = texture;
-          changed();
-        },
-        () => undefined,
-      );
-      return uniform;
-    });
   }
 
   /** Shapes from 3 on belong to a growth. */
@@ -242,7 +203,7 @@ export class Shapes {
     for (const group of packet.groups) {
       const corners = this.known.get(group.shape);
       if (!corners || group.count === 0 || corners.count === 0) continue;
-      const drawn = new GroupMesh(this.shared, group, corners, this.images[corners.image - 1] ?? { value: this.white });
+      const drawn = new GroupMesh(this.shared, group, corners, this.pictures.colours(corners.image));
       this.groups.push(drawn);
       this.scene.add(drawn.mesh);
     }

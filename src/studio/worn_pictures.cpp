@@ -1,0 +1,70 @@
+#include "studio/worn_pictures.h"
+
+#include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
+
+#include "archive/meshes/bark.h"
+#include "formats/textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace espalier::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_shown_by_browsers(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+// Changes with a picture, without reading it.
+std::uint64_t digest_of_file(const fs::path& file, std::uint64_t before) {
+    std::error_code ignored;
+    const auto written = fs::last_write_time(file, ignored).time_since_epoch().count();
+    return digest(fmt::format("{} {} {}", file.string(), fs::file_size(file, ignored), written), before);
+}
+
+// Of all that decides what the picture looks like.
+std::uint64_t digest_of(const fs::path& file) {
+    if (!is_bark(file.string())) return digest_of_file(file, digest(""));
+    const Bark bark = read_bark(file);
+    std::uint64_t result = digest(read_text(file));
+    for (const std::optional<fs::path>& picture : {bark.heights, bark.picture}) {
+        if (picture) result = digest_of_file(*picture, result);
+    }
+    return result;
+}
+
+fs::path written(const fs::path& place, const fs::path& file, formats::TextureMap map) {
+    std::error_code ignored;
+    if (fs::exists(place, ignored)) return place;
+    const std::string png = formats::png_of({}, file.string(), map);
+    if (png.empty()) return {};
+    write_text(place, png);
+    return place;
+}
+
+}  // namespace
+
+std::uint32_t WornPictures::number(const fs::path& file) {
+    const auto known =
+        std::find_if(pictures_.begin(), pictures_.end(), [&](const WornPicture& one) { return one.file == file; });
+    const auto number = static_cast<std::uint32_t>(known - pictures_.begin()) + 1;
+    if (known == pictures_.end()) pictures_.push_back(worn(file));
+    return number;
+}
+
+WornPicture WornPictures::worn(const fs::path& file) const {
+    if (!fs::is_regular_file(file)) return {file, {}, {}};
+    if (is_shown_by_browsers(file)) return {file, file, {}};
+    const std::string name = fmt::format("picture-{:016x}", digest_of(file));
+    return {file, written(folder_ / (name + ".png"), file, formats::TextureMap::colours),
+            written(folder_ / (name + "-normal.png"), file, formats::TextureMap::normals)};
+}
+
+}  // namespace espalier::studio

@@ -1,0 +1,90 @@
+/** Limbs as rendered pictures have them, once the picture rests: with bark where the model gives it, with a smooth skin on demand. */
+import { h, remember, remembered } from "./elements.js";
+import type { Studio } from "./state.js";
+import type { Limbs, Packet, PlantScene } from "./view/index.js";
+
+const rest = 200; // milliseconds that a step is looked at before its limbs are asked for
+const mostWithBark = 60_000; // internodes that get bark without being asked
+
+export class LimbLook {
+  /** Says that a skin is being made. */
+  readonly element = h("div", "limb-progress", { hidden: true, role: "status" });
+  private smooth = remembered("smooth", false);
+  private asked = "";
+  private timer = 0;
+
+  constructor(
+    private readonly studio: Studio,
+    private readonly scene: PlantScene,
+  ) {
+    this.element.append(
+      h("span", "", {}, "Making the smooth skin …"),
+      h("button", "button small", { type: "button", onclick: () => this.setSmooth(false) }, "Cancel"),
+    );
+    studio.on("shown", (packet) => this.follow(packet));
+    studio.on("limbs", (limbs) => this.receive(limbs));
+    studio.on("progress", ({ what, done }) => {
+      if (what === "smooth skin" && done >= 1) this.element.hidden = true;
+    });
+  }
+
+  get isSmooth(): boolean {
+    return this.smooth;
+  }
+
+  setSmooth(smooth: boolean): void {
+    this.smooth = smooth;
+    remember("smooth", smooth);
+    this.element.hidden = true;
+    this.studio.connection.request("limbs", { skin: null }).catch(() => undefined);
+    this.asked = "";
+    this.studio.limbs = null;
+    this.scene.wear(null);
+    this.ask(0);
+  }
+
+  /** Waits until the limbs of the step that shows are drawn as they are to be. */
+  async settled(): Promise<void> {
+    for (let tries = 0; tries < 600 && this.skin && !this.studio.limbs; tries++)
+      await new Promise((done) => setTimeout(done, 50));
+  }
+
+  private get skin(): "smooth" | "tubes" | null {
+    const packet = this.studio.frames.shown;
+    if (!packet || packet.internodeCount === 0) return null;
+    if (this.smooth) return "smooth";
+    return packet.wornLimbs && packet.internodeCount <= mostWithBark ? "tubes" : null;
+  }
+
+  private follow(packet: Packet): void {
+    const { limbs } = this.studio;
+    if (limbs && limbs.growth === packet.growth && limbs.step === packet.step) {
+      this.scene.wear(limbs);
+      return;
+    }
+    this.studio.limbs = null;
+    this.ask(rest);
+  }
+
+  private ask(after: number): void {
+    clearTimeout(this.timer);
+    const { skin } = this;
+    const packet = this.studio.frames.shown;
+    if (!skin || !packet) return;
+    this.timer = window.setTimeout(() => {
+      const { growth, step } = packet;
+      this.asked = `${growth} ${step} ${skin}`;
+      this.element.hidden = skin !== "smooth";
+      this.studio.connection.request("limbs", { growth, step, skin }).catch(() => (this.element.hidden = true));
+    }, after);
+  }
+
+  private receive(limbs: Limbs): void {
+    if (this.asked !== `${limbs.growth} ${limbs.step} ${limbs.smooth ? "smooth" : "tubes"}`) return;
+    this.element.hidden = true;
+    const { shown } = this.studio.frames;
+    if (shown?.growth !== limbs.growth || shown.step !== limbs.step) return;
+    this.studio.limbs = limbs;
+    this.scene.wear(limbs);
+  }
+}
