@@ -81,9 +81,9 @@ export function setIcon(button: HTMLButtonElement, name: IconName, label: string
   button.replaceChildren(icon(name));
 }
 
-export function setLabel(button: HTMLElement, label: string): void {
-  button.title = label;
-  button.setAttribute("aria-label", label);
+export function setLabel(element: HTMLElement, label: string): void {
+  element.title = label;
+  element.setAttribute("aria-label", label);
 }
 
 /** Colours the track of a slider up to its thumb. */

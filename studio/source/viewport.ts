@@ -1,5 +1,5 @@
 /** The picture with what belongs to it: colours and their legend, fields, ground, pictures and films. */
-import { download, fillSlider, h, iconButton, remember, remembered, short, whole } from "./elements.js";
+import { download, fillSlider, h, iconButton, remember, remembered, setLabel, short, whole } from "./elements.js";
 import {
   mapGradient,
   PlantScene,
@@ -26,6 +26,8 @@ export class Viewport {
   private readonly colourSelect = h("select", "", { "aria-label": "Colour by" });
   private readonly fieldSelect = h("select", "", { "aria-label": "Field" });
   private readonly fieldTools = h("div", "field-tools", { hidden: true });
+  private readonly fieldValue = h("output", "field-value");
+  private field: Field | null = null;
   private readonly legend = h("div", "legend", { hidden: true, "aria-live": "polite" });
   private readonly scale = h("div", "scale-note");
   private readonly limbs: LimbLook;
@@ -251,30 +253,47 @@ export class Viewport {
 
   private paintField(field: Field): void {
     if (field.name !== this.fieldName) return;
+    this.field = field;
     this.scene.showField(field, this.fieldLook);
+    this.showFieldValue();
     const unit = this.studio.fields.find(({ name }) => name === field.name)?.unit ?? "";
     this.drawLegend(`${field.name}${unit ? ` (${unit})` : ""}`, field.lowest, field.highest, `after step ${whole(field.step)}`);
   }
 
   private buildFieldTools(): void {
-    const mode = h(
-      "select",
-      "",
-      { "aria-label": "Field as" },
-      ...["slice across y", "slice across x", "slice across z", "cloud"].map((name) => h("option", "", {}, name)),
-    );
-    const place = h("input", "", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5, "aria-label": "Place of the slice" });
+    const kinds: [string, FieldLook["mode"], number][] = [
+      ["slice across y", "slice", 1],
+      ["slice across x", "slice", 0],
+      ["slice across z", "slice", 2],
+      ["cloud", "cloud", 0],
+      ["surface", "surface", 0],
+    ];
+    const mode = h("select", "", { "aria-label": "Field as" }, ...kinds.map(([name]) => h("option", "", {}, name)));
+    const place = h("input", "", { type: "range", min: 0, max: 1, step: 0.005, value: 0.5 });
     const update = () => {
       fillSlider(place);
-      const axis = [1, 0, 2, 0][mode.selectedIndex];
-      this.fieldLook = { mode: mode.selectedIndex === 3 ? "cloud" : "slice", axis, at: Number(place.value) };
-      place.hidden = this.fieldLook.mode === "cloud";
+      const [, kind, axis] = kinds[mode.selectedIndex];
+      this.fieldLook = { mode: kind, axis, at: Number(place.value) };
+      place.hidden = kind === "cloud";
+      setLabel(place, kind === "surface" ? "Value on the surface" : "Place of the slice");
       this.scene.lookAtField(this.fieldLook);
+      this.showFieldValue();
     };
-    fillSlider(place);
     mode.addEventListener("change", update);
     place.addEventListener("input", update);
-    this.fieldTools.append(mode, place);
+    this.fieldTools.append(mode, place, this.fieldValue);
+    fillSlider(place);
+    setLabel(place, "Place of the slice");
+  }
+
+  /** Where the slice is, or the value on the surface. */
+  private showFieldValue(): void {
+    const { field } = this;
+    const { mode, axis, at } = this.fieldLook;
+    const between = (low: number, high: number) => short(low + at * (high - low));
+    if (!field || mode === "cloud") this.fieldValue.textContent = "";
+    else if (mode === "surface") this.fieldValue.textContent = between(field.lowest, field.highest);
+    else this.fieldValue.textContent = `${"xyz"[axis]} = ${between(field.lower[axis], field.upper[axis])} m`;
   }
 }
 

@@ -1,5 +1,6 @@
-/** A field of numbers in space: as a slice, or as a cloud of points whose opacity is the value. */
+/** A field of numbers in space: as a slice, as a cloud of points whose opacity is the value, or as the surface of one value. */
 import {
+  BufferAttribute,
   BufferGeometry,
   Data3DTexture,
   DoubleSide,
@@ -12,14 +13,15 @@ import {
   Vector3,
   type Scene,
 } from "three";
+import { isosurface } from "./isosurface.js";
 import type { Field } from "./packets.js";
 import type { Uniforms } from "./shading.js";
 
 export interface FieldLook {
-  mode: "slice" | "cloud";
+  mode: "slice" | "cloud" | "surface";
   /** 0, 1, 2: the axis that the slice is perpendicular to. */
   axis: number;
-  /** Where the slice is, from 0 to 1. */
+  /** From 0 to 1: where the slice is, or between which of the lowest and highest value the surface. */
   at: number;
 }
 
@@ -79,16 +81,53 @@ void main() {
 }
 `;
 
+const surfaceVertex = /* glsl */ `
+uniform mat4 viewMatrix, projectionMatrix;
+in vec3 position;
+out vec3 part, place;
+void main() {
+  part = position;
+  place = mix(lower, upper, position);
+  gl_Position = projectionMatrix * (viewMatrix * vec4(place, 1.0));
+}
+`;
+
+/** The normal is the gradient of the field. */
+const surfaceFragment = /* glsl */ `
+uniform ivec3 size;
+uniform float at;
+uniform vec4 eye;
+uniform vec3 sun;
+in vec3 part, place;
+out vec4 result;
+void main() {
+  vec3 d = 1.0 / vec3(size);
+  vec3 gradient = vec3(
+    texture(field, part + vec3(d.x, 0, 0)).r - texture(field, part - vec3(d.x, 0, 0)).r,
+    texture(field, part + vec3(0, d.y, 0)).r - texture(field, part - vec3(0, d.y, 0)).r,
+    texture(field, part + vec3(0, 0, d.z)).r - texture(field, part - vec3(0, 0, d.z)).r) / (upper - lower) * vec3(size);
+  vec3 normal = gradient * inversesqrt(max(dot(gradient, gradient), 1e-20));
+  if (dot(normal, eye.xyz - place) < 0.0) normal = -normal;
+  result = vec4(paint(at).rgb * (0.6 + 0.4 * max(dot(normal, sun), 0.0)), 0.6);
+}
+`;
+
 export class FieldView {
   private readonly uniforms: Uniforms;
   private readonly slice: Mesh;
   private readonly cloud: Points;
+  private readonly surface: Mesh;
+  private field: Field | null = null;
+  /** The level of the surface that there is. */
+  private level = -1;
 
   constructor(shared: Uniforms, scene: Scene) {
     this.uniforms = {
       field: { value: new Data3DTexture(new Uint8Array(1), 1, 1, 1) },
       colourMap: shared.colourMap,
       pixel: shared.pixel,
+      eye: shared.eye,
+      sun: shared.sun,
       lower: { value: new Vector3() },
       upper: { value: new Vector3() },
       size: { value: new Vector3(1, 1, 1) },
@@ -99,7 +138,8 @@ export class FieldView {
     square.setIndex([0, 1, 2, 2, 1, 3]);
     this.slice = new Mesh(square, this.material(sliceVertex, sliceFragment));
     this.cloud = new Points(new BufferGeometry(), this.material(cloudVertex, cloudFragment));
-    for (const part of [this.slice, this.cloud]) {
+    this.surface = new Mesh(new BufferGeometry(), this.material(surfaceVertex, surfaceFragment));
+    for (const part of [this.slice, this.cloud, this.surface]) {
       part.frustumCulled = false;
       part.visible = false;
       part.renderOrder = 2;
@@ -109,6 +149,8 @@ export class FieldView {
 
   show(field: Field): void {
     const [columns, rows, layers] = field.size;
+    this.field = field;
+    this.level = -1;
     (this.uniforms.field.value as Data3DTexture).dispose();
     const texture = new Data3DTexture(field.values as Uint8Array<ArrayBuffer>, columns, rows, layers);
     texture.format = RedFormat;
@@ -126,9 +168,24 @@ export class FieldView {
   look(look: FieldLook | null): void {
     this.slice.visible = look?.mode === "slice";
     this.cloud.visible = look?.mode === "cloud";
+    this.surface.visible = look?.mode === "surface";
     if (!look) return;
+    if (this.surface.visible) this.makeSurface(look.at);
     this.uniforms.axis.value = look.axis;
     this.uniforms.at.value = look.at;
+  }
+
+  private makeSurface(at: number): void {
+    // A whole level would touch voxels everywhere.
+    const level = Math.floor(at * 254) + 0.5;
+    if (!this.field || level === this.level) return;
+    this.level = level;
+    const { positions, indices } = isosurface(this.field.values, this.field.size, level);
+    this.surface.geometry.dispose();
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    geometry.setIndex(new BufferAttribute(indices, 1));
+    this.surface.geometry = geometry;
   }
 
   private material(vertexShader: string, fragmentShader: string): RawShaderMaterial {
