@@ -21,23 +21,24 @@ bool is_text(std::string_view bytes) {
                Json(bytes).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-bool is_map(const fs::path& file) {
-    return file.extension() == ".map";
+bool is_palette(const fs::path& file) {
+    return file.extension() == ".map" || file.extension() == ".mat";
 }
 
 std::string content_of(const fs::path& file, const std::string& bytes) {
-    return is_map(file) ? base64(bytes) : bytes;
+    return is_palette(file) ? base64(bytes) : bytes;
 }
 
 std::string bytes_of(const fs::path& file, const std::string& content) {
     std::vector<char> bytes;
-    if (!is_map(file)) return content;
+    if (!is_palette(file)) return content;
     if (!decode_base64(content, bytes)) throw UserError(fmt::format("{} is not in base64", file.string()));
     return {bytes.begin(), bytes.end()};
 }
 
 std::string language_of(const fs::path& file) {
-    if (is_map(file)) return "map";
+    if (is_palette(file)) return file.extension() == ".map" ? "map" : "materials";
+    if (file.extension() == ".v") return "view";
     if (const NotationType* notation = notation_of(file)) return notation->name;
     const std::string extension = file.extension().string();
     return extension == ".l" || extension == ".h" ? "cpfg" : extension == ".toml" ? "toml" : "plain";

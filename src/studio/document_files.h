@@ -13,11 +13,11 @@ constexpr std::size_t most_text = std::size_t(1) << 20;  ///< bytes of a text th
 
 /// What pages can show as text.
 bool is_text(std::string_view bytes);
-/// Colour maps are bytes, which travel in base64.
-bool is_map(const std::filesystem::path& file);
+/// Colour maps and materials are bytes, which travel in base64.
+bool is_palette(const std::filesystem::path& file);
 /// What pages get and the kept state holds of a file's bytes.
 std::string content_of(const std::filesystem::path& file, const std::string& bytes);
-/// The bytes of a file, from what a page sends. Throws UserError for a map that is not in base64.
+/// The bytes of a file, from what a page sends. Throws UserError for a palette that is not in base64.
 std::string bytes_of(const std::filesystem::path& file, const std::string& content);
 
 // As docs/studio-protocol.md has them.

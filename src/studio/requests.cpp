@@ -13,6 +13,7 @@
 #include "studio/field_bytes.h"
 #include "studio/graph_text.h"
 #include "studio/inquiry.h"
+#include "studio/notation_help.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
 
@@ -97,6 +98,8 @@ Json Session::help(Viewer&, const Json&) {
             {"recorders", parts<RecorderType>()},
             {"notations", parts<NotationType>()},
             {"components", component_types_json()},
+            {"view", view_settings_json()},
+            {"words", words_json()},
             {"exporters", parts<ExporterType>()},
             {"keys",
              Json::array({{{"name", "scene"}, {"summary", "the tables of a scene file"}, {"help", scene_help()}}})}};

@@ -217,6 +217,7 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     tell(growth_json());
     tell(columns_json());
     tell(fields_json());
+    tell(view_json());
 }
 
 void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
@@ -324,6 +325,7 @@ void Session::tell_all_to(Viewer& viewer) {
     send(growth_json());
     send(columns_json());
     send(fields_json());
+    send(view_json());
     send(statistics_json(0));
     show(viewer);
 }

@@ -34,6 +34,9 @@ public:
     virtual bool is_behind() const = 0;
 };
 
+/// The settings of view files, for help and forms.
+nlohmann::ordered_json view_settings_json();
+
 /// Used on one thread. What other threads have to say comes by `post`.
 class Session final : private GrowthListener {
 public:
@@ -120,6 +123,7 @@ private:
     Json columns_json() const;
     Json fields_json() const;
     Json textures_json();
+    Json view_json() const;
     Json statistics_json(std::size_t first) const;
     void show(Viewer& viewer);
     void send_packet(Viewer& viewer, int step);

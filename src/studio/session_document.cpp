@@ -70,7 +70,7 @@ fs::path Session::below_folder(const fs::path& path) const {
 std::set<fs::path> Session::texts() const {
     std::set<fs::path> texts;
     for (const auto& [path, file] : read_) {
-        if (file.kept && (is_map(path) || is_text(file.bytes))) texts.insert(path);
+        if (file.kept && (is_palette(path) || is_text(file.bytes))) texts.insert(path);
     }
     for (const auto& [path, text] : document_.now().unsaved) texts.insert(path);
     if (document_.is_open() && !fs::is_directory(document_.now().opened.path)) {

@@ -5,7 +5,7 @@ export interface TextFile {
   role: "main" | "model" | "view" | "side";
   content: string;
   changed: boolean;
-  language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "map" | "plain";
+  language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "view" | "map" | "materials" | "plain";
 }
 
 export interface Setting {
@@ -89,13 +89,48 @@ export interface HelpEntry {
 
 export interface Help {
   symbols: HelpEntry[];
-  keywords?: HelpEntry[];
+  /** Of languages, by their names. */
+  words?: Record<string, HelpEntry[]>;
   functions: HelpEntry[];
   processes: HelpEntry[];
   stages: HelpEntry[];
+  recorders?: HelpEntry[];
   keys: HelpEntry[];
   exporters: HelpEntry[];
   components?: ComponentType[];
+  view?: ViewSetting[];
+}
+
+/** What stands behind a setting of a view file, or behind a letter of its line. */
+export interface ViewValue {
+  kind: "number" | "whole" | "switch" | "word" | "vector" | "colour" | "file" | "flag" | "letters" | "other";
+  help: string;
+  /** What holds without it. */
+  standard: string;
+  unit: string;
+  lowest: number | null;
+  highest: number | null;
+  words: string[];
+  letter: string;
+}
+
+export interface ViewSetting extends ViewValue {
+  /** With its colon. */
+  name: string;
+  /** What follows it, in words. */
+  values: string;
+  group: "growth" | "shape" | "picture" | "window";
+  letters: ViewValue[];
+}
+
+/** How the author of a model looked at it, as its view file says. */
+export interface AuthorView {
+  towards_eye: [number, number, number];
+  twist: number;
+  perspective: boolean;
+  angle: number;
+  towards_light?: [number, number, number];
+  background?: [number, number, number];
 }
 
 /** A value of a component of a graph. */
@@ -238,5 +273,6 @@ export type Said =
   | { say: "fields"; growth: number; fields: FieldName[] }
   | { say: "message"; number: number; severity: Problem["severity"]; text: string }
   | { say: "textures"; growth: number; files: (number | null)[]; reliefs: (number | null)[] }
+  | { say: "view"; growth: number; view: AuthorView | null }
   | { say: "exported"; files: HandedFile[] }
   | { say: "progress"; what: string; done: number };

@@ -3,6 +3,7 @@ import { Connection, RequestError, type ConnectionState } from "./connection.js"
 import { remember, remembered } from "./elements.js";
 import { Frames } from "./frames.js";
 import type {
+  AuthorView,
   Cell,
   FieldName,
   Growth,
@@ -42,6 +43,7 @@ interface Events {
   column: Column;
   field: Field;
   shown: Packet;
+  view: AuthorView | null;
   help: Help;
   exported: HandedFile[];
   theme: "light" | "dark";
@@ -161,6 +163,8 @@ export class Studio {
         return this.emit("messages", this.messages);
       case "textures":
         return this.fetchPictures(message.files, message.reliefs);
+      case "view":
+        return this.emit("view", message.view);
       case "exported":
         return this.emit("exported", message.files);
       case "progress":

@@ -11,6 +11,7 @@ import {
   type FieldLook,
   type Packet,
 } from "./view/index.js";
+import type { AuthorView } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
@@ -35,6 +36,7 @@ export class Viewport {
   private fieldName = "";
   private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
   private askedColumn = "";
+  private hasAuthorLight = false;
   private documentPath = "";
 
   constructor(
@@ -76,12 +78,24 @@ export class Viewport {
     studio.on("fields", () => this.fillFields());
     studio.on("column", (column) => this.paint(column));
     studio.on("field", (field) => this.paintField(field));
+    studio.on("view", (view) => this.followAuthor(view));
     studio.on("document", (document) => {
       if (document.path !== this.documentPath) this.scene.reframe();
       this.documentPath = document.path;
     });
     studio.on("growth", (growth) => {
       if (growth.state === "done" && this.fieldName) this.askField();
+    });
+  }
+
+  private followAuthor(view: AuthorView | null): void {
+    const eye = view?.towards_eye ?? null;
+    this.hasAuthorLight = Boolean(view?.towards_light ?? view?.background);
+    this.scene.setAuthor({
+      // Where the file says nothing, the eye stands at 0 0 1.
+      towardsEye: eye && String(eye) !== "0,0,1" ? eye : null,
+      towardsLight: view?.towards_light ?? null,
+      background: view?.background ?? null,
     });
   }
 
@@ -100,7 +114,9 @@ export class Viewport {
       iconButton("layers", "What is drawn: ground, shadows, labels, smooth skin", () => undefined),
       () => [
         { name: "Smooth skin", hint: "limbs as one surface", on: this.limbs.isSmooth, run: () => this.limbs.setSmooth(!this.limbs.isSmooth) },
-        ...this.looks.map(({ name, key, apply }) => ({ name, on: remembered(key, true), run: () => flip(key, apply) })),
+        ...this.looks
+          .filter(({ offered }) => offered?.() ?? true)
+          .map(({ name, key, apply }) => ({ name, on: remembered(key, true), run: () => flip(key, apply) })),
       ],
     );
     const pictures = menuButton(
@@ -154,10 +170,16 @@ export class Viewport {
   }
 
   /** What the picture may show besides the plant. */
-  private readonly looks: { name: string; key: string; apply: (on: boolean) => void }[] = [
+  private readonly looks: { name: string; key: string; apply: (on: boolean) => void; offered?: () => boolean }[] = [
     { name: "Shadows", key: "shadows", apply: (on) => this.scene.setShadows(on) },
     { name: "Ground", key: "ground", apply: (on) => this.scene.setGround(on) },
     { name: "Labels of the model", key: "labels", apply: (on) => this.scene.setLabels(on) },
+    {
+      name: "Light of the view file",
+      key: "author-light",
+      apply: (on) => this.scene.setAuthorLight(on),
+      offered: () => this.hasAuthorLight,
+    },
   ];
 
   private fillColours(): void {

@@ -43,8 +43,7 @@ public:
 
 private:
     void setting() {
-        static const std::array<std::string, 8> known{"flat",    "solid",      "cut",     "ring",
-                                                      "contour", "correction", "quality", "material"};
+        const std::vector<std::string>& known = fibre_settings();
         const bool is_known = std::find(known.begin(), known.end(), in_.next().text) != known.end();
         if (!is_known)
             in_.fail("a setting of fibres: flat, solid, cut, ring, contour, correction, quality or material", known);
@@ -131,6 +130,12 @@ std::vector<Fibre> parse_fibres(TokenReader& in, Mistakes& mistakes) {
     std::vector<Fibre> fibres;
     while (!in.accept("}")) fibres.push_back(FibreParser(in, mistakes).fibre());
     return fibres;
+}
+
+const std::vector<std::string>& fibre_settings() {
+    static const std::vector<std::string> names{"flat",    "solid",      "cut",     "ring",
+                                                "contour", "correction", "quality", "material"};
+    return names;
 }
 
 }  // namespace espalier::language::sdl

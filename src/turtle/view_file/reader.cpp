@@ -302,4 +302,18 @@ View read_view_file(const fs::path& path, const Defines& defines, const fs::path
     return read_view_text(read_text(path), path.string(), defines, folder);
 }
 
+std::vector<ViewSetting> view_settings() {
+    std::vector<ViewSetting> settings;
+    const auto add = [&](std::span<const ViewKeyword> keywords_of_group, std::string_view group) {
+        for (const ViewKeyword& keyword : keywords_of_group) {
+            settings.push_back(
+                {keyword.label, keyword.values, keyword.display ? "window" : group, keyword.value, keyword.letters});
+        }
+    };
+    add(turtle_keywords(), "growth");
+    add(shape_keywords(), "shape");
+    add(display_keywords(), "picture");
+    return settings;
+}
+
 }  // namespace espalier::turtle

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/turtle/view_file.h"
+#include "espalier/turtle/view_setting.h"
 
 #include "base/text_cursor.h"
 
@@ -22,7 +23,9 @@ struct ViewKeyword {
     std::string_view values;  ///< what follows it, for messages
     /// Reads the values. Those of a setting without meaning outside a window are read and ignored.
     void (*read)(ViewReader&);
-    bool display = false;  ///< without meaning outside a window
+    ViewValue value;
+    std::span<const ViewValue> letters = {};  ///< of a line of letters
+    bool display = false;                     ///< without meaning outside a window
 };
 
 std::span<const ViewKeyword> turtle_keywords();   ///< how the turtle walks and bends

@@ -239,14 +239,15 @@ export class Editor {
     this.shown = path;
     this.view.setState(text.state);
     this.drawTabs();
-    this.side = sideEditor({
+    const side = {
       path,
       content: () => this.contentOf(path),
-      change: (content, lasting) => this.replace(path, content, lasting),
-    });
+      change: (content: string, lasting: boolean) => this.replace(path, content, lasting),
+    };
+    this.side = sideEditor(side, () => this.studio.help);
     this.sideTools.replaceChildren(...this.side.elements);
-    // The bytes of a colour map are no text for people.
-    this.place.hidden = text.file.language === "map";
+    // The bytes of colours are no text for people.
+    this.place.hidden = text.file.language === "map" || text.file.language === "materials";
     this.underline(this.studio.problems);
   }
 
@@ -327,12 +328,11 @@ export class Editor {
   }
 
   private languageOf(file: TextFile): Extension {
+    const { language } = file;
+    if (language === "map" || language === "materials" || language === "plain") return [];
     const help = () => this.studio.help;
-    if (file.language === "cpfg")
-      return [cpfg(), autocompletion({ override: [completion("cpfg", help)] }), hoverHelp("cpfg", help)];
-    if (file.language === "toml")
-      return [toml(), autocompletion({ override: [completion("toml", help)] }), hoverHelp("toml", help)];
-    return ["pgraph", "sdl", "species"].includes(file.language) ? [notation()] : [];
+    const highlighting = language === "cpfg" ? cpfg() : language === "toml" ? toml() : notation();
+    return [highlighting, autocompletion({ override: [completion(language, help)] }), hoverHelp(language, help)];
   }
 
   private extensions(): Extension {

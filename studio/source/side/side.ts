@@ -1,9 +1,12 @@
-/** Editors that drag points, for the side files that have one. */
+/** Editors above the texts of side files: points to drag, colours, forms. */
 import { h } from "../elements.js";
 import { readPoints } from "./files.js";
+import type { Help } from "../protocol.js";
 import { MapEditor } from "./map.js";
+import { MaterialEditor } from "./materials.js";
 import { PointPlane } from "./plane.js";
 import { SurfaceEditor } from "./surface.js";
+import { ViewForm } from "./view.js";
 
 export interface SideText {
   path: string;
@@ -49,7 +52,9 @@ function planeEditor(text: SideText): SideEditor {
   return { elements: [choice, holder], refresh };
 }
 
-export function sideEditor(text: SideText): SideEditor {
+export function sideEditor(text: SideText, help: () => Help | null): SideEditor {
+  if (text.path.endsWith(".v")) return new ViewForm(text, help);
+  if (text.path.endsWith(".mat")) return new MaterialEditor(text);
   if (text.path.endsWith(".map")) return new MapEditor(text);
   if (text.path.endsWith(".s")) return new SurfaceEditor(text);
   return planeEditor(text);

@@ -47,8 +47,12 @@ export class Backdrop {
     this.mesh.renderOrder = -2;
   }
 
-  useTheme(theme: Theme): void {
+  /** The colours of the theme, or one colour from 0 to 1. */
+  use(theme: Theme, colour: readonly number[] | null): void {
     setBytes(this.top, theme.background);
     setBytes(this.horizon, theme.horizon);
+    if (!colour) return;
+    this.top.setRGB(colour[0], colour[1], colour[2]);
+    this.horizon.copy(this.top);
   }
 }

@@ -56,10 +56,15 @@ export class OrbitCamera {
     this.update();
   }
 
-  /** From the front, if all lies in the plane x y. */
-  home(lower: Vector, upper: Vector, flat: boolean): void {
+  /** From a direction; without one from the side, or from the front, if all lies in the plane x y. */
+  home(lower: Vector, upper: Vector, flat: boolean, towardsEye: Vector | null = null): void {
     this.azimuth = flat ? 0 : 0.5;
     this.elevation = flat ? 0 : 0.16;
+    if (towardsEye) {
+      const [x, y, z] = towardsEye;
+      this.azimuth = Math.atan2(x, z);
+      this.elevation = Math.min(upmost, Math.max(-upmost, Math.atan2(y, Math.hypot(x, z))));
+    }
     this.fit(lower, upper);
   }
 

@@ -5,7 +5,7 @@ export { niceLength } from "./ground.js";
 export type { FieldLook } from "./fields.js";
 export * from "./packets.js";
 export type { PictureSource } from "./pictures.js";
-export { PlantScene } from "./scene3d.js";
+export { PlantScene, type AuthorLook } from "./scene3d.js";
 export { steer } from "./steer.js";
 export { compress, decompress, fromBase64, toBase64, urlSafe } from "./compression.js";
 export { playRecording, type Recording } from "./recording.js";

@@ -38,6 +38,17 @@ function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
+/** How the author of a model looked at it, where that is known. */
+export interface AuthorLook {
+  towardsEye: Vector | null;
+  towardsLight: Vector | null;
+  /** Red, green, blue from 0 to 1. */
+  background: Vector | null;
+}
+
+const usualSun = new Vector3(0.45, 0.8, 0.4).normalize();
+const lowestSun = Math.sin((5 * Math.PI) / 180); // shadows of a lower one would be endless
+
 interface Box {
   lower: Vector;
   upper: Vector;
@@ -84,6 +95,9 @@ export class PlantScene {
   private labelsShown = true;
   private shadows = true;
   packet: Packet | null = null;
+  private shownTheme: Theme = themes.light;
+  private author: AuthorLook = { towardsEye: null, towardsLight: null, background: null };
+  private authorLight = true;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, alpha: false, powerPreference: "high-performance" });
@@ -111,11 +125,40 @@ export class PlantScene {
   }
 
   set theme(theme: Theme) {
+    this.shownTheme = theme;
     useTheme(this.uniforms, theme);
-    this.backdrop.useTheme(theme);
+    this.paintBackdrop();
     this.ground.useTheme(theme);
     this.labels.useTheme(theme);
     this.request();
+  }
+
+  /** What the view file of the model says. Another place of the eye is taken at once. */
+  setAuthor(author: AuthorLook): void {
+    const moved = this.packet !== null && String(author.towardsEye) !== String(this.author.towardsEye);
+    this.author = author;
+    this.setAuthorLight(this.authorLight);
+    if (moved && this.frame) this.home();
+  }
+
+  /** Whether light and background are those of the view file. */
+  setAuthorLight(on: boolean): void {
+    this.authorLight = on;
+    const sun = this.uniforms.sun.value as Vector3;
+    sun.copy(usualSun);
+    if (on && this.author.towardsLight) {
+      sun.set(...this.author.towardsLight).normalize();
+      sun.y = Math.max(sun.y, lowestSun);
+      sun.normalize();
+    }
+    this.shadowStale = true;
+    if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
+    this.paintBackdrop();
+    this.request();
+  }
+
+  private paintBackdrop(): void {
+    this.backdrop.use(this.shownTheme, this.authorLight ? this.author.background : null);
   }
 
   get gridCell(): number {
@@ -173,7 +216,7 @@ export class PlantScene {
   }
 
   home(): void {
-    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper, this.isFlat());
+    if (this.bounds) this.orbit.home(this.bounds.lower, this.bounds.upper, this.isFlat(), this.author.towardsEye);
   }
 
   /** Colours modules by a column, by the order of branching, or as the model does. */
@@ -330,7 +373,7 @@ export class PlantScene {
     if (this.framedGrowth !== packet.growth) return;
     const before = this.frame;
     this.frame = before ? around(before, this.bounds) : this.bounds;
-    if (!before) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat());
+    if (!before) this.orbit.home(this.frame.lower, this.frame.upper, this.isFlat(), this.author.towardsEye);
     else if (String([this.frame.lower, this.frame.upper]) !== String([before.lower, before.upper]))
       this.orbit.fit(this.frame.lower, this.frame.upper);
   }
