@@ -64,6 +64,12 @@ bool Document::redo() {
     return true;
 }
 
+void Document::keep_text(const std::filesystem::path& file, const std::string& text) {
+    for (Entry& entry : states_) {
+        if (entry.state.opened.path == now().opened.path) entry.state.unsaved.try_emplace(file, text);
+    }
+}
+
 std::optional<std::string> Document::undo_label() const {
     return at_ > 0 ? std::optional(states_[at_].label) : std::nullopt;
 }

@@ -27,6 +27,9 @@ public:
     bool undo();
     bool redo();
 
+    /// A file is about to be written: states that rest on what stands in it keep that as unsaved.
+    void keep_text(const std::filesystem::path& file, const std::string& text);
+
     const DocumentState& now() const { return states_[at_].state; }
     /// Grows with every change, undo and redo.
     std::uint64_t version() const { return version_; }

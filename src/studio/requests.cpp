@@ -265,7 +265,11 @@ Json Session::save(Viewer&, const Json& request) {
         save_as(below_folder(options_.folder / request["path"].get<std::string>()));
     } else {
         for (const auto& [file, text] : document_.now().unsaved) {
-            if (text_on_disk(file) != text) write_text(below_folder(file), text);
+            const std::optional<std::string> before = text_on_disk(file);
+            if (before == text) continue;
+            below_folder(file);
+            if (before) document_.keep_text(file, *before);
+            write_text(file, text);
         }
     }
     tell(document_json());

@@ -40,7 +40,15 @@ export class LimbLook {
     this.asked = "";
     this.studio.limbs = null;
     this.scene.wear(null);
+    this.note();
     this.ask(0);
+  }
+
+  /** Tells in the page how the limbs are drawn: "", "tubes" or "smooth", and that others are on their way. */
+  private note(): void {
+    const { canvas } = this.scene;
+    canvas.dataset.limbs = this.studio.limbs ? (this.studio.limbs.smooth ? "smooth" : "tubes") : "";
+    canvas.toggleAttribute("data-waits", this.skin !== null && !this.studio.limbs);
   }
 
   /** Waits until the limbs of the step that shows are drawn as they are to be. */
@@ -63,6 +71,7 @@ export class LimbLook {
       return;
     }
     this.studio.limbs = null;
+    this.note();
     this.ask(rest);
   }
 
@@ -86,5 +95,6 @@ export class LimbLook {
     if (shown?.growth !== limbs.growth || shown.step !== limbs.step) return;
     this.studio.limbs = limbs;
     this.scene.wear(limbs);
+    this.note();
   }
 }

@@ -232,6 +232,23 @@ TEST_CASE("nothing is written outside the opened folder", "[studio]") {
     CHECK(page.last("document")["name"] == "other.l");
 }
 
+TEST_CASE("undo goes back behind a save, and the file follows the next one", "[studio]") {
+    OpenStudio studio(tree);
+    studio.begin();
+    studio.wait_until_grown();
+    const std::string other = std::string(tree) + "/* more */\n";
+    studio.change({{"texts", {{studio.file.string(), other}}}});
+    studio.ask({{"do", "save"}});
+    CHECK(text_of(studio.file) == other);
+    studio.ask({{"do", "undo"}});
+    CHECK(studio.page.last("document")["texts"][0]["content"] == tree);
+    CHECK(studio.page.last("document")["texts"][0]["changed"] == true);
+    studio.ask({{"do", "save"}});
+    CHECK(text_of(studio.file) == tree);
+    studio.ask({{"do", "redo"}});
+    CHECK(studio.page.last("document")["texts"][0]["content"] == other);
+}
+
 TEST_CASE("unsaved work is there again after the program was killed", "[studio]") {
     OpenStudio studio(tree);
     studio.options.state = studio.scratch.path() / "state.json";

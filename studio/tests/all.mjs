@@ -1,0 +1,3 @@
+// All tests of the page: node tests/all.mjs PROGRAM
+import "./studio.test.mjs";
+import "./editors.test.mjs";

@@ -1,0 +1,266 @@
+// The editors of side files and the look of the picture, in a real browser; all.mjs runs it behind the rest.
+import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { after, before, describe, test } from "node:test";
+import { openBrowser, openPage, shot } from "./browser.mjs";
+import { startProgram, workFolder } from "./program.mjs";
+
+const programPath = resolve(process.argv[2] ?? "build/release/espalier");
+const place = workFolder();
+
+/** A shoot with everything that L-studio has editors for. */
+const shoot = `#define GROWN 6   /* steps until a leaf has its size; 1..20 */
+lsystem: 1
+derivation length: 8
+axiom: ;(1) @Tx(1) A
+A --> I(0) [ &(60) ;(2) L(0) ] /(137.5) A
+I(t) : t < GROWN --> I(t + 1)
+L(t) : t < GROWN --> L(t + 1)
+homomorphism
+I(t) --> !(0.1 + 0.05 * t) F(0.4) [ +(90) f(0.3) @L("%d", t) ]
+L(t) --> ~l(0.3 + 0.2 * t)
+endlsystem
+`;
+const corners = [0, 1, 2, 3].flatMap((row) =>
+  [0, 1, 2, 3].map((column) => `${((column - 1.5) * 0.3).toFixed(4)} ${(row * 0.4).toFixed(4)} ${row === 3 ? "0.2000" : "0.0000"}`),
+);
+const leaf = `-0.5 0.5 0 1.2 -0.1 0.3
+CONTACT POINT X: 0.00 Y: 0.00 Z: 0.00
+END POINT X: 0.00 Y: 1.20 Z: 0.00
+HEADING X: 0.00 Y: 1.00 Z: 0.00
+UP X: 0.00 Y: 0.00 Z: 1.00
+SIZE: 1.00
+blade
+TOP COLOR: 0 DIFFUSE: 0 BOTTOM COLOR: 0 DIFFUSE: 0
+AL: ~ A: ~ AR: ~
+L: ~ R: ~
+BL: ~ B: ~ BR: ~
+${[0, 4, 8, 12].map((row) => corners.slice(row, row + 4).join("  ")).join("\n")}
+`;
+
+function writeObject(folder) {
+  writeFileSync(join(folder, "shoot.l"), shoot);
+  writeFileSync(join(folder, "leaf.s"), leaf);
+  writeFileSync(join(folder, "rough.bark"), "size = 64\n");
+  writeFileSync(join(folder, "shoot.v"), "surface: l leaf.s 1\nline style: cylinder\ntexture: F rough.bark\n");
+  const scene = (colours) =>
+    `[simulation]\nsteps = 8\n[[plant]]\nmodel = "shoot.l"\nview = "shoot.v"\n${colours}\n[environment.light]\nprocess = "voxel-shade"\nvoxel = 0.25\n`;
+  const map = new Uint8Array(768).map((_, i) => [110, 80, 50, 60, 140, 60][i % 6]);
+  writeFileSync(join(folder, "shoot.map"), map);
+  writeFileSync(join(folder, "mapped.toml"), scene('colour_map = "shoot.map"'));
+  const brown = [1, 0, 40, 30, 20, 110, 80, 50, 0, 0, 0, 0, 0, 0, 0];
+  const green = [2, 0, 20, 50, 20, 60, 140, 60, 0, 0, 0, 0, 0, 0, 0];
+  writeFileSync(join(folder, "shoot.mat"), new Uint8Array([...brown, ...green]));
+  writeFileSync(join(folder, "matted.toml"), scene('materials = "shoot.mat"'));
+}
+
+describe("editors of side files", () => {
+  let program;
+  let browser;
+  let page;
+
+  const canvas = () => page.locator(".viewport canvas");
+  const text = () => page.evaluate(() => document.querySelector(".cm-content").innerText);
+  /** A digest of the picture once it rests and its limbs are drawn as they are to be. */
+  const picture = async () => {
+    await page.waitForTimeout(300);
+    await page.waitForFunction(() => !document.querySelector(".viewport canvas").hasAttribute("data-waits"));
+    await page.waitForTimeout(900);
+    return createHash("sha1").update(await canvas().screenshot()).digest("hex");
+  };
+  const grown = () => page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
+  const open = async (name) => {
+    await page.getByRole("button", { name: "Gallery", exact: true }).click();
+    await page.getByRole("button", { name: "My files" }).click();
+    await page.locator(`.card[title$="/${name}"]`).click();
+    await page.waitForFunction((title) => document.title.startsWith(title), name);
+    await grown();
+  };
+  const tab = (name) => page.getByRole("tab", { name }).click();
+  const undo = async () => {
+    await page.getByRole("button", { name: /^Undo: / }).click();
+    await page.waitForTimeout(500);
+    await grown();
+  };
+  const saved = async (name) => {
+    await page.getByRole("button", { name: "Save", exact: true }).click();
+    await page.waitForTimeout(400);
+    return readFileSync(join(place.folder, name));
+  };
+
+  before(async () => {
+    writeObject(place.folder);
+    program = await startProgram(programPath, place);
+    browser = await openBrowser();
+    page = await openPage(browser, program.address);
+    await page.waitForSelector(".viewport[data-step]");
+    await canvas().click({ position: { x: 5, y: 300 } });
+  });
+
+  after(async () => {
+    assert.deepEqual(page.problems, []);
+    await browser?.close();
+    await program?.kill();
+  });
+
+  test("a point of a surface is dragged: text and picture follow, and undo brings both back", async () => {
+    await open("mapped.toml");
+    await tab(/leaf\.s/);
+    const [words, before] = [await text(), await picture()];
+    const point = await page.locator(".surface .point").nth(13).boundingBox();
+    await page.mouse.move(point.x + 4, point.y + 4);
+    await page.mouse.down();
+    await page.mouse.move(point.x + 44, point.y - 46, { steps: 6 });
+    await page.mouse.up();
+    await page.waitForTimeout(400);
+    await grown();
+    assert.notEqual(await text(), words);
+    assert.notEqual(await picture(), before);
+    await shot(page, "surface");
+    await undo();
+    assert.equal(await text(), words);
+    assert.equal(await picture(), before);
+    assert.equal((await saved("leaf.s")).toString(), leaf);
+  });
+
+  test("a range of a colour map is blended: picture and bytes follow, and undo brings the bytes back", async () => {
+    const original = readFileSync(join(place.folder, "shoot.map"));
+    await tab(/shoot\.map/);
+    const before = await picture();
+    await page.getByRole("button", { name: "Colour 2", exact: true }).click();
+    await page.getByRole("button", { name: "Colour 9", exact: true }).click({ modifiers: ["Shift"] });
+    await page.getByLabel("Colour at the beginning of the range").fill("#ff2000");
+    await page.getByLabel("Colour at the end of the range").fill("#0020ff");
+    await grown();
+    assert.notEqual(await picture(), before);
+    await shot(page, "colour-map");
+    const bytes = await saved("shoot.map");
+    assert.deepEqual([...bytes.subarray(6, 9)], [255, 32, 0]);
+    assert.deepEqual([...bytes.subarray(27, 30)], [0, 32, 255]);
+    assert.deepEqual([...bytes.subarray(15, 18)], [146, 32, 109]); // three sevenths of the way
+    assert.deepEqual(bytes.subarray(30), original.subarray(30));
+    while (await page.getByRole("button", { name: /^Undo: Edit shoot\.map/ }).count()) await undo();
+    assert.equal(await picture(), before);
+    assert.deepEqual(await saved("shoot.map"), original);
+  });
+
+  test("the form of a view file changes its text and the picture, and takes a setting out again", async () => {
+    await tab(/shoot\.v/);
+    const [words, before] = [await text(), await picture()];
+    await page.getByRole("button", { name: "Add light" }).click();
+    await page.getByLabel("light: where it comes from, infinitely far away x").fill("-2");
+    await page.keyboard.press("Enter");
+    await page.locator("input[aria-label='background color']").fill("#336699");
+    await page.waitForTimeout(500);
+    await grown();
+    assert.match(await text(), /light: V -2 1 0/);
+    assert.match(await text(), /background color: 0\.2 0\.4 0\.6/);
+    assert.notEqual(await picture(), before);
+    await shot(page, "view-form");
+    await page.getByText("Turtle", { exact: true }).click();
+    const width = page.locator("input[type=range][aria-label='angle increment']");
+    await width.focus();
+    await page.keyboard.press("ArrowRight");
+    assert.match(await text(), /angle increment: 46/);
+    await page.getByRole("button", { name: /Take "angle increment" out/ }).click();
+    await page.getByRole("button", { name: /Take "background color" out/ }).click();
+    await page.getByRole("button", { name: "Remove light" }).click();
+    await page.waitForTimeout(400);
+    assert.equal((await text()).trim(), words.trim());
+  });
+
+  test("a material has colours and transparency, which its bytes and the picture have too", async () => {
+    const original = readFileSync(join(place.folder, "shoot.mat"));
+    await open("matted.toml");
+    await tab(/shoot\.mat/);
+    const before = await picture();
+    await page.getByRole("option", { name: "Material 2" }).click();
+    await page.getByLabel("Diffuse").fill("#c02060");
+    await page.getByLabel("Transparency").fill("120");
+    await grown();
+    assert.notEqual(await picture(), before);
+    await shot(page, "materials");
+    const bytes = await saved("shoot.mat");
+    assert.deepEqual([...bytes.subarray(15, 23)], [2, 120, 20, 50, 20, 0xc0, 0x20, 0x60]);
+    while (await page.getByRole("button", { name: /^Undo: Edit shoot\.mat/ }).count()) await undo();
+    assert.deepEqual(await saved("shoot.mat"), original);
+  });
+
+  test("names are completed and explained in scenes, view files and other notations", async () => {
+    const completes = async (typed, expected) => {
+      await page.locator(".cm-content").click();
+      await page.keyboard.press("Control+End");
+      await page.keyboard.type(typed);
+      await page.waitForSelector(".cm-tooltip-autocomplete");
+      const offered = await page.locator(".cm-tooltip-autocomplete li").allInnerTexts();
+      assert.ok(
+        offered.some((entry) => entry.includes(expected)),
+        `${expected} is not among ${offered.join(", ")}`,
+      );
+      await page.keyboard.press("Escape");
+      for (let i = 0; i < typed.length; i++) await page.keyboard.press("Backspace");
+    };
+    const explains = async (line, word) => {
+      const box = await page.locator(".cm-line", { hasText: line }).first().boundingBox();
+      await page.mouse.move(box.x + 12, box.y + 9);
+      await page.mouse.move(box.x + 14, box.y + 10);
+      await page.waitForSelector(".cm-tooltip-hover");
+      assert.match(await page.locator(".cm-tooltip-hover").innerText(), word);
+      await page.mouse.move(600, 300);
+    };
+    await tab(/matted\.toml/);
+    await completes("dissi", "dissipation");
+    await explains("voxel =", /edge of a voxel/);
+    await tab(/shoot\.v/);
+    await completes("scale m", "scale multiplier:");
+    await explains("line style", /how lines are drawn/);
+    await page.getByRole("button", { name: "Gallery", exact: true }).click();
+    await page.locator(".gallery .search").fill("bush.pgraph");
+    await page.locator('.card[title$="/bush.pgraph"]').click();
+    await page.waitForFunction(() => document.title.startsWith("bush.pgraph"));
+    await explains("Phiball fork", /Phiball/);
+    await explains("recursion 5", /recursion/);
+    await page.getByRole("button", { name: "Gallery", exact: true }).click();
+    await page.locator(".gallery .search").fill(".species");
+    await page.locator('.card[title$=".species"]').first().click();
+    await page.waitForFunction(() => document.title.includes(".species"));
+    await grown();
+    await completes("RatioP", "RatioPower");
+  });
+
+  test("limbs wear bark, labels show, and a smooth skin is made on demand", async () => {
+    await open("mapped.toml");
+    await page.waitForTimeout(1500);
+    const tubes = await picture();
+    await shot(page, "bark");
+    const look = page.getByRole("button", { name: /^What is drawn/ });
+    await look.click();
+    await page.getByRole("menuitemcheckbox", { name: /Smooth skin/ }).click();
+    await page.waitForFunction(() => document.querySelector(".viewport canvas").dataset.limbs === "smooth");
+    assert.notEqual(await picture(), tubes);
+    await shot(page, "skin");
+    await look.click();
+    await page.getByRole("menuitemcheckbox", { name: /Smooth skin/ }).click();
+    await page.waitForTimeout(600);
+    assert.equal(await picture(), tubes);
+    await look.click();
+    await page.getByRole("menuitemcheckbox", { name: /Labels/ }).click();
+    assert.notEqual(await picture(), tubes);
+    await look.click();
+    await page.getByRole("menuitemcheckbox", { name: /Labels/ }).click();
+  });
+
+  test("a field shows as the surface of one value, which a slider moves", async () => {
+    await page.selectOption("[aria-label=Field]", "light");
+    await page.selectOption("[aria-label='Field as']", "surface");
+    await page.getByLabel("Value on the surface").fill("0.5");
+    const half = await picture();
+    await shot(page, "field-surface");
+    await page.getByLabel("Value on the surface").fill("0.8");
+    assert.notEqual(await picture(), half);
+    await page.selectOption("[aria-label=Field]", "");
+    assert.notEqual(await picture(), half);
+  });
+});
