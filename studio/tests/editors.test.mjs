@@ -86,7 +86,7 @@ describe("editors of side files", () => {
   };
   const saved = async (name) => {
     await page.getByRole("button", { name: "Save", exact: true }).click();
-    await page.waitForTimeout(400);
+    await page.getByRole("button", { name: "Dismiss" }).first().click();
     return readFileSync(join(place.folder, name));
   };
 
@@ -204,8 +204,8 @@ describe("editors of side files", () => {
     };
     const explains = async (line, word) => {
       const box = await page.locator(".cm-line", { hasText: line }).first().boundingBox();
-      await page.mouse.move(box.x + 12, box.y + 9);
-      await page.mouse.move(box.x + 14, box.y + 10);
+      await page.mouse.move(box.x + 30, box.y + 9);
+      await page.mouse.move(box.x + 32, box.y + 10);
       await page.waitForSelector(".cm-tooltip-hover");
       assert.match(await page.locator(".cm-tooltip-hover").innerText(), word);
       await page.mouse.move(600, 300);
@@ -220,6 +220,7 @@ describe("editors of side files", () => {
     await page.locator(".gallery .search").fill("bush.pgraph");
     await page.locator('.card[title$="/bush.pgraph"]').click();
     await page.waitForFunction(() => document.title.startsWith("bush.pgraph"));
+    await grown();
     await explains("Phiball fork", /Phiball/);
     await explains("recursion 5", /recursion/);
     await page.getByRole("button", { name: "Gallery", exact: true }).click();
