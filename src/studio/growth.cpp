@@ -95,6 +95,7 @@ void Growth::live() {
     try {
         const ReadLog reads(std::size_t(64) << 20, order_.unsaved);
         const Scene scene = order_.read(order_.opened);
+        note_barks(scene);
         GrowthStart start;
         start.files = reads.files();
         start.warnings = scene.notes.diagnostics;

@@ -56,13 +56,13 @@ Json names(const std::vector<std::string>& all) {
 
 Session::Request Session::request_named(const std::string& name) {
     static const std::map<std::string, Request> requests{
-        {"hello", &Session::hello},   {"library", &Session::library},     {"help", &Session::help},
-        {"open", &Session::open},     {"open-text", &Session::open_text}, {"change", &Session::change},
-        {"undo", &Session::undo},     {"redo", &Session::redo},           {"grow", &Session::grow},
-        {"stop", &Session::stop},     {"look", &Session::look},           {"frame", &Session::frame},
-        {"column", &Session::column}, {"pick", &Session::pick},           {"field", &Session::field},
-        {"graph", &Session::graph},   {"save", &Session::save},           {"export", &Session::export_run},
-        {"limbs", &Session::limbs},   {"dismiss", &Session::dismiss},
+        {"hello", &Session::hello},       {"library", &Session::library},     {"help", &Session::help},
+        {"open", &Session::open},         {"open-text", &Session::open_text}, {"change", &Session::change},
+        {"undo", &Session::undo},         {"redo", &Session::redo},           {"grow", &Session::grow},
+        {"stop", &Session::stop},         {"look", &Session::look},           {"frame", &Session::frame},
+        {"column", &Session::column},     {"pick", &Session::pick},           {"field", &Session::field},
+        {"graph", &Session::graph},       {"save", &Session::save},           {"export", &Session::export_run},
+        {"new-file", &Session::new_file}, {"limbs", &Session::limbs},         {"dismiss", &Session::dismiss},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));
@@ -257,6 +257,24 @@ Json Session::field(Viewer& viewer, const Json& request) {
         });
     });
     return Json::object();
+}
+
+// A side file beside the document, which its texts may then name.
+Json Session::new_file(Viewer&, const Json& request) {
+    static const std::set<std::string> kinds{".v", ".func", ".con", ".s", ".map", ".mat", ".bark"};
+    if (!document_.is_open()) throw UserError("nothing is open");
+    const fs::path main = document_.now().opened.path,
+                   name = fs::path(request.at("name").get<std::string>()).filename();
+    if (!kinds.contains(name.extension().string())) {
+        throw UserError(fmt::format("'{}' is no name of a side file", name.string()));
+    }
+    const fs::path path = below_folder((fs::is_directory(main) ? main : main.parent_path()) / name);
+    const std::string& content = request.at("content").get_ref<const std::string&>();
+    if (content.size() > most_text) throw UserError("the text is too long");
+    if (fs::exists(path)) throw UserError(fmt::format("{} is there already", path.string()));
+    write_text(path, bytes_of(path, content));
+    begin_growth();
+    return {{"path", path.string()}};
 }
 
 Json Session::save(Viewer&, const Json& request) {

@@ -77,6 +77,7 @@ private:
     Json pick(Viewer& viewer, const Json& request);
     Json field(Viewer& viewer, const Json& request);
     Json limbs(Viewer& viewer, const Json& request);
+    Json new_file(Viewer& viewer, const Json& request);
     Json save(Viewer& viewer, const Json& request);
     Json export_run(Viewer& viewer, const Json& request);
     Json dismiss(Viewer& viewer, const Json& request);

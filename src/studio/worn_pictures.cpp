@@ -51,6 +51,15 @@ fs::path written(const fs::path& place, const fs::path& file, formats::TextureMa
 
 }  // namespace
 
+void note_barks(const Scene& scene) {
+    for (const Plant& plant : scene.plants) {
+        if (!plant.turtle.shapes) continue;
+        for (const Texture& texture : plant.turtle.shapes->textures) {
+            if (is_bark(texture.file.string()) && fs::is_regular_file(texture.file)) read_text(texture.file);
+        }
+    }
+}
+
 std::uint32_t WornPictures::number(const fs::path& file) {
     const auto known =
         std::find_if(pictures_.begin(), pictures_.end(), [&](const WornPicture& one) { return one.file == file; });

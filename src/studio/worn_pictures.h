@@ -1,6 +1,8 @@
 // Pictures that plants wear, as files that browsers show.
 #pragma once
 
+#include "espalier/simulation/scene.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -12,6 +14,9 @@ struct WornPicture {
     std::filesystem::path colours;  ///< PNG or JPEG; empty if there is no such picture
     std::filesystem::path normals;  ///< of tangent space, PNG; empty where it is flat
 };
+
+/// Reads the settings of bark that plants of a scene wear, so that they count among what was read.
+void note_barks(const Scene& scene);
 
 class WornPictures {
 public:

@@ -22,7 +22,9 @@ export class Film {
     }
     this.running = true;
     try {
-      download(await this.record(), `${this.studio.document?.name ?? "plant"}.webm`);
+      const name = `${this.studio.document?.name ?? "plant"}.webm`;
+      download(await this.record(), name);
+      this.studio.tell("note", `The film is in your downloads: ${name}.`);
     } catch (error) {
       this.studio.tell("error", errorText(error));
     }
@@ -46,7 +48,7 @@ export class Film {
     const ended = new Promise<void>((done) => recorder.addEventListener("stop", () => done()));
     const last = this.timeline.last;
     recorder.start();
-    this.studio.tell("note", "A film is being recorded: it plays all steps once.");
+    const told = this.studio.tell("note", "A film is being recorded: it plays all steps once.");
     for (let step = 0; step <= last && this.running; step++) {
       await frames.fetch(step);
       frames.look(step);
@@ -59,6 +61,7 @@ export class Film {
     await new Promise((done) => setTimeout(done, 500));
     recorder.stop();
     await ended;
+    this.studio.dismiss(told);
     for (const track of stream.getTracks()) track.stop();
     return new Blob(parts, { type: "video/webm" });
   }

@@ -20,6 +20,8 @@ export interface HeaderParts {
 
 export class Header {
   readonly element: HTMLElement;
+  /** Called when what can be shared is looked at. */
+  shared: () => void = () => undefined;
   private readonly name = h("span", "document-name");
   private readonly exporting: Exporting;
   private readonly undoButton = iconButton("undo", "Undo", () => void this.step("undo"));
@@ -104,6 +106,7 @@ export class Header {
   }
 
   private shareEntries() {
+    this.shared();
     const { studio, scene } = this.parts;
     return [
       { name: "Save as …", hint: "below the opened folder", run: () => this.saveAs() },

@@ -80,8 +80,12 @@ function start(): void {
     () => viewport.scene,
     editor,
     timeline,
-    () => tabs.show("Organ"),
+    () => {
+      viewport.hints.did("asked");
+      tabs.show("Organ");
+    },
   );
+  timeline.started = () => viewport.hints.did("played");
   const charts = new ChartsPanel(studio, timeline);
   const settings = new SettingsPanel(studio, changes);
   const gallery = new Gallery(studio, () => studio.frames.look("last"));
@@ -98,6 +102,7 @@ function start(): void {
   );
   tabs.offer("Graph", false);
   const header = new Header({ studio, changes, editor, layout, scene: viewport.scene, gallery: () => void gallery.show() });
+  header.shared = () => viewport.hints.did("shared");
   layout.left.append(editor.element);
   layout.right.append(tabs.element);
   layout.centre.append(viewport.element);

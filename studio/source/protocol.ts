@@ -244,6 +244,7 @@ export interface Requests {
   pick: { send: { growth: number; step: number; module: number }; get: Picked };
   field: { send: { growth: number; name: string }; get: object };
   limbs: { send: { skin: null } | { growth: number; step: number; skin: "tubes" | "smooth" }; get: object };
+  "new-file": { send: { name: string; content: string }; get: { path: string } };
   save: { send: { path?: string }; get: { path: string } };
   export: { send: { format: string; step?: number; film?: boolean }; get: object };
   dismiss: { send: { message: number }; get: object };

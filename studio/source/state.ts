@@ -105,13 +105,16 @@ export class Studio {
     }
   }
 
-  tell(severity: Problem["severity"], text: string): void {
-    if (this.messages.some((message) => message.text === text)) return;
+  /** The number of the message, to dismiss it. */
+  tell(severity: Problem["severity"], text: string): number {
+    const known = this.messages.find((message) => message.text === text);
+    if (known) return known.number;
     const number = --this.ownMessages;
     this.messages = [...this.messages, { number, severity, text }];
     this.emit("messages", this.messages);
     // What only confirms goes by itself.
     if (severity === "note") setTimeout(() => this.dismiss(number), noteTime);
+    return number;
   }
 
   dismiss(number: number): void {

@@ -7,6 +7,8 @@ const ahead = 12; // steps fetched before they are played
 export class Timeline {
   readonly element: HTMLElement;
   playing = false;
+  /** Called when it begins to play. */
+  started: () => void = () => undefined;
   private readonly play = iconButton("play", "Play (P)", () => this.toggle());
   private readonly slider = h("input", "scrub", { type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": "Step" });
   private readonly grown = h("div", "grown");
@@ -62,6 +64,7 @@ export class Timeline {
 
   start(): void {
     this.playing = true;
+    this.started();
     setIcon(this.play, "pause", "Pause (P)");
     if (this.step >= this.last && this.studio.growth?.state !== "growing") this.studio.frames.look(0);
     this.due = performance.now() + this.interval;

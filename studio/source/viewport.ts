@@ -16,6 +16,7 @@ import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
 import { Film } from "./film.js";
+import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
 
 export class Viewport {
@@ -32,6 +33,7 @@ export class Viewport {
   private readonly legend = h("div", "legend", { hidden: true, "aria-live": "polite" });
   private readonly scale = h("div", "scale-note");
   private readonly limbs: LimbLook;
+  readonly hints: Hints;
   private colouring = remembered("colouring", "");
   private fieldName = "";
   private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
@@ -47,6 +49,8 @@ export class Viewport {
     this.scene = new PlantScene(this.canvas);
     this.scene.theme = themes[studio.theme];
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
+    this.hints = new Hints(studio);
+    this.canvas.addEventListener("pointerup", () => this.hints.did("turned"));
     this.limbs = new LimbLook(studio, this.scene);
     const film = new Film(this.studio, this.scene, timeline, this.limbs);
     this.buildFieldTools();
@@ -58,7 +62,7 @@ export class Viewport {
       this.toolbar(film),
       h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
       this.scale,
-      this.hint(),
+      this.hints.element,
     );
     new ResizeObserver(() => this.scene.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);
     this.colourSelect.addEventListener("change", () => this.colourBy(this.colourSelect.value));
@@ -124,7 +128,7 @@ export class Viewport {
       () => [
         { name: "Picture", hint: "PNG, as shown", run: () => void this.snapshot(1) },
         { name: "Picture, twice as large", hint: "PNG, 2x", run: () => void this.snapshot(2) },
-        { name: film.running ? "End the film" : "Film of all steps", hint: "WebM", run: () => void film.toggle() },
+        { name: film.running ? "End the film" : "Film of all steps", hint: "WebM", run: () => this.film(film) },
       ],
     );
     return h(
@@ -141,23 +145,9 @@ export class Viewport {
     );
   }
 
-  /** What one can do here, until it has been done once. */
-  private hint(): HTMLElement {
-    const hint = h(
-      "p",
-      "picture-hint",
-      { hidden: remembered("hinted", false) },
-      "Drag to turn, scroll to zoom, click an organ to ask it.",
-    );
-    this.canvas.addEventListener(
-      "pointerdown",
-      () => {
-        hint.hidden = true;
-        remember("hinted", true);
-      },
-      { once: true },
-    );
-    return hint;
+  private film(film: Film): void {
+    this.hints.did("shared");
+    void film.toggle();
   }
 
   private async snapshot(scale: number): Promise<void> {

@@ -96,7 +96,7 @@ describe("editors of side files", () => {
     browser = await openBrowser();
     page = await openPage(browser, program.address);
     await page.waitForSelector(".viewport[data-step]");
-    await canvas().click({ position: { x: 5, y: 300 } });
+    await page.getByRole("button", { name: "No more hints" }).click();
   });
 
   after(async () => {
@@ -186,6 +186,20 @@ describe("editors of side files", () => {
     assert.deepEqual([...bytes.subarray(15, 23)], [2, 120, 20, 50, 20, 0xc0, 0x20, 0x60]);
     while (await page.getByRole("button", { name: /^Undo: Edit shoot\.mat/ }).count()) await undo();
     assert.deepEqual(await saved("shoot.mat"), original);
+  });
+
+  test("a new function is made beside the model, named by the view file, and opens in its editor", async () => {
+    await page.getByRole("button", { name: /^New side file/ }).click();
+    await shot(page, "new-file");
+    await page.getByRole("menuitem", { name: /^Function/ }).click();
+    await page.locator("#new-file-name").fill("vigour.func");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector(".tab[aria-selected=true]:has-text('vigour.func')");
+    await page.waitForSelector(".point-plane .point");
+    assert.match(readFileSync(join(place.folder, "vigour.func"), "utf8"), /^name: vigour$/m);
+    await tab(/shoot\.v/);
+    assert.match(await text(), /function: vigour\.func/);
+    await shot(page, "function-new");
   });
 
   test("names are completed and explained in scenes, view files and other notations", async () => {

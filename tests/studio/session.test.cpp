@@ -232,6 +232,23 @@ TEST_CASE("nothing is written outside the opened folder", "[studio]") {
     CHECK(page.last("document")["name"] == "other.l");
 }
 
+TEST_CASE("a new side file stands beside the document, never over another file or elsewhere", "[studio]") {
+    OpenStudio studio(tree);
+    studio.begin();
+    studio.wait_until_grown();
+    const auto ask = [&](const char* name) {
+        return studio.ask({{"do", "new-file"}, {"name", name}, {"content", "line style: cylinder\n"}});
+    };
+    CHECK_FALSE(ask("plant.v").contains("error"));
+    CHECK(text_of(studio.folder.path() / "plant.v") == "line style: cylinder\n");
+    for (const char* name : {"plant.v", "plant.l", "notes", "run.sh", ""}) {
+        INFO(name);
+        CHECK(ask(name).contains("error"));
+    }
+    CHECK_FALSE(ask("../other.v").contains("error"));  // its last part is the name
+    CHECK_FALSE(std::filesystem::exists(studio.folder.path() / "../other.v"));
+}
+
 TEST_CASE("undo goes back behind a save, and the file follows the next one", "[studio]") {
     OpenStudio studio(tree);
     studio.begin();

@@ -26,12 +26,14 @@ import {
 } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
 import type { Changes } from "../changes.js";
-import { h, remember, remembered } from "../elements.js";
+import { menuButton } from "../dialog.js";
+import { h, iconButton, remember, remembered } from "../elements.js";
 import type { Problem, StudioDocument, TextFile } from "../protocol.js";
 import { sideEditor, type SideEditor } from "../side/side.js";
 import type { Studio } from "../state.js";
 import { cpfg } from "./cpfg.js";
 import { completion, hoverHelp } from "./help.js";
+import { newFileEntries } from "./new-file.js";
 import { notation } from "./notation.js";
 import { Agreement } from "./texts.js";
 import { toml } from "./toml.js";
@@ -84,7 +86,11 @@ export class Editor {
   ) {
     const { place } = this;
     this.view = new EditorView({ parent: place, state: EditorState.create({}) });
-    this.element = h("div", "editor", {}, this.tabs, this.sideTools, place);
+    const add = menuButton(
+      iconButton("plus", "New side file: function, contour, surface, colours and more", () => undefined),
+      () => newFileEntries(studio, this.fileHolder),
+    );
+    this.element = h("div", "editor", {}, h("div", "tab-row", {}, this.tabs, add), this.sideTools, place);
     this.view.contentDOM.addEventListener("blur", () => this.sendLasting());
     studio.on("document", (document) => this.hear(document));
     studio.on("problems", (problems) => this.underline(problems));
@@ -92,6 +98,23 @@ export class Editor {
       if (state === "open") this.resend();
       if (state === "lost") this.keepDrafts();
     });
+  }
+
+  /** A text that comes later is shown when it comes. */
+  private readonly fileHolder = {
+    show: (path: string) => {
+      this.awaited = path;
+      this.showAwaited();
+    },
+    replace: (path: string, content: string) => this.replace(path, content, true),
+    contentOf: (path: string) => this.contentOf(path),
+  };
+  private awaited: string | null = null;
+
+  private showAwaited(): void {
+    if (this.awaited === null || !this.texts.has(this.awaited)) return;
+    this.showText(this.awaited);
+    this.awaited = null;
   }
 
   /** Shows a text and a line of it. */
@@ -208,6 +231,7 @@ export class Editor {
     for (const path of this.texts.keys()) if (!document.texts.some((file) => file.path === path)) this.texts.delete(path);
     for (const file of document.texts) this.hearText(file);
     if (this.shown === null || !this.texts.has(this.shown)) this.showFirst(document);
+    this.showAwaited();
     this.drawTabs();
   }
 
@@ -272,6 +296,7 @@ export class Editor {
         ),
       ),
     );
+    this.tabs.querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
   private stateOf(path: string): EditorState | undefined {
