@@ -3,6 +3,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "studio/derivation_length.h"
+#include "studio/likeness.h"
 
 #include <fmt/format.h>
 
@@ -38,24 +39,52 @@ std::string rows_behind(const fs::path& file, std::size_t offset) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// A growth that may be extended ends where the studio says.
-Scene without_end(Scene scene) {
-    scene.steps = 100000000;  // more than anybody sees
-    return scene;
-}
+constexpr int most_steps = 100000000;  ///< more than anybody sees
+/// Seconds that a growth may go on before it shows a step.
+constexpr double most_unseen = 0.3;
 
 }  // namespace
 
-Growth::Growth(GrowthOrder order, GrowthListener& listener)
+/// What the growth is at; of its own thread.
+struct Growth::Work {
+    Work(const Scene& scene, const fs::path& folder)
+        : world(scene, default_memory(), folder),
+          statistics(statistics_of(world, folder)),
+          statistics_file(folder / "statistics.csv") {}
+
+    /// The rows that the frame adds.
+    std::string record(const Frame& frame) {
+        statistics->record(frame);
+        std::string rows = rows_behind(statistics_file, statistics_read);
+        statistics_read += rows.size();
+        return rows;
+    }
+
+    World world;
+    std::unique_ptr<Recorder> statistics;
+    fs::path statistics_file;
+    std::size_t statistics_read = 0;
+    std::shared_ptr<const Origin> origin;  ///< null: what is drawn comes back to the strings
+    int at = -1;                           ///< the step that the world is at
+    int derived = -1;                      ///< the last step that there is
+    int own_steps = 0;                     ///< that were derived here
+    int drawn = -1;                        ///< up to it all steps have been drawn in order, with their statistics
+    int told = -1;                         ///< the last step that the listener knows
+    bool is_ended = false;                 ///< the model has stopped
+    bool told_stop = false;
+};
+
+Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
     : order_(std::move(order)),
       listener_(listener),
-      steps_(order_.number, order_.scratch / fmt::format("growth-{}", order_.number)),
+      steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
       version_(order_.version),
-      thread_([this] { live(); }) {}
+      wanted_(order_.looked_at),
+      ended_(workers.run([this] { live(); })) {}
 
 Growth::~Growth() {
     cancel();
-    thread_.join();
+    ended_.wait();
     std::error_code ignored;
     fs::remove_all(order_.scratch / fmt::format("files-{}", order_.number), ignored);
 }
@@ -91,6 +120,12 @@ void Growth::ask(std::function<void(const World&)> question) {
     changed_.notify_all();
 }
 
+void Growth::draw(int step) {
+    const std::lock_guard lock(mutex_);
+    wanted_.insert(step);
+    changed_.notify_all();
+}
+
 void Growth::live() {
     try {
         const ReadLog reads(std::size_t(64) << 20, order_.unsaved);
@@ -99,24 +134,29 @@ void Growth::live() {
         GrowthStart start;
         start.files = reads.files();
         start.warnings = scene.notes.diagnostics;
-        if (!cancelled_) grow(scene, std::move(start));
+        if (cancelled_) return;
+        const fs::path folder = order_.scratch / fmt::format("files-{}", number());
+        fs::create_directories(folder);
+        Work work(scene, folder);
+        begin(work, std::move(start));
+        grow(work);
     } catch (const std::bad_alloc&) {
         if (!cancelled_) listener_.failed(number(), said("the machine has no memory left"));
     } catch (const std::exception& error) {
         if (!cancelled_) listener_.failed(number(), diagnostics_of(error));
     }
-    ended_ = true;
 }
 
-void Growth::grow(const Scene& scene, GrowthStart start) {
-    const fs::path folder = order_.scratch / fmt::format("files-{}", number());
-    fs::create_directories(folder);
-    World world(scene, default_memory(), folder);
+void Growth::begin(Work& work, GrowthStart start) {
+    World& world = work.world;
     last_step_ = world.last_step();
-    may_extend_ = !depends_on_length(scene);
-    if (may_extend_) world = World(without_end(scene), default_memory(), folder);
-    const std::unique_ptr<Recorder> statistics = statistics_of(world, folder);
-    world.attach(*statistics);
+    may_extend_ = !depends_on_length(world.scene());
+    if (draws_apart(world.scene())) {
+        work.origin = std::make_shared<const Origin>(Origin{world.scene(), start.files, last_step_});
+        steps_->expect(world.scene());
+    }
+    if (may_extend_) world.set_steps(most_steps);
+    if (work.origin && order_.before) work.derived = steps_->inherit(*order_.before, *work.origin);
     {
         const std::lock_guard lock(mutex_);
         scene_ = std::make_shared<const Scene>(world.scene());
@@ -128,31 +168,138 @@ void Growth::grow(const Scene& scene, GrowthStart start) {
     start.last_step = last_step_;
     start.seed = world.scene().seed;
     listener_.started(number(), std::move(start));
-    world.start();
-    note(world, folder / "statistics.csv");
-    for (bool grew = true; !cancelled_; grew = false) {
-        for (; !cancelled_ && !stopped_ && !is_over(world); grew = true) {
-            world.step();
-            note(world, folder / "statistics.csv");
-            answer(world);
-        }
-        if (grew && !is_over(world) && !cancelled_) listener_.stopped(number());
-        wait_for_more(world);
-        answer(world);
+    if (work.derived >= 0) go_to(work, work.derived);
+    work.is_ended = world.stopped();
+}
+
+void Growth::grow(Work& work) {
+    while (!cancelled_) {
+        answer(work.world);
+        if (advance(work)) continue;
+        const bool is_over = work.is_ended || work.derived >= last_step_;
+        if (!is_over && !std::exchange(work.told_stop, true)) listener_.stopped(number());
+        wait_for_more(work);
     }
 }
 
-void Growth::note(const World& world, const fs::path& statistics) {
-    const std::size_t internodes = steps_.add(world.frame());
+bool Growth::may_grow(const Work& work) const {
+    return !stopped_ && !work.is_ended && work.derived < last_step_;
+}
+
+// One piece of work; false if there is none.
+bool Growth::advance(Work& work) {
+    const bool grows = may_grow(work);
+    if (!work.origin) {
+        forget_wanted();
+        if (grows) step(work);
+        return grows;
+    }
+    const bool is_unseen = work.derived < order_.unseen_to && seconds() < most_unseen;
+    if (grows && (is_unseen || work.drawn == work.derived)) {
+        derive(work);
+        return true;
+    }
+    if (draw_wanted(work)) return true;
+    if (work.drawn == work.derived) return false;
+    draw_in_order(work);
+    return true;
+}
+
+void Growth::note_derived(Work& work) {
+    work.at = work.derived = work.world.steps_done();
+    ++work.own_steps;
+    work.is_ended = work.world.stopped();
+    work.told_stop = false;
+    if (!may_extend_) last_step_ = work.world.last_step();  // models may change it
+}
+
+void Growth::step(Work& work) {
+    if (work.derived < 0) {
+        work.world.start();
+    } else {
+        work.world.step();
+    }
+    note_derived(work);
+    const Frame frame = work.world.frame();
+    std::string rows = work.record(frame);
+    note_grown(work, steps_->add(frame), std::move(rows));
+}
+
+void Growth::derive(Work& work) {
+    go_to(work, work.derived);
+    if (work.derived < 0) {
+        work.world.write_axioms();
+    } else {
+        work.world.derive();
+    }
+    note_derived(work);
+    steps_->add_derived(work.world.derived(), work.origin);
+}
+
+void Growth::go_to(Work& work, int step) {
+    if (work.at != step) work.world.take(steps_->derived(step));
+    work.at = step;
+}
+
+// What somebody looks at, and the last step.
+bool Growth::draw_wanted(Work& work) {
+    if (const std::optional<int> wanted = next_wanted(work)) {
+        if (!steps_->has_packet(*wanted)) {
+            steps_->add(frame_at(work, *wanted));
+            listener_.drawn(number(), *wanted, "");
+        }
+        return true;
+    }
+    if (work.told == work.derived || work.drawn + 1 == work.derived) return false;
+    note_grown(work, steps_->add(frame_at(work, work.derived)), "");
+    return true;
+}
+
+// Every step was drawn when it was grown.
+void Growth::forget_wanted() {
+    const std::lock_guard lock(mutex_);
+    wanted_.clear();
+}
+
+std::optional<int> Growth::next_wanted(const Work& work) {
+    const std::lock_guard lock(mutex_);
+    if (!may_grow(work)) wanted_.erase(wanted_.upper_bound(work.derived), wanted_.end());
+    if (wanted_.empty() || *wanted_.begin() > work.derived) return std::nullopt;
+    return wanted_.extract(wanted_.begin()).value();
+}
+
+void Growth::draw_in_order(Work& work) {
+    const int step = ++work.drawn;
+    const Frame frame = frame_at(work, step);
+    std::string rows = work.record(frame);
+    if (step > work.told) {
+        note_grown(work, steps_->add(frame), std::move(rows));
+    } else {
+        if (!steps_->has_packet(step)) steps_->add(frame);
+        if (!cancelled_) listener_.drawn(number(), step, std::move(rows));
+    }
+}
+
+Frame Growth::frame_at(Work& work, int step) {
+    go_to(work, step);
+    work.world.interpret();
+    work.world.exchange();
+    return work.world.frame();
+}
+
+// The newest step has been drawn.
+void Growth::note_grown(Work& work, std::size_t internodes, std::string statistics) {
+    work.told = work.at;
+    if (!work.origin) work.drawn = work.at;
     GrownStep step;
-    step.step = world.steps_done();
+    step.step = work.at;
     step.last_step = last_step_;
-    step.modules = world.modules();
+    step.modules = work.world.modules();
     step.internodes = internodes;
+    step.derived = work.own_steps;
     step.seconds = seconds();
-    step.statistics = rows_behind(statistics, statistics_read_);
-    statistics_read_ += step.statistics.size();
-    step.is_end = is_over(world);
+    step.statistics = std::move(statistics);
+    step.is_end = work.is_ended || work.at >= last_step_;
     if (!cancelled_) listener_.grown(number(), std::move(step));
 }
 
@@ -165,10 +312,10 @@ void Growth::answer(const World& world) {
     for (const auto& question : questions) question(world);
 }
 
-// A question, an end, or more steps to grow.
-void Growth::wait_for_more(const World& world) {
+// A question, an end, or steps to grow or to draw.
+void Growth::wait_for_more(const Work& work) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return cancelled_ || !questions_.empty() || (!stopped_ && !is_over(world)); });
+    changed_.wait(lock, [&] { return cancelled_ || !questions_.empty() || !wanted_.empty() || may_grow(work); });
 }
 
 }  // namespace espalier::studio

@@ -1,4 +1,4 @@
-// One growth of what the studio has open, on a thread of its own.
+// One growth of what the studio has open, beside the thread that serves.
 #pragma once
 
 #include "espalier/base/read_log.h"
@@ -6,6 +6,7 @@
 #include "espalier/studio/studio.h"
 
 #include "studio/kept_steps.h"
+#include "studio/workers.h"
 
 #include <atomic>
 #include <chrono>
@@ -13,11 +14,13 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace espalier::studio {
@@ -29,6 +32,11 @@ struct GrowthOrder {
     UnsavedTexts unsaved;
     std::filesystem::path scratch;  ///< a folder for its files
     std::function<Scene(const Opened&)> read;
+    /// The steps of an earlier growth, which need not be derived again if only looks have changed; may be null.
+    std::shared_ptr<const KeptSteps> before = nullptr;
+    /// Nobody wants to see it grow up to this step: where drawing can wait, what pages look at is drawn first.
+    int unseen_to = 0;
+    std::set<int> looked_at = {};  ///< besides the last step
 };
 
 struct FieldDescription {
@@ -48,6 +56,7 @@ struct GrowthStart {
 struct GrownStep {
     int step = 0, last_step = 0;
     std::size_t modules = 0, internodes = 0;
+    int derived = 0;         ///< steps that were derived for it, and not taken from an earlier growth
     double seconds = 0;      ///< since it began
     std::string statistics;  ///< the rows of statistics.csv that this step added, with the header in the first
     bool is_end = false;     ///< no step follows
@@ -58,7 +67,10 @@ class GrowthListener {
 public:
     virtual ~GrowthListener() = default;
     virtual void started(std::uint32_t growth, GrowthStart start) = 0;
+    /// A later step than all before can be shown, or it has become clear that none will follow.
     virtual void grown(std::uint32_t growth, GrownStep step) = 0;
+    /// An earlier step can be shown; `statistics` as in GrownStep.
+    virtual void drawn(std::uint32_t growth, int step, std::string statistics) = 0;
     /// It was told to stop before its end, and no more steps come.
     virtual void stopped(std::uint32_t growth) = 0;
     /// It could not be read, or did not go on. A growth that is told to end says nothing.
@@ -67,7 +79,8 @@ public:
 
 class Growth {
 public:
-    Growth(GrowthOrder order, GrowthListener& listener);
+    /// The workers and the listener outlive it.
+    Growth(GrowthOrder order, GrowthListener& listener, Workers& workers);
     /// Waits for the step at hand.
     ~Growth();
     Growth(const Growth&) = delete;
@@ -76,15 +89,16 @@ public:
     std::uint32_t number() const { return order_.number; }
     std::uint64_t version() const { return version_; }
     const Opened& opened() const { return order_.opened; }
-    const KeptSteps& steps() const { return steps_; }
+    const KeptSteps& steps() const { return *steps_; }
+    std::shared_ptr<const KeptSteps> shared_steps() const { return steps_; }
     double seconds() const;  ///< since it began
     /// The scene as it grows; null before it has started.
     std::shared_ptr<const Scene> scene() const;
 
-    /// No more steps: it ends after the one at hand, and its thread with it.
+    /// No more steps: it ends after the one at hand.
     void cancel();
-    /// True once its thread has ended: the destructor does not wait.
-    bool has_ended() const { return ended_; }
+    /// True once its work has ended: the destructor does not wait.
+    bool has_ended() const { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
     /// No more steps, but it still answers questions.
     void stop() { stopped_ = true; }
     /// Goes on to a later step, for a later version of the document that asks for nothing else. False if what grows
@@ -93,29 +107,44 @@ public:
 
     /// Called with the world on the thread of the growth: between two steps, or after the last.
     void ask(std::function<void(const World&)> question);
+    /// A step that has been derived is drawn next.
+    void draw(int step);
 
 private:
+    struct Work;
+
     void live();
-    void grow(const Scene& scene, GrowthStart start);
-    void note(const World& world, const std::filesystem::path& statistics);
+    void begin(Work& work, GrowthStart start);
+    void grow(Work& work);
+    bool advance(Work& work);
+    bool may_grow(const Work& work) const;
+    void note_derived(Work& work);
+    void step(Work& work);
+    void derive(Work& work);
+    void go_to(Work& work, int step);
+    bool draw_wanted(Work& work);
+    void forget_wanted();
+    std::optional<int> next_wanted(const Work& work);
+    void draw_in_order(Work& work);
+    Frame frame_at(Work& work, int step);
+    void note_grown(Work& work, std::size_t internodes, std::string statistics);
     void answer(const World& world);
-    void wait_for_more(const World& world);
-    bool is_over(const World& world) const { return world.stopped() || world.steps_done() >= last_step_; }
+    void wait_for_more(const Work& work);
 
     const GrowthOrder order_;
     GrowthListener& listener_;
-    KeptSteps steps_;
+    const std::shared_ptr<KeptSteps> steps_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    std::size_t statistics_read_ = 0;
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;
     std::atomic<bool> may_extend_ = false;
-    std::atomic<bool> cancelled_ = false, stopped_ = false, ended_ = false;
+    std::atomic<bool> cancelled_ = false, stopped_ = false;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;
     std::deque<std::function<void(const World&)>> questions_;
-    std::thread thread_;  ///< the last: it uses all others
+    std::set<int> wanted_;     ///< steps to be drawn before others
+    std::future<void> ended_;  ///< the last: its work uses all others
 };
 
 }  // namespace espalier::studio

@@ -304,16 +304,13 @@ private:
         if (!shapes || !shapes->surfaces.contains(organ.surface)) return std::nullopt;
         const Surface& surface = shapes->surfaces.at(organ.surface);
         const auto texture = static_cast<std::uint32_t>(surface.texture.value_or(organ.look.texture));
-        const auto [place, is_new] = writer_.shapes_.try_emplace({shapes.get(), organ.surface, texture});
-        if (is_new) {
-            place->second = first_surface + static_cast<std::uint32_t>(writer_.shapes_.size()) - 1;
-            writer_.kept_.push_back(shapes);
+        KnownShape& known = writer_.shape(shapes, organ.surface, texture);
+        if (!std::exchange(known.is_told, true)) {
             const bool as_whole =
                 texture > 0 && texture <= shapes->textures.size() && shapes->textures[texture - 1].per_surface;
-            new_shapes_.push_back(
-                {place->second, writer_.texture_of(*shapes, texture), organ.surface, shapes, as_whole});
+            new_shapes_.push_back({known.number, writer_.texture_of(*shapes, texture), organ.surface, shapes, as_whole});
         }
-        return place->second;
+        return known.number;
     }
 
     std::string shapes_message() const {
@@ -423,6 +420,25 @@ private:
 std::uint32_t PacketWriter::texture_of(const Shapes& shapes, std::uint32_t texture) {
     if (texture == 0 || texture > shapes.textures.size()) return 0;
     return pictures_.number(shapes.textures[texture - 1].file);
+}
+
+PacketWriter::KnownShape& PacketWriter::shape(const std::shared_ptr<const Shapes>& shapes, std::uint32_t surface,
+                                              std::uint32_t texture) {
+    const auto [place, is_new] = shapes_.try_emplace({shapes.get(), surface, texture});
+    if (is_new) {
+        place->second.number = first_surface + static_cast<std::uint32_t>(shapes_.size()) - 1;
+        kept_.insert(shapes);
+    }
+    return place->second;
+}
+
+void PacketWriter::expect(const std::shared_ptr<const Shapes>& shapes) {
+    if (!shapes) return;
+    for (const auto& [number, surface] : shapes->surfaces) {
+        const auto own = static_cast<std::uint32_t>(surface.texture.value_or(0));
+        const auto last = surface.texture ? own : static_cast<std::uint32_t>(shapes->textures.size());
+        for (std::uint32_t texture = own; texture <= last; ++texture) shape(shapes, number, texture);
+    }
 }
 
 Packet PacketWriter::write(const timeline::Frame& frame) {

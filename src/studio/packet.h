@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,8 @@ public:
     /// Pictures that browsers do not show are written into `folder` as some that they do.
     PacketWriter(std::uint32_t growth, std::filesystem::path folder) : growth_(growth), pictures_(std::move(folder)) {}
 
+    /// Surfaces that may be used, so that their numbers do not depend on which is used first; may be null.
+    void expect(const std::shared_ptr<const Shapes>& shapes);
     Packet write(const timeline::Frame& frame);
     /// What the packets so far wear; texture 1 is the first.
     const std::vector<WornPicture>& textures() const { return pictures_.all(); }
@@ -44,14 +47,20 @@ private:
         auto operator<=>(const ShapeKey&) const = default;
     };
 
+    struct KnownShape {
+        std::uint32_t number = 0;
+        bool is_told = false;  ///< a message has told the pages
+    };
+
     class Scribe;
 
+    KnownShape& shape(const std::shared_ptr<const Shapes>& shapes, std::uint32_t surface, std::uint32_t texture);
     std::uint32_t texture_of(const Shapes& shapes, std::uint32_t texture);
 
     std::uint32_t growth_;
     WornPictures pictures_;
-    std::map<ShapeKey, std::uint32_t> shapes_;
-    std::vector<std::shared_ptr<const Shapes>> kept_;  ///< so that no other has the address of one
+    std::map<ShapeKey, KnownShape> shapes_;
+    std::set<std::shared_ptr<const Shapes>> kept_;  ///< so that no other has the address of one
 };
 
 }  // namespace espalier::studio

@@ -169,13 +169,13 @@ Json Session::graph(Viewer&, const Json& request) {
 
 Json Session::undo(Viewer&, const Json&) {
     const fs::path before = document_.now().opened.path;
-    if (document_.undo()) document_changed(before != document_.now().opened.path);
+    if (document_.undo()) document_changed(before);
     return {{"version", document_.version()}};
 }
 
 Json Session::redo(Viewer&, const Json&) {
     const fs::path before = document_.now().opened.path;
-    if (document_.redo()) document_changed(before != document_.now().opened.path);
+    if (document_.redo()) document_changed(before);
     return {{"version", document_.version()}};
 }
 
@@ -195,10 +195,11 @@ Json Session::grow(Viewer&, const Json& request) {
         is_busy_ = true;
         tell(document_json());
         tell(growth_json());
+        follow_from_ = known + 1;
     } else {
-        apply(std::move(state), label, false);
+        document_.change(std::move(state), label, false);
+        document_changed(document_.now().opened.path, known + 1);
     }
-    follow_from_ = known + 1;
     return {{"version", document_.version()}};
 }
 
@@ -225,7 +226,7 @@ Json Session::frame(Viewer& viewer, const Json& request) {
     const Growth& growth = grown_by(request);
     const int step = request.at("step").get<int>();
     if (!growth.steps().has(step)) throw UserError(fmt::format("step {} has not been grown", step));
-    send_packet(viewer, step);
+    send_when_drawn(viewer, step);
     return {{"step", step}};
 }
 

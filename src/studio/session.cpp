@@ -103,19 +103,18 @@ void Session::guard(const std::function<void()>& work) {
 // --- the document
 
 void Session::apply(DocumentState state, const std::string& label, bool transient) {
-    const bool other = state.opened.path != document_.now().opened.path;
+    const fs::path before = document_.now().opened.path;
     document_.change(std::move(state), label, transient);
-    document_changed(other);
+    document_changed(before);
 }
 
-void Session::document_changed(bool is_other) {
+void Session::document_changed(const fs::path& before, std::optional<int> follow_from) {
+    const bool is_other = before != document_.now().opened.path;
     if (is_other) {
         read_.clear();
         problems_.clear();
-        follow_from_ = 0;
-    } else {
-        follow_from_ = INT_MAX;
     }
+    follow_from_ = follow_from.value_or(is_other ? 0 : INT_MAX);
     unkept_ = true;
     tell(document_json());
     begin_growth();
@@ -169,9 +168,13 @@ void Session::begin_next_growth() {
     if (next_) retire(std::move(next_));
     const DocumentState& now = document_.now();
     GrowthListener& listener = *this;
-    next_ = std::make_unique<Growth>(
-        GrowthOrder{++last_growth_, document_.version(), now.opened, now.unsaved, options_.scratch, options_.read},
-        listener);
+    GrowthOrder order{++last_growth_, document_.version(), now.opened, now.unsaved, options_.scratch, options_.read};
+    if (growth_) order.before = growth_->shared_steps();
+    order.unseen_to = follow_from_;
+    for (const auto& viewer : viewers_) {
+        if (viewer->step) order.looked_at.insert(*viewer->step);
+    }
+    next_ = std::make_unique<Growth>(std::move(order), listener, workers_);
 }
 
 void Session::started(std::uint32_t growth, GrowthStart start) {
@@ -180,6 +183,10 @@ void Session::started(std::uint32_t growth, GrowthStart start) {
 
 void Session::grown(std::uint32_t growth, GrownStep step) {
     post_([this, growth, step = std::move(step)] { note_grown(growth, step); });
+}
+
+void Session::drawn(std::uint32_t growth, int step, std::string statistics) {
+    post_([this, growth, step, statistics = std::move(statistics)] { note_drawn(growth, step, statistics); });
 }
 
 void Session::stopped(std::uint32_t growth) {
@@ -218,6 +225,10 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     tell(columns_json());
     tell(fields_json());
     tell(view_json());
+    for (const auto& viewer : viewers_) {
+        viewer->awaits.clear();
+        if (viewer->step) send_when_drawn(*viewer, *viewer->step);
+    }
 }
 
 void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
@@ -232,8 +243,7 @@ void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
     if (is_over || now - told_ > std::chrono::milliseconds(40)) {
         told_ = now;
         tell(growth_json());
-        tell(statistics_json(untold_rows_));
-        untold_rows_ = rows_.size();
+        tell_statistics();
     }
     for (const auto& viewer : viewers_) {
         const bool follows = step.step >= follow_from_ || step.seconds > patience;
@@ -244,13 +254,27 @@ void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
     begin_next_growth();
 }
 
+// A step that had to wait for the newest.
+void Session::note_drawn(std::uint32_t growth, int step, const std::string& statistics) {
+    if (!growth_ || growth_->number() != growth) return;
+    add_statistics(statistics);
+    const auto now = std::chrono::steady_clock::now();
+    if (step == newest_.step || now - told_ > std::chrono::milliseconds(40)) {
+        told_ = now;
+        tell_statistics();
+    }
+    for (const auto& viewer : viewers_) {
+        if (viewer->awaits.contains(step)) send_packet(*viewer, step);
+    }
+}
+
 // Pages that wait for a later step get the last there is.
 void Session::note_stopped(std::uint32_t growth) {
     if (!growth_ || growth_->number() != growth) return;
     state_ = "stopped";
     is_busy_ = false;
     tell(growth_json());
-    tell(statistics_json(std::exchange(untold_rows_, rows_.size())));
+    tell_statistics();
     for (const auto& viewer : viewers_) show(*viewer);
     begin_next_growth();
 }
@@ -284,13 +308,24 @@ void Session::add_statistics(const std::string& rows) {
     }
 }
 
+void Session::tell_statistics() {
+    if (untold_rows_ < rows_.size()) tell(statistics_json(untold_rows_));
+    untold_rows_ = rows_.size();
+}
+
 void Session::show(Viewer& viewer) {
     if (!growth_ || newest_.step < 0) return;
-    const int wanted = std::min(viewer.step.value_or(newest_.step), newest_.step);
-    if (growth_->steps().has(wanted)) send_packet(viewer, wanted);
+    send_when_drawn(viewer, std::min(viewer.step.value_or(newest_.step), newest_.step));
+}
+
+void Session::send_when_drawn(Viewer& viewer, int step) {
+    if (growth_->steps().has_packet(step)) return send_packet(viewer, step);
+    viewer.awaits.insert(step);
+    growth_->draw(step);
 }
 
 void Session::send_packet(Viewer& viewer, int step) {
+    viewer.awaits.erase(step);
     const std::vector<std::string> shapes = growth_->steps().shapes();
     if (viewer.growth != growth_->number()) viewer.shapes = viewer.textures = 0;
     viewer.growth = growth_->number();
@@ -345,6 +380,7 @@ Json Session::growth_json() const {
             {"last", newest_.last_step},
             {"modules", newest_.modules},
             {"internodes", newest_.internodes},
+            {"derived", newest_.derived},
             {"seconds", newest_.seconds},
             {"reason", reason_},
             {"plants", start_.plants}};

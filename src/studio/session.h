@@ -84,7 +84,8 @@ private:
 
     // The document.
     void apply(DocumentState state, const std::string& label, bool transient);
-    void document_changed(bool is_other);
+    /// `before`: what was open. Pages that look at the last step see every one from `follow_from` on.
+    void document_changed(const std::filesystem::path& before, std::optional<int> follow_from = {});
     std::string text_of(const std::filesystem::path& file) const;
     std::string text_of(const std::filesystem::path& file, const DocumentState& state) const;
     /// Those that pages may edit: what was read, and what has unsaved changes.
@@ -106,10 +107,12 @@ private:
     void begin_next_growth();
     void started(std::uint32_t growth, GrowthStart start) override;
     void grown(std::uint32_t growth, GrownStep step) override;
+    void drawn(std::uint32_t growth, int step, std::string statistics) override;
     void stopped(std::uint32_t growth) override;
     void failed(std::uint32_t growth, std::vector<Diagnostic> why) override;
     void note_started(std::uint32_t growth, GrowthStart start);
     void note_grown(std::uint32_t growth, const GrownStep& step);
+    void note_drawn(std::uint32_t growth, int step, const std::string& statistics);
     void note_stopped(std::uint32_t growth);
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why);
     void add_statistics(const std::string& rows);
@@ -126,7 +129,9 @@ private:
     Json textures_json();
     Json view_json() const;
     Json statistics_json(std::size_t first) const;
+    void tell_statistics();
     void show(Viewer& viewer);
+    void send_when_drawn(Viewer& viewer, int step);
     void send_packet(Viewer& viewer, int step);
 
     // Pages.
@@ -146,6 +151,7 @@ private:
     std::vector<Diagnostic> problems_;
     bool unkept_ = false;  ///< the newest state is not on disk
 
+    Workers workers_;
     std::uint32_t last_growth_ = 0;
     bool waits_ = false;                            ///< a growth of the newest version is to begin
     std::unique_ptr<Growth> next_;                  ///< reads its files; the present growth goes on if it cannot

@@ -3,6 +3,9 @@
 
 #include "studio/session.h"
 
+#include <optional>
+#include <set>
+
 namespace espalier::studio {
 
 struct Session::Viewer {
@@ -14,6 +17,7 @@ struct Session::Viewer {
     std::uint32_t growth = 0;      ///< whose shapes it has
     std::size_t shapes = 0;        ///< messages of them
     std::size_t textures = 0;      ///< of this growth that it knows
+    std::set<int> awaits = {};     ///< steps of the present growth that are sent when they have been drawn
 };
 
 }  // namespace espalier::studio

@@ -200,6 +200,29 @@ TEST_CASE("growing on does not grow again what is there, unless the model asks h
     }
 }
 
+TEST_CASE("a change of looks derives nothing, and draws first what pages look at", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["derived"] == 5);
+    studio.ask({{"do", "look"}, {"step", 2}});
+    page.packets.clear();
+    studio.change({{"settings", {{"ANGLE", "45"}}}});
+    studio.wait_until_grown();
+    CHECK(page.last("growth")["derived"] == 0);
+    CHECK(page.last("growth")["step"] == 4);
+    REQUIRE(page.packets.size() == 1);
+    CHECK(internodes(page.packets.back()) == 3);
+    // Any other step follows as well, drawn for that or meanwhile.
+    for (const int step : {4, 0, 3, 1}) {
+        page.packets.clear();
+        studio.ask({{"do", "frame"}, {"growth", page.last("growth")["growth"]}, {"step", step}});
+        studio.wait([&] { return !page.packets.empty(); });
+        CHECK(internodes(page.packets.back()) == (1u << step) - 1);
+    }
+    studio.wait([&] { return !page.last("statistics").is_null() && page.last("statistics")["rows"].back()[0] == 4; });
+}
+
 TEST_CASE("growth can be stopped", "[studio]") {
     OpenStudio studio(random_tree);
     ListeningPage& page = studio.begin();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace espalier::simulation {
@@ -17,6 +18,16 @@ std::filesystem::path folder_with(const Model& model);
 /// Seconds spent per stage of the last step.
 struct StageTimes {
     double derive = 0, interpret = 0, exchange = 0, record = 0;
+};
+
+/// What derivation leaves of a step: it can be drawn again, and gone on from.
+struct DerivedStep {
+    struct OfPlant {
+        std::shared_ptr<const ModuleString> string;
+        std::string memory;  ///< of the derivation, as bytes for this machine
+    };
+    int step = 0;
+    std::vector<OfPlant> plants;
 };
 
 /// Worlds share nothing: several may grow at once, each on a thread of its own.
@@ -36,6 +47,8 @@ public:
     /// Before start(): nobody will look at geometry or lineages. They are then not made, unless a process reads them or
     /// a model asks the turtle; frames have strings without lineage and empty interpretations.
     void grow_unseen();
+    /// Before start(): the derivation length of all plants, instead of the scene's.
+    void set_steps(int steps);
 
     /// Frame 0: every axiom, interpreted, exchanged and recorded.
     void start();
@@ -48,6 +61,13 @@ public:
     void interpret();
     void exchange();
     void record();
+
+    /// After write_axioms() or derive().
+    DerivedStep derived() const;
+    /// Instead of write_axioms() or derive(): the world is as it was when `derived` was taken, of this scene or of one
+    /// that derives alike. For scenes without processes whose plants neither ask nor grow anew in every step: others
+    /// have more to remember, see save().
+    void take(const DerivedStep& derived);
 
     /// Everything that lasts from step to step, as bytes, after a step; for this machine and the same scene.
     void save(std::ostream& out) const;
@@ -85,6 +105,7 @@ private:
 
 namespace espalier {
 
+using simulation::DerivedStep;
 using simulation::folder_with;
 using simulation::StageTimes;
 using simulation::World;

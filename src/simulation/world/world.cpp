@@ -19,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -293,6 +294,36 @@ void World::grow_unseen() {
                                   [](const GrowingPlant& plant) { return has_queries(plant.model().alphabet); });
     state.is_seen = asks || !state.scene.environment.processes.empty();
     for (GrowingPlant& plant : state.plants) plant.derivation.set_lineage(state.is_seen);
+}
+
+void World::set_steps(int steps) {
+    state_->scene.steps = steps;
+    state_->set_lengths();
+}
+
+DerivedStep World::derived() const {
+    DerivedStep derived{state_->step, {}};
+    derived.plants.reserve(size());
+    for (const GrowingPlant& plant : state_->plants) {
+        std::ostringstream memory;
+        plant.derivation.save(memory);
+        derived.plants.push_back({plant.string.share(), std::move(memory).str()});
+    }
+    return derived;
+}
+
+void World::take(const DerivedStep& derived) {
+    state_->step = derived.step;
+    for (GrowingPlant& plant : state_->plants) {
+        const DerivedStep::OfPlant& from = derived.plants.at(plant.number);
+        std::istringstream memory(from.memory);
+        plant.derivation.restore(memory);
+        plant.string.for_writing() = *from.string;
+        plant.note_derived();
+        state_->memory.count_strings(plant);
+    }
+    state_->memory.check_strings(state_->plants, derived.step);
+    state_->note_ends();
 }
 
 void World::save(std::ostream& out) const {

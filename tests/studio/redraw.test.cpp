@@ -1,0 +1,246 @@
+// What changes only looks is drawn again without being derived, and comes out as if it had grown anew.
+#include "espalier/base/file.h"
+
+#include "catch.h"
+#include "listening_page.h"
+#include "studio/growth.h"
+#include "studio/written_numbers.h"
+#include "temporary_folder.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+
+using namespace espalier;
+using namespace espalier::studio;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Waits for growths.
+class Watcher final : public GrowthListener {
+public:
+    void started(std::uint32_t, GrowthStart start) override {
+        note([&] { last_step = start.last_step; });
+    }
+    void grown(std::uint32_t, GrownStep step) override {
+        note([&] {
+            derived = step.derived;
+            add(step.statistics);
+            is_over = step.is_end;
+            newest = step.step;
+        });
+    }
+    void drawn(std::uint32_t, int, std::string rows) override {
+        note([&] { add(rows); });
+    }
+    void stopped(std::uint32_t) override {
+        note([&] { failed_ = true; });
+    }
+    void failed(std::uint32_t, std::vector<Diagnostic>) override {
+        note([&] { failed_ = true; });
+    }
+
+    /// True once all steps are there; false if it failed.
+    bool wait() {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, std::chrono::seconds(60), [this] { return failed_ || (is_over && steps_ > newest); });
+        return !failed_ && is_over && steps_ > newest;
+    }
+
+    int last_step = -1, derived = 0, newest = -1;
+    bool is_over = false;
+    std::string statistics;
+
+private:
+    template <class Change>
+    void note(const Change& change) {
+        const std::lock_guard lock(mutex_);
+        change();
+        changed_.notify_all();
+    }
+    // Counts the steps by the rows of the first plant.
+    void add(const std::string& rows) {
+        statistics += rows;
+        const bool is_step = !rows.empty();
+        steps_ += is_step;
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    bool failed_ = false;
+    int steps_ = 0;
+};
+
+/// One growth after the other of one file.
+class Grower {
+public:
+    explicit Grower(fs::path file) : file_(fs::absolute(file).lexically_normal()) {}
+
+    struct Grown {
+        Watcher watcher;
+        std::unique_ptr<Growth> growth;
+        bool is_whole = false;
+    };
+
+    std::unique_ptr<Grown> grow(const std::string& text, const Growth* before, int steps, int unseen_to = INT_MAX) {
+        auto grown = std::make_unique<Grown>();
+        GrowthOrder order;
+        order.number = ++number_;
+        order.opened = {file_, steps, {}};
+        order.unsaved[file_] = text;
+        order.scratch = scratch_.path();
+        order.read = studio_test::read_as_run;
+        if (before) order.before = before->shared_steps();
+        order.unseen_to = unseen_to;
+        order.looked_at = {steps / 2};
+        grown->growth = std::make_unique<Growth>(std::move(order), grown->watcher, workers_);
+        grown->is_whole = grown->watcher.wait();
+        return grown;
+    }
+
+private:
+    fs::path file_;
+    TemporaryFolder scratch_;
+    Workers workers_;
+    std::uint32_t number_ = 0;
+};
+
+// Without the number of the growth.
+std::string picture(const Growth& growth, int step) {
+    return growth.steps().packet(step).substr(8);
+}
+
+void check_same(const Grower::Grown& a, const Grower::Grown& b) {
+    REQUIRE(a.watcher.newest == b.watcher.newest);
+    CHECK(a.watcher.statistics == b.watcher.statistics);
+    for (int step = 0; step <= a.watcher.newest; ++step) {
+        INFO("step " << step);
+        CHECK((picture(*a.growth, step) == picture(*b.growth, step)));
+        const auto text = [&](const Grower::Grown& grown) {
+            std::string all;
+            for (std::size_t i = 0; i < grown.growth->scene()->plants.size(); ++i) {
+                all += to_text(grown.growth->steps().string(step, i),
+                               source_of(*grown.growth->scene()->plants[i].model).alphabet);
+            }
+            return all;
+        };
+        CHECK((text(a) == text(b)));
+    }
+}
+
+// Another value that the setting may have.
+std::string other_value(const WrittenNumber& number) {
+    if (number.is_switch) return number.text == "true" ? "false" : "true";
+    const double step = number.whole ? 1 : number.value == 0 ? 0.1 : number.value * 0.1;
+    double value = number.value + step;
+    if (value > number.highest) value = number.value - step;
+    if (value < number.lowest) return "";
+    return number.whole ? std::to_string(static_cast<long long>(value)) : std::to_string(value);
+}
+
+std::vector<fs::path> library() {
+    std::vector<fs::path> files;
+    for (const char* folder : {"models", "environments"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / folder)) {
+            const std::string kind = entry.path().extension().string();
+            const bool is_model = kind == ".l" || kind == ".species" || kind == ".pgraph" || kind == ".sdl";
+            if (entry.is_regular_file() && (is_model || kind == ".toml")) files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+const char* const tree = R"(#define ANGLE 30
+#define RATIO 0.9
+#define COLOUR 3
+lsystem: 1
+derivation length: 6
+axiom: A(1)
+A(l) --> F(l) [ +(ANGLE) ;(COLOUR) A(l*RATIO) ] [ -(ANGLE) A(l*RATIO) ] ~L
+homomorphism
+~L --> @o(0.1)
+endlsystem
+)";
+
+std::string with(std::string text, const std::string& what, const std::string& instead) {
+    return text.replace(text.find(what), what.size(), instead);
+}
+
+}  // namespace
+
+TEST_CASE("angles, colours and pictures of modules change without a step of derivation", "[studio]") {
+    const TemporaryFolder folder;
+    Grower grower(folder.write("tree.l", tree));
+    const auto first = grower.grow(tree, nullptr, 6, 0);
+    REQUIRE(first->is_whole);
+    CHECK(first->watcher.derived == 7);
+    for (const std::string& text :
+         {with(tree, "ANGLE 30", "ANGLE 45.5"), with(tree, "COLOUR 3", "COLOUR 7"), with(tree, "@o(0.1)", "@o(0.3)"),
+          with(tree, "-(ANGLE)", "-(ANGLE*2)"), with(tree, "derivation", "/* a remark */ derivation")}) {
+        INFO(text);
+        const auto redrawn = grower.grow(text, first->growth.get(), 6);
+        const auto anew = grower.grow(text, nullptr, 6, 0);
+        REQUIRE(redrawn->is_whole);
+        CHECK(redrawn->watcher.derived == 0);
+        check_same(*redrawn, *anew);
+    }
+    // What is drawn again can be gone on from, and be drawn again.
+    const auto turned = grower.grow(with(tree, "ANGLE 30", "ANGLE 60"), first->growth.get(), 6);
+    const auto longer = grower.grow(with(tree, "ANGLE 30", "ANGLE 80"), turned->growth.get(), 8);
+    REQUIRE(longer->is_whole);
+    CHECK(longer->watcher.derived == 2);
+    check_same(*longer, *grower.grow(with(tree, "ANGLE 30", "ANGLE 80"), nullptr, 8, 0));
+    const auto back = grower.grow(tree, longer->growth.get(), 3);
+    CHECK(back->watcher.derived == 0);
+    check_same(*back, *grower.grow(tree, nullptr, 3, 0));
+}
+
+TEST_CASE("what derivation reads is derived again", "[studio]") {
+    const TemporaryFolder folder;
+    Grower grower(folder.write("tree.l", tree));
+    const auto first = grower.grow(tree, nullptr, 6, 0);
+    for (const std::string& text :
+         {with(tree, "RATIO 0.9", "RATIO 0.8"), with(tree, "A(1)", "A(2)"), with(tree, "] ~L", "] ~L ~L"),
+          with(tree, "-(ANGLE)", "-(ANGLE*l)"), with(tree, "] ~L", "] ?P(0,0,0) ~L"),
+          // Of one constant two: their modules cannot be told apart.
+          with(with(tree, "] ~L", "] +(30) ~L"), "ANGLE 30", "ANGLE 30.5")}) {
+        INFO(text);
+        const std::string before = text.find("+(30)") == std::string::npos ? tree : with(tree, "] ~L", "] +(30) ~L");
+        const auto there = before == tree ? nullptr : grower.grow(before, nullptr, 6, 0);
+        const auto grown = grower.grow(text, there ? there->growth.get() : first->growth.get(), 6);
+        REQUIRE(grown->is_whole);
+        CHECK(grown->watcher.derived == 7);
+        check_same(*grown, *grower.grow(text, nullptr, 6, 0));
+    }
+}
+
+TEST_CASE("settings of every model and scene of the library show the same, redrawn or grown anew", "[studio]") {
+    int redrawn = 0, derived = 0;
+    for (const fs::path& file : library()) {
+        INFO(file.string());
+        const std::string text = read_text(file);
+        Grower grower(file);
+        const auto first = grower.grow(text, nullptr, 3, 0);
+        if (!first->is_whole) continue;  // a side of an experiment, or what needs an argument
+        const auto again = grower.grow(text, first->growth.get(), 3);
+        REQUIRE(again->is_whole);
+        check_same(*again, *first);
+        int tried = 0;
+        for (const WrittenNumber& number : written_numbers(file, text)) {
+            const std::string value = other_value(number);
+            if (value.empty() || ++tried > 2) continue;
+            const std::string changed = with_number(text, number, value);
+            const auto after = grower.grow(changed, first->growth.get(), 3);
+            if (!after->is_whole) continue;
+            INFO(number.name << " " << value);
+            ++(after->watcher.derived == 0 ? redrawn : derived);
+            check_same(*after, *grower.grow(changed, nullptr, 3, 0));
+        }
+    }
+    CHECK(redrawn > 50);
+    CHECK(derived > 200);
+}
