@@ -1,5 +1,6 @@
 // A slider of the studio is moved: from the request to the packet of the new picture, beside deriving and interpreting
-// the same model alone. Then the same for a text that was edited, beside reading the model as well.
+// the same model alone; for a slider of looks, too, which grows nothing. Then the same for a text that was edited,
+// beside reading the model as well.
 #include "espalier/simulation/world.h"
 
 #include "growing.h"
@@ -17,11 +18,12 @@ using studio_test::Json;
 
 /// Ten thousand organs: 8,191 internodes and 2,048 leaves.
 const std::string tree = R"(#define LENGTH 1
+#define ANGLE 30
 lsystem: 1
 derivation length: 13
 axiom: A(1)
-A(n) : n < 12 --> F(LENGTH / n) [ +(30) /(90) A(n+1) ] [ -(30) /(90) A(n+1) ]
-A(n) : n == 12 --> F(LENGTH / n) @c(0.1) [ +(30) A(n+1) ] [ -(30) A(n+1) ]
+A(n) : n < 12 --> F(LENGTH / n) [ +(ANGLE) /(90) A(n+1) ] [ -(ANGLE) /(90) A(n+1) ]
+A(n) : n == 12 --> F(LENGTH / n) @c(0.1) [ +(ANGLE) A(n+1) ] [ -(ANGLE) A(n+1) ]
 A(n) --> F(LENGTH / n)
 endlsystem
 )";
@@ -46,11 +48,8 @@ public:
         wait();
     }
 
-    void slide(int number) {
-        ask({{"do", "change"},
-             {"id", 1},
-             {"transient", true},
-             {"settings", {{"LENGTH", fmt::format("{}", 1 + 0.001 * number)}}}});
+    void slide(const char* name, double value) {
+        ask({{"do", "change"}, {"id", 1}, {"transient", true}, {"settings", {{name, fmt::format("{}", value)}}}});
         wait();
     }
     void type(int number) {
@@ -79,9 +78,16 @@ private:
 void studio_slider(benchmark::State& state) {
     Changes changes;
     int number = 0;
-    for (auto _ : state) changes.slide(++number);
+    for (auto _ : state) changes.slide("LENGTH", 1 + 0.001 * ++number);
 }
 BENCHMARK(studio_slider)->UseRealTime();
+
+void studio_slider_of_looks(benchmark::State& state) {
+    Changes changes;
+    int number = 0;
+    for (auto _ : state) changes.slide("ANGLE", 30 + 0.001 * ++number);
+}
+BENCHMARK(studio_slider_of_looks)->UseRealTime();
 
 void studio_text(benchmark::State& state) {
     Changes changes;
@@ -123,6 +129,12 @@ const Row slider{"studio: slider moved to packet sent, 10,000 organs, against th
                  Measure::time,
                  Goal::at_most,
                  1.5};
+const Row looks{"studio: slider of an angle moved to packet sent, 10,000 organs, against the model alone",
+                "studio_slider_of_looks/real_time",
+                "studio_model_alone/real_time",
+                Measure::time,
+                Goal::at_most,
+                1.2};
 const Row text{"studio: text edited to packet sent, 10,000 organs, against reading and growing alone",
                "studio_text/real_time",
                "studio_text_alone/real_time",

@@ -120,6 +120,12 @@ void Growth::ask(std::function<void(const World&)> question) {
     changed_.notify_all();
 }
 
+void Growth::rest(bool rests) {
+    const std::lock_guard lock(mutex_);
+    rests_ = rests;
+    changed_.notify_all();
+}
+
 void Growth::draw(int step) {
     const std::lock_guard lock(mutex_);
     wanted_.insert(step);
@@ -200,7 +206,7 @@ bool Growth::advance(Work& work) {
         return true;
     }
     if (draw_wanted(work)) return true;
-    if (work.drawn == work.derived) return false;
+    if (!may_draw_in_order(work)) return false;
     draw_in_order(work);
     return true;
 }
@@ -268,6 +274,10 @@ std::optional<int> Growth::next_wanted(const Work& work) {
     return wanted_.extract(wanted_.begin()).value();
 }
 
+bool Growth::may_draw_in_order(const Work& work) const {
+    return work.drawn < work.derived && (!rests_ || work.told < work.derived);
+}
+
 void Growth::draw_in_order(Work& work) {
     const int step = ++work.drawn;
     const Frame frame = frame_at(work, step);
@@ -315,7 +325,9 @@ void Growth::answer(const World& world) {
 // A question, an end, or steps to grow or to draw.
 void Growth::wait_for_more(const Work& work) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return cancelled_ || !questions_.empty() || !wanted_.empty() || may_grow(work); });
+    changed_.wait(lock, [&] {
+        return cancelled_ || !questions_.empty() || !wanted_.empty() || may_grow(work) || may_draw_in_order(work);
+    });
 }
 
 }  // namespace espalier::studio

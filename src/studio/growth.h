@@ -107,6 +107,8 @@ public:
 
     /// Called with the world on the thread of the growth: between two steps, or after the last.
     void ask(std::function<void(const World&)> question);
+    /// Steps that nobody looks at are not drawn for the time being: another growth is to begin.
+    void rest(bool rests);
     /// A step that has been derived is drawn next.
     void draw(int step);
 
@@ -125,6 +127,7 @@ private:
     bool draw_wanted(Work& work);
     void forget_wanted();
     std::optional<int> next_wanted(const Work& work);
+    bool may_draw_in_order(const Work& work) const;
     void draw_in_order(Work& work);
     Frame frame_at(Work& work, int step);
     void note_grown(Work& work, std::size_t internodes, std::string statistics);
@@ -138,7 +141,7 @@ private:
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;
     std::atomic<bool> may_extend_ = false;
-    std::atomic<bool> cancelled_ = false, stopped_ = false;
+    std::atomic<bool> cancelled_ = false, stopped_ = false, rests_ = false;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;

@@ -224,7 +224,7 @@ bool draws_apart(const Scene& scene) {
 }
 
 void ParameterChanges::add(LetterId letter, std::size_t parameter, double from, double to) {
-    changes_[{letter, parameter}][std::bit_cast<std::uint64_t>(from)] = to;
+    changes_[{letter, parameter}].emplace_back(std::bit_cast<std::uint64_t>(from), to);
 }
 
 void ParameterChanges::apply(ModuleString& string) const {
@@ -234,7 +234,9 @@ void ParameterChanges::apply(ModuleString& string) const {
     for (const LetterId letter : string.letters) {
         for (const auto& [parameter, values] : of_letter[letter]) {
             double& value = string.parameters[at + parameter];
-            const auto found = values->find(std::bit_cast<std::uint64_t>(value));
+            const auto bits = std::bit_cast<std::uint64_t>(value);
+            const auto found = std::find_if(values->begin(), values->end(),
+                                            [bits](const auto& change) { return change.first == bits; });
             if (found != values->end()) value = found->second;
         }
         at += arities_[letter];

@@ -39,7 +39,7 @@ public:
 
 private:
     /// By the bits of what is written, so that 0 and -0 differ.
-    using Values = std::map<std::uint64_t, double>;
+    using Values = std::vector<std::pair<std::uint64_t, double>>;
 
     std::vector<std::uint16_t> arities_;
     std::map<std::pair<LetterId, std::size_t>, Values> changes_;

@@ -85,7 +85,7 @@ void Session::receive(Page& page, const std::string& text) {
 void Session::tick() {
     guard([this] {
         begin_next_growth();
-        std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
+        forget_ended();
         std::erase_if(limb_runs_, [](const auto& run) { return run.second->has_ended(); });
         if (unkept_) keep();
     });
@@ -165,11 +165,15 @@ void Session::begin_next_growth() {
     if (document_.is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
     waits_ = false;
     is_busy_ = true;
+    forget_ended();
     if (next_) retire(std::move(next_));
     const DocumentState& now = document_.now();
     GrowthListener& listener = *this;
     GrowthOrder order{++last_growth_, document_.version(), now.opened, now.unsaved, options_.scratch, options_.read};
-    if (growth_) order.before = growth_->shared_steps();
+    if (growth_) {
+        growth_->rest(true);
+        order.before = growth_->shared_steps();
+    }
     order.unseen_to = follow_from_;
     for (const auto& viewer : viewers_) {
         if (viewer->step) order.looked_at.insert(*viewer->step);
@@ -201,6 +205,10 @@ void Session::retire(std::unique_ptr<Growth> growth) {
     if (!growth) return;
     growth->cancel();
     retired_.push_back(std::move(growth));
+}
+
+void Session::forget_ended() {
+    std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
 }
 
 void Session::note_started(std::uint32_t growth, GrowthStart start) {
@@ -283,6 +291,7 @@ void Session::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& w
     is_busy_ = false;
     if (next_ && next_->number() == growth) {
         retire(std::move(next_));
+        if (growth_) growth_->rest(false);
         problems_ = why;
         tell(problems_json());
     } else if (growth_ && growth_->number() == growth) {

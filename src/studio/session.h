@@ -117,6 +117,7 @@ private:
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why);
     void add_statistics(const std::string& rows);
     void retire(std::unique_ptr<Growth> growth);
+    void forget_ended();
     Growth& grown_by(const Json& request) const;
     Json document_json() const;
     Json texts_json() const;

@@ -164,7 +164,8 @@ Examples:
         options.is_named = !what_.empty();
         if (!what_.empty() && !fs::exists(options.opened.path)) {
             throw UserError(
-                fmt::format("{} does not exist; `espalier studio` alone opens the library", what_.string()));
+                fmt::format("{} does not exist; the gallery in the page of `espalier studio` lists models and scenes",
+                            what_.string()));
         }
         options.folder = folder();
         options.scratch = scratch.path();

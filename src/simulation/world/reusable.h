@@ -19,6 +19,9 @@ public:
     std::shared_ptr<const T> share() const { return now_; }
     bool is_shared() const { return now_.use_count() > 1; }
 
+    /// A value that others may read, too: while they do, it is not written.
+    void hold(std::shared_ptr<const T> value) { now_ = std::const_pointer_cast<T>(std::move(value)); }
+
     /// A value that no frame reads, its content left over from an earlier step.
     T& for_writing() {
         if (is_shared()) set_aside();

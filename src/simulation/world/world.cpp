@@ -318,7 +318,7 @@ void World::take(const DerivedStep& derived) {
         const DerivedStep::OfPlant& from = derived.plants.at(plant.number);
         std::istringstream memory(from.memory);
         plant.derivation.restore(memory);
-        plant.string.for_writing() = *from.string;
+        plant.string.hold(from.string);
         plant.note_derived();
         state_->memory.count_strings(plant);
     }
