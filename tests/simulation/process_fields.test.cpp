@@ -2,11 +2,10 @@
 #include "espalier/simulation/world.h"
 
 #include "catch.h"
+#include "resumed_world.h"
 #include "temporary_folder.h"
 
 #include <glm/geometric.hpp>
-
-#include <sstream>
 
 using namespace espalier;
 using Catch::Matchers::Contains;
@@ -109,20 +108,13 @@ TEST_CASE_METHOD(Lit, "a world that reads fields goes on from its checkpoint as 
     folder.write("seeker.pgraph", seeker);
     folder.write("roof.l", growing);
     const Scene described = read_scene_text(two, "scene.toml", folder.path());
-    World through(described), resumed(described);
-    through.start();
-    for (int step = 0; step < 3; ++step) through.step();
-    std::ostringstream saved;
-    through.save(saved);
-    std::istringstream in(saved.str());
-    resumed.restore(in);
-    const glm::dvec3 before = tip(through);
+    simulation_test::ResumedWorld worlds(described, 3);
+    const glm::dvec3 before = tip(worlds.through);
     for (int step = 3; step < 6; ++step) {
-        through.step();
-        resumed.step();
-        CHECK(tip(through) == tip(resumed));
+        worlds.step();
+        CHECK(tip(worlds.through) == tip(worlds.resumed));
     }
-    CHECK(tip(through) != before);
+    CHECK(tip(worlds.through) != before);
 }
 
 TEST_CASE_METHOD(Lit, "a field that no process has is told before the first step, with the nearest name",

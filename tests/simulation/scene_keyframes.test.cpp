@@ -2,13 +2,12 @@
 #include "espalier/simulation/world.h"
 
 #include "catch.h"
+#include "resumed_world.h"
 #include "simulation/scene/keyframes.h"
 #include "temporary_folder.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-
-#include <sstream>
 
 using namespace espalier;
 using Catch::Matchers::Contains;
@@ -125,18 +124,11 @@ TEST_CASE_METHOD(Film, "keyframes with a spline have one tangent at their times"
 
 TEST_CASE_METHOD(Film, "a run that is resumed has the values of its time", "[scene]") {
     const Scene described = scene(table("environment.dial.value") + table("plant.0.stage.0.length"));
-    World through(described), resumed(described);
-    through.start();
-    for (int step = 0; step < 3; ++step) through.step();
-    std::ostringstream saved;
-    through.save(saved);
-    std::istringstream in(saved.str());
-    resumed.restore(in);
-    through.step();
-    resumed.step();
-    CHECK(answer(resumed) == 3);
-    CHECK(answer(resumed) == answer(through));
-    CHECK(length_of_stem(resumed) == length_of_stem(through));
+    simulation_test::ResumedWorld worlds(described, 3);
+    worlds.step();
+    CHECK(answer(worlds.resumed) == 3);
+    CHECK(answer(worlds.resumed) == answer(worlds.through));
+    CHECK(length_of_stem(worlds.resumed) == length_of_stem(worlds.through));
 }
 
 TEST_CASE_METHOD(Film, "what cannot change with time is refused with what can", "[scene]") {

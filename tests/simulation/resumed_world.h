@@ -1,0 +1,27 @@
+// A world and another that goes on from its checkpoint.
+#pragma once
+
+#include "espalier/simulation/world.h"
+
+#include <sstream>
+
+namespace simulation_test {
+
+struct ResumedWorld {
+    /// Both are at the step.
+    ResumedWorld(const espalier::Scene& scene, int step) : through(scene), resumed(scene) {
+        through.start();
+        for (int done = 0; done < step; ++done) through.step();
+        std::stringstream saved;
+        through.save(saved);
+        resumed.restore(saved);
+    }
+    void step() {
+        through.step();
+        resumed.step();
+    }
+
+    espalier::World through, resumed;
+};
+
+}  // namespace simulation_test
