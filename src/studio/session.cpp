@@ -45,8 +45,11 @@ Json cell_json(const std::string& cell) {
 }  // namespace
 
 Session::Session(const StudioOptions& options, Post post)
-    : options_(options), post_([this, post = std::move(post)](std::function<void()> work) {
-          post([this, work = std::move(work)] { guard(work); });
+    : options_(options),
+      post_([this, alive = std::weak_ptr(alive_), post = std::move(post)](std::function<void()> work) {
+          post([this, alive, work = std::move(work)] {
+              if (!alive.expired()) guard(work);
+          });
       }) {
     restore();
     if (document_.is_open()) begin_growth();

@@ -141,6 +141,7 @@ private:
     void tell_all_to(Viewer& viewer);
 
     const StudioOptions& options_;
+    const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< gone: what threads have posted is not done
     const Post post_;
     std::vector<std::unique_ptr<Viewer>> viewers_;
     HandedFiles files_;

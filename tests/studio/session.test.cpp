@@ -316,6 +316,19 @@ TEST_CASE("unsaved work is there again after the program was killed", "[studio]"
     CHECK(page.last("message")["severity"] == "warning");
 }
 
+TEST_CASE("what growths posted before a studio ended is not done afterwards", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    studio.change({{"settings", {{"LENGTH", "9"}}}});
+    studio.session->tick();
+    const std::size_t told = page.texts.size();
+    studio.session.reset();
+    while (studio.mailbox.work_once(std::chrono::milliseconds(50))) {
+    }
+    CHECK(page.texts.size() == told);
+}
+
 TEST_CASE("a colour map travels in base64, and is kept as it was", "[studio]") {
     const std::string bytes = "\xff\x00\x80" + std::string(765, '\x7f');
     OpenStudio studio("lsystem: 1\nderivation length: 1\naxiom: ;(1)F\nendlsystem\n");
