@@ -34,7 +34,8 @@ export class StatusLine {
     studio.on("progress", ({ what, done }) => {
       this.progress.hidden = done >= 1;
       this.progress.value = done;
-      this.what.textContent = done >= 1 ? "" : what;
+      this.what.textContent = what;
+      if (done >= 1) this.showGrowth(studio.growth);
     });
   }
 

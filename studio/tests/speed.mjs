@@ -86,7 +86,11 @@ function measure(count) {
     colours: new Uint8Array(0),
     modules: new Uint32Array(0),
     indices: new Uint32Array(0),
+    ranges: [],
+    onPicture: null,
     groups: [],
+    wornLimbs: false,
+    labels: [],
   });
 
   const { WebGLRenderer, Scene, BufferGeometry, BufferAttribute, LineSegments, LineBasicMaterial } = window.Three;

@@ -52,7 +52,7 @@ export class OrbitCamera {
     const wide = Math.max(size.x, size.z) / 2;
     const high = size.y / 2 + 0.3 * wide * Math.sin(Math.abs(this.elevation));
     const across = wide / (Math.tan(half) * this.camera.aspect);
-    this.distance = 1.12 * Math.max(high / Math.tan(half), across) + wide * 0.6;
+    this.distance = 1.18 * Math.max(high / Math.tan(half), across) + wide * 0.6;
     this.update();
   }
 

@@ -308,8 +308,13 @@ export function triangleCount(packet: Packet): number {
   return packet.indices.length / 3;
 }
 
-/** The box of everything in a packet, or null if it is empty. */
-export function boundsOf(packet: Packet): { lower: Vector; upper: Vector } | null {
+export interface Box {
+  lower: Vector;
+  upper: Vector;
+}
+
+/** The box of everything in a packet, or null if it is empty. `boxOf` knows the boxes of shapes. */
+export function boundsOf(packet: Packet, boxOf: (shape: number) => Box): Box | null {
   const lower: [number, number, number] = [Infinity, Infinity, Infinity];
   const upper: [number, number, number] = [-Infinity, -Infinity, -Infinity];
   const add = (x: number, y: number, z: number, reach: number) => {
@@ -325,10 +330,21 @@ export function boundsOf(packet: Packet): { lower: Vector; upper: Vector } | nul
   }
   const { positions } = packet;
   for (let i = 0; i < positions.length; i += 3) add(positions[i], positions[i + 1], positions[i + 2], 0);
-  for (const { matrices } of packet.groups) {
+  for (const { shape, matrices } of packet.groups) {
+    const box = boxOf(shape);
+    const [middle, half] = [0.5, -0.5].map((sign) => box.upper.map((value, k) => 0.5 * value + sign * box.lower[k]));
     for (let i = 0; i < matrices.length; i += 12) {
-      const reach = 0.5 * Math.hypot(matrices[i], matrices[i + 4], matrices[i + 8]);
-      add(matrices[i + 3], matrices[i + 7], matrices[i + 11], reach);
+      for (let k = 0; k < 3; k++) {
+        const row = i + 4 * k;
+        let centre = matrices[row + 3];
+        let reach = 0;
+        for (let j = 0; j < 3; j++) {
+          centre += matrices[row + j] * middle[j];
+          reach += Math.abs(matrices[row + j]) * half[j];
+        }
+        lower[k] = Math.min(lower[k], centre - reach);
+        upper[k] = Math.max(upper[k], centre + reach);
+      }
     }
   }
   return Number.isFinite(lower[0]) ? { lower, upper } : null;

@@ -18,7 +18,7 @@ import { FieldView, type FieldLook } from "./fields.js";
 import { Ground } from "./ground.js";
 import { Internodes } from "./internodes.js";
 import { Labels } from "./labels.js";
-import { boundsOf, type Column, type Field, type Limbs, type Packet, type Shape, type Vector } from "./packets.js";
+import { boundsOf, type Box, type Column, type Field, type Limbs, type Packet, type Shape, type Vector } from "./packets.js";
 import { Pictures, type PictureSource } from "./pictures.js";
 import { markTable, Pass, shadowDepth, sharedUniforms, useTheme, valueTable } from "./shading.js";
 import { Shapes } from "./shapes.js";
@@ -48,11 +48,6 @@ export interface AuthorLook {
 
 const usualSun = new Vector3(0.45, 0.8, 0.4).normalize();
 const lowestSun = Math.sin((5 * Math.PI) / 180); // shadows of a lower one would be endless
-
-interface Box {
-  lower: Vector;
-  upper: Vector;
-}
 
 /** The smallest box around two. */
 function around(a: Box, b: Box): Box {
@@ -185,7 +180,7 @@ export class PlantScene {
     this.shapes.show(packet);
     this.labels.show(packet.labels);
     this.limbs.clear();
-    this.bounds = boundsOf(packet);
+    this.bounds = boundsOf(packet, (shape) => this.shapes.boxOf(shape));
     this.shadowStale = true;
     if (this.bounds) this.placeGround(this.bounds.lower, this.bounds.upper);
     this.followGrowth(packet);

@@ -11,7 +11,7 @@ import {
   type Scene,
   type Texture,
 } from "three";
-import type { Packet, Shape, ShapeGroup } from "./packets.js";
+import type { Box, Packet, Shape, ShapeGroup } from "./packets.js";
 import type { Pictures } from "./pictures.js";
 import { plantMaterial, surfaceFragment, type Uniforms } from "./shading.js";
 
@@ -66,9 +66,21 @@ function floatTexture(values: Float32Array, texels: number, width: number): Data
 }
 
 interface Corners {
+  box: Box;
   count: number;
   image: number;
   texture: DataTexture;
+}
+
+function boxOf({ positions }: Shape): Box {
+  const bound = (k: number, pick: (...values: number[]) => number, start: number) => {
+    let found = start;
+    for (let i = k; i < positions.length; i += 3) found = pick(found, positions[i]);
+    return found;
+  };
+  const least = (k: number) => bound(k, Math.min, Infinity);
+  const most = (k: number) => bound(k, Math.max, -Infinity);
+  return { lower: [least(0), least(1), least(2)], upper: [most(0), most(1), most(2)] };
 }
 
 /** The corners of the triangles of a shape, one after the other. */
@@ -82,7 +94,7 @@ function cornersOf(shape: Shape): Corners {
     values[i * 8 + 3] = shape.texture[shape.indices[i] * 2] ?? 0;
     values[i * 8 + 7] = shape.texture[shape.indices[i] * 2 + 1] ?? 0;
   }
-  return { count, image: shape.image, texture: floatTexture(values, count * 2, perRow * 2) };
+  return { box: boxOf(shape), count, image: shape.image, texture: floatTexture(values, count * 2, perRow * 2) };
 }
 
 function disc(inner: number): Shape {
@@ -184,6 +196,11 @@ export class Shapes {
     private readonly scene: Scene,
   ) {
     for (const shape of [disc(0), sphere(), disc(0.47)]) this.known.set(shape.shape, cornersOf(shape));
+  }
+
+  /** The box of a shape; of an unknown one that of a shape of diameter 1. */
+  boxOf(shape: number): Box {
+    return this.known.get(shape)?.box ?? { lower: [-0.5, -0.5, -0.5], upper: [0.5, 0.5, 0.5] };
   }
 
   /** Shapes from 3 on belong to a growth. */
