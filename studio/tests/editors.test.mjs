@@ -105,6 +105,18 @@ describe("editors of side files", () => {
     await program?.kill();
   });
 
+  /** Controls that a reader of screens could not name. */
+  const nameless = () =>
+    page.evaluate(() =>
+      [...document.querySelectorAll("button, input, select, textarea, [role=slider]")]
+        .filter((element) => element.checkVisibility() && !element.closest(".cm-editor"))
+        .filter(
+          (element) =>
+            !(element.getAttribute("aria-label") || element.title || element.labels?.length || element.textContent.trim()),
+        )
+        .map((element) => element.outerHTML.slice(0, 120)),
+    );
+
   test("a point of a surface is dragged: text and picture follow, and undo brings both back", async () => {
     await open("mapped.toml");
     await tab(/leaf\.s/);
@@ -119,6 +131,7 @@ describe("editors of side files", () => {
     assert.notEqual(await text(), words);
     assert.notEqual(await picture(), before);
     await shot(page, "surface");
+    assert.deepEqual(await nameless(), []);
     await undo();
     assert.equal(await text(), words);
     assert.equal(await picture(), before);
@@ -136,6 +149,7 @@ describe("editors of side files", () => {
     await grown();
     assert.notEqual(await picture(), before);
     await shot(page, "colour-map");
+    assert.deepEqual(await nameless(), []);
     const bytes = await saved("shoot.map");
     assert.deepEqual([...bytes.subarray(6, 9)], [255, 32, 0]);
     assert.deepEqual([...bytes.subarray(27, 30)], [0, 32, 255]);
@@ -159,6 +173,7 @@ describe("editors of side files", () => {
     assert.match(await text(), /background color: 0\.2 0\.4 0\.6/);
     assert.notEqual(await picture(), before);
     await shot(page, "view-form");
+    assert.deepEqual(await nameless(), []);
     await page.getByText("Turtle", { exact: true }).click();
     const width = page.locator("input[type=range][aria-label='angle increment']");
     await width.focus();
@@ -182,6 +197,7 @@ describe("editors of side files", () => {
     await grown();
     assert.notEqual(await picture(), before);
     await shot(page, "materials");
+    assert.deepEqual(await nameless(), []);
     const bytes = await saved("shoot.mat");
     assert.deepEqual([...bytes.subarray(15, 23)], [2, 120, 20, 50, 20, 0xc0, 0x20, 0x60]);
     while (await page.getByRole("button", { name: /^Undo: Edit shoot\.mat/ }).count()) await undo();

@@ -125,6 +125,6 @@ export function readPoints(path: string, content: string): PointFile[] {
     const starts = lines.flatMap((line, index) => (line.startsWith("fver") ? [index] : []));
     for (const start of starts.length > 0 ? starts : [0]) found.push(readFunction(lines, start));
   } else if (lines[0]?.startsWith("cver")) found.push(readContour(lines));
-  else if (path.endsWith(".con") || path.endsWith(".crv")) found.push(readCurve(lines));
+  else if (lines.some((line) => /^type:\s*bspline/.test(line))) found.push(readCurve(lines));
   return found.filter((file) => file !== null);
 }

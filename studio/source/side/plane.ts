@@ -42,7 +42,7 @@ function viewOf(file: PointFile): View {
 export class PointPlane {
   readonly element: HTMLElement;
   private readonly picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "point-plane" });
-  private readonly fields: { x: HTMLInputElement; y: HTMLInputElement; times: HTMLInputElement };
+  private readonly fields: Record<"x" | "y" | "z" | "times", HTMLInputElement>;
   private points: Point[];
   private view: View;
   private chosen = 0;
@@ -58,10 +58,11 @@ export class PointPlane {
     this.fields = {
       x: field("x of the point", 0.01),
       y: field("y of the point", 0.01),
+      z: field("z of the point", 0.01),
       times: field("How often the point counts: 3 makes a corner", 1),
     };
     for (const [name, input] of Object.entries(this.fields))
-      input.addEventListener("change", () => this.setField(name as "x" | "y" | "times", Number(input.value)));
+      input.addEventListener("change", () => this.setField(name as keyof typeof this.fields, Number(input.value)));
     const add = h("button", "button small", { type: "button", onclick: () => this.add() }, "Add point");
     const remove = h("button", "button small", { type: "button", onclick: () => this.remove() }, "Remove");
     this.element = h(
@@ -75,6 +76,7 @@ export class PointPlane {
         {},
         h("label", "", {}, "x ", this.fields.x),
         h("label", "", {}, "y ", this.fields.y),
+        h("label", "", { hidden: file.points.every(({ z }) => z === 0) }, "z ", this.fields.z),
         h("label", "", {}, "× ", this.fields.times),
         add,
         remove,
@@ -219,12 +221,15 @@ export class PointPlane {
     this.send(lasting);
   }
 
-  private setField(name: "x" | "y" | "times", value: number): void {
+  private setField(name: keyof typeof this.fields, value: number): void {
     const point = this.points[this.chosen];
     if (!point || !Number.isFinite(value)) return;
     if (name === "times") {
       point.times = Math.max(1, Math.round(value));
       this.draw();
+      this.send(true);
+    } else if (name === "z") {
+      point.z = value;
       this.send(true);
     } else this.move(this.chosen, name === "x" ? value : point.x, name === "y" ? value : point.y, true);
   }
@@ -276,7 +281,7 @@ export class PointPlane {
   private showFields(): void {
     const point = this.points[this.chosen];
     if (!point) return;
-    for (const name of ["x", "y", "times"] as const)
+    for (const name of ["x", "y", "z", "times"] as const)
       if (document.activeElement !== this.fields[name]) this.fields[name].value = String(Number(point[name].toFixed(4)));
   }
 

@@ -12,6 +12,11 @@ const groups: [ViewSetting["group"], string][] = [
   ["growth", "Turtle"],
 ];
 
+/** Lights, textures and colours stand first. */
+function rank({ kind }: ViewSetting): number {
+  return kind === "letters" ? 0 : kind === "colour" ? 1 : 2;
+}
+
 function hexOf(values: readonly string[]): string {
   const numbers = values.map(Number);
   const most = Math.max(...numbers) > 1 ? 255 : 1;
@@ -142,7 +147,9 @@ export class ViewForm implements SideEditor {
     const settings = this.help()?.view ?? [];
     this.place.replaceChildren(
       ...groups.map(([group, title]) => {
-        const own = settings.filter((setting) => setting.group === group && setting.kind !== "other");
+        const own = settings
+          .filter((setting) => setting.group === group && setting.kind !== "other")
+          .sort((a, b) => rank(a) - rank(b));
         const details = h(
           "details",
           "group",
