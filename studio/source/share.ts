@@ -56,6 +56,7 @@ async function recordingOf(
     reliefs,
     limbs,
     camera: scene.orbit.state,
+    light: scene.shownLight,
   };
 }
 

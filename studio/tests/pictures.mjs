@@ -51,11 +51,11 @@ async function pick(symbol) {
 
 await page.waitForSelector(".viewport[data-step]");
 await page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
-await page.locator(".viewport canvas").click({ position: { x: 5, y: 300 } });
+await page.getByRole("button", { name: "No more hints" }).click();
 await page.getByRole("tab", { name: "Settings" }).click();
 await page.locator("#setting-seed").fill("7");
 await page.keyboard.press("Enter");
-await page.locator(".viewport canvas").focus();
+await page.evaluate(() => document.activeElement.blur());
 await save("studio.png");
 await open("lychnis");
 await pick("I(");
@@ -67,5 +67,13 @@ await page
   .first()
   .click();
 await save("studio-graph.png");
+await open("maple");
+await page.getByRole("tab", { name: /maple\.v/ }).click();
+await page.getByRole("button", { name: "Add light" }).click();
+await page.getByLabel("light: where it comes from, infinitely far away x").fill("1");
+await page.keyboard.press("Enter");
+await page.evaluate(() => document.activeElement.blur());
+await page.waitForFunction(() => document.querySelector(".viewport canvas").dataset.limbs === "tubes");
+await save("studio-view.png");
 await browser.close();
 await program.kill();

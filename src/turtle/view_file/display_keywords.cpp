@@ -204,9 +204,16 @@ void light(ViewReader& reader) {
 constexpr std::array light_letters{
     ViewValue{.kind = ViewKind::vector, .help = "where it comes from, infinitely far away", .letter = 'V'},
     ViewValue{.kind = ViewKind::vector, .help = "where it stands", .letter = 'O'},
-    ViewValue{.kind = ViewKind::colour, .help = "ambient light", .standard = "1 1 1", .letter = 'A'},
-    ViewValue{.kind = ViewKind::colour, .help = "light that surfaces scatter", .standard = "1 1 1", .letter = 'D'},
-    ViewValue{.kind = ViewKind::colour, .help = "light that surfaces reflect", .standard = "1 1 1", .letter = 'S'},
+    ViewValue{
+        .kind = ViewKind::colour, .help = "ambient light, for other programs", .standard = "1 1 1", .letter = 'A'},
+    ViewValue{.kind = ViewKind::colour,
+              .help = "light that surfaces scatter, for other programs",
+              .standard = "1 1 1",
+              .letter = 'D'},
+    ViewValue{.kind = ViewKind::colour,
+              .help = "light that surfaces reflect, for other programs",
+              .standard = "1 1 1",
+              .letter = 'S'},
 };
 
 constexpr ViewValue of_window{ViewKind::other, "without meaning outside a window"};

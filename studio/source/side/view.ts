@@ -57,7 +57,7 @@ function vectorControl(value: ViewValue, values: readonly string[], label: strin
   const fields = ["x", "y", "z"].map((axis, k) => {
     const field = h("input", "number", { type: "text", inputmode: "decimal", "aria-label": `${label} ${axis}`, title: axis });
     field.value = values[k] ?? "";
-    field.placeholder = standard[k] ?? "0";
+    field.placeholder = standard[k] || "0";
     field.addEventListener("change", () =>
       send(fields.map((one, i) => one.value.trim() || standard[i] || "0").join(" "), true),
     );

@@ -3,7 +3,7 @@ import type { CameraState } from "./camera.js";
 import { themes, type Theme } from "./colours.js";
 import { decompress, fromBase64 } from "./compression.js";
 import { readMessage, type Limbs, type Packet } from "./packets.js";
-import { PlantScene } from "./scene3d.js";
+import { PlantScene, type AuthorLook } from "./scene3d.js";
 import { steer } from "./steer.js";
 
 export interface Recording {
@@ -19,6 +19,7 @@ export interface Recording {
   /** Limbs with bark or skin, of the steps that showed them. */
   limbs: string[];
   camera: CameraState;
+  light: AuthorLook;
 }
 
 async function unpack(text: string): Promise<ArrayBuffer> {
@@ -53,7 +54,8 @@ class Player {
   }
 
   async start(): Promise<void> {
-    const { images, reliefs } = this.recording;
+    const { images, reliefs, light } = this.recording;
+    this.scene.setAuthor(light);
     this.scene.setPictures(images.map((text, i) => ({ colours: blobOf(text), normals: blobOf(reliefs[i]) })));
     for (const text of this.recording.limbs) {
       const message = readMessage(await unpack(text));

@@ -136,6 +136,12 @@ export class PlantScene {
     if (moved && this.frame) this.home();
   }
 
+  /** The light and background that show. */
+  get shownLight(): AuthorLook {
+    const { author } = this;
+    return this.authorLight ? { ...author, towardsEye: null } : { towardsEye: null, towardsLight: null, background: null };
+  }
+
   /** Whether light and background are those of the view file. */
   setAuthorLight(on: boolean): void {
     this.authorLight = on;
