@@ -51,8 +51,14 @@ std::string role_of(const fs::path& file, const fs::path& main) {
     return extension == ".v" ? "view" : "side";
 }
 
+bool is_run(const fs::path& folder) {
+    std::error_code ignored;
+    return fs::is_regular_file(folder / "run.json", ignored);
+}
+
 std::string kind_of(const fs::path& path) {
-    return path.extension() == ".toml" ? "scene" : fs::is_directory(path) ? "object" : "model";
+    if (!fs::is_directory(path)) return path.extension() == ".toml" ? "scene" : "model";
+    return is_run(path) ? "run" : "object";
 }
 
 std::optional<std::string> text_on_disk(const fs::path& file) {

@@ -20,6 +20,9 @@ std::string content_of(const std::filesystem::path& file, const std::string& byt
 /// The bytes of a file, from what a page sends. Throws UserError for a palette that is not in base64.
 std::string bytes_of(const std::filesystem::path& file, const std::string& content);
 
+/// A folder that a run has left.
+bool is_run(const std::filesystem::path& folder);
+
 // As docs/studio-protocol.md has them.
 std::string language_of(const std::filesystem::path& file);
 std::string role_of(const std::filesystem::path& file, const std::filesystem::path& main);

@@ -3,6 +3,8 @@
 #include "espalier/formats/exporter.h"
 #include "espalier/simulation/simulation.h"
 
+#include "studio/document_files.h"
+
 #include <exception>
 #include <utility>
 
@@ -31,7 +33,8 @@ void ExportRun::work() {
     ended_ = true;
 }
 
-std::vector<fs::path> ExportRun::write() {
+// Returns the folder of the run.
+fs::path ExportRun::grow() {
     const ReadLog reads(std::size_t(16) << 20, order_.unsaved);
     Opened opened = order_.opened;
     if (order_.step >= 0) opened.steps = order_.step;
@@ -46,11 +49,16 @@ std::vector<fs::path> ExportRun::write() {
         if (progress.steps > 0) progressed_(double(progress.step) / progress.steps);
     };
     run(scene, options);
-    if (cancelled_) return {};
+    return options.output;
+}
 
-    const RecordedRun recorded(options.output);
+std::vector<fs::path> ExportRun::write() {
+    const RecordedRun recorded(is_run(order_.opened.path) ? order_.opened.path : grow());
+    if (cancelled_) return {};
     std::vector<const RecordedFrame*> frames;
-    for (const RecordedFrame& frame : recorded.frames()) frames.push_back(&frame);
+    for (const RecordedFrame& frame : recorded.frames()) {
+        if (order_.step < 0 || frame.step <= order_.step) frames.push_back(&frame);
+    }
     if (!order_.is_film && !frames.empty()) frames.erase(frames.begin(), frames.end() - 1);
     std::vector<fs::path> files;
     const auto report = [&](const ExportedFile& file) { files.push_back(file.path); };

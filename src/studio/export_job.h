@@ -38,6 +38,7 @@ public:
 
 private:
     void work();
+    std::filesystem::path grow();
     std::vector<std::filesystem::path> write();
 
     const ExportOrder order_;

@@ -3,9 +3,12 @@
 #include "espalier/simulation/simulation.h"
 
 #include "studio/derivation_length.h"
+#include "studio/field_bytes.h"
+#include "studio/inquiry.h"
 #include "studio/likeness.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <iterator>
@@ -114,9 +117,25 @@ bool Growth::extend(int last_step, std::uint64_t version) {
     return true;
 }
 
-void Growth::ask(std::function<void(const World&)> question) {
+std::vector<std::string> Growth::column_names() const {
+    return studio::column_names(*scene());
+}
+
+std::string Growth::column(int step, const std::string& name) const {
+    return studio::column(*scene(), *steps_, number(), step, name);
+}
+
+nlohmann::ordered_json Growth::what_is_known(int step, std::uint32_t module) const {
+    return studio::what_is_known(*scene(), *steps_, step, module);
+}
+
+// The field is read between two steps, or after the last, where it does not change meanwhile.
+void Growth::ask_field(const std::string& name, std::function<void(std::string bytes)> answer) {
     const std::lock_guard lock(mutex_);
-    questions_.push_back(std::move(question));
+    questions_.push_back([this, name, answer = std::move(answer)](const World& world) {
+        const Field* found = world.environment().fields().find(name);
+        if (found) answer(field_bytes(*found, number(), world.steps_done()));
+    });
     changed_.notify_all();
 }
 

@@ -6,6 +6,7 @@
 #include "espalier/studio/studio.h"
 
 #include "studio/kept_steps.h"
+#include "studio/shown.h"
 #include "studio/workers.h"
 
 #include <atomic>
@@ -39,78 +40,40 @@ struct GrowthOrder {
     std::set<int> looked_at = {};  ///< besides the last step
 };
 
-struct FieldDescription {
-    std::string name, unit, meaning;
-};
-
-/// What is known once the files were read.
-struct GrowthStart {
-    std::map<std::filesystem::path, ReadLog::File> files;
-    std::vector<std::string> plants;
-    std::vector<Diagnostic> warnings;
-    std::vector<FieldDescription> fields;
-    int last_step = 0;
-    std::uint64_t seed = 0;
-};
-
-struct GrownStep {
-    int step = 0, last_step = 0;
-    std::size_t modules = 0, internodes = 0;
-    int derived = 0;         ///< steps that were derived for it, and not taken from an earlier growth
-    double seconds = 0;      ///< since it began
-    std::string statistics;  ///< the rows of statistics.csv that this step added, with the header in the first
-    bool is_end = false;     ///< no step follows
-};
-
-/// Told on the thread of the growth.
-class GrowthListener {
-public:
-    virtual ~GrowthListener() = default;
-    virtual void started(std::uint32_t growth, GrowthStart start) = 0;
-    /// A later step than all before can be shown, or it has become clear that none will follow.
-    virtual void grown(std::uint32_t growth, GrownStep step) = 0;
-    /// An earlier step can be shown; `statistics` as in GrownStep.
-    virtual void drawn(std::uint32_t growth, int step, std::string statistics) = 0;
-    /// It was told to stop before its end, and no more steps come.
-    virtual void stopped(std::uint32_t growth) = 0;
-    /// It could not be read, or did not go on. A growth that is told to end says nothing.
-    virtual void failed(std::uint32_t growth, std::vector<Diagnostic> why) = 0;
-};
-
-class Growth {
+class Growth final : public Shown {
 public:
     /// The workers and the listener outlive it.
     Growth(GrowthOrder order, GrowthListener& listener, Workers& workers);
     /// Waits for the step at hand.
-    ~Growth();
+    ~Growth() override;
     Growth(const Growth&) = delete;
     Growth& operator=(const Growth&) = delete;
 
-    std::uint32_t number() const { return order_.number; }
-    std::uint64_t version() const { return version_; }
-    const Opened& opened() const { return order_.opened; }
+    std::uint32_t number() const override { return order_.number; }
+    std::uint64_t version() const override { return version_; }
+    const Opened& opened() const override { return order_.opened; }
+    double seconds() const override;
     const KeptSteps& steps() const { return *steps_; }
-    std::shared_ptr<const KeptSteps> shared_steps() const { return steps_; }
-    double seconds() const;  ///< since it began
-    /// The scene as it grows; null before it has started.
-    std::shared_ptr<const Scene> scene() const;
+    std::shared_ptr<const KeptSteps> shared_steps() const override { return steps_; }
+    std::shared_ptr<const Scene> scene() const override;
 
-    /// No more steps: it ends after the one at hand.
-    void cancel();
-    /// True once its work has ended: the destructor does not wait.
-    bool has_ended() const { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
-    /// No more steps, but it still answers questions.
-    void stop() { stopped_ = true; }
-    /// Goes on to a later step, for a later version of the document that asks for nothing else. False if what grows
-    /// depends on how far it is to grow: then it must grow anew.
-    bool extend(int last_step, std::uint64_t version);
+    bool has(int step) const override { return steps_->has(step); }
+    bool has_packet(int step) const override { return steps_->has_packet(step); }
+    void draw(int step) override;
+    std::string packet(int step) const override { return steps_->packet(step); }
+    std::vector<std::string> shapes() const override { return steps_->shapes(); }
+    std::vector<WornPicture> textures() const override { return steps_->textures(); }
+    std::vector<std::string> column_names() const override;
+    std::string column(int step, const std::string& name) const override;
+    nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const override;
+    void ask_field(const std::string& name, std::function<void(std::string bytes)> answer) override;
 
-    /// Called with the world on the thread of the growth: between two steps, or after the last.
-    void ask(std::function<void(const World&)> question);
-    /// Steps that nobody looks at are not drawn for the time being: another growth is to begin.
-    void rest(bool rests);
-    /// A step that has been derived is drawn next.
-    void draw(int step);
+    void cancel() override;
+    bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    void stop() override { stopped_ = true; }
+    /// False if what grows depends on how far it is to grow: then it must grow anew.
+    bool extend(int last_step, std::uint64_t version) override;
+    void rest(bool rests) override;
 
 private:
     struct Work;

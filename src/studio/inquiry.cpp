@@ -3,13 +3,12 @@
 #include "espalier/lsystem/derivation.h"
 
 #include "base/text.h"
-#include "studio/message_bytes.h"
+#include "studio/packet_parts.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -272,18 +271,7 @@ std::string column(const Scene& scene, const KeptSteps& steps, std::uint32_t gro
     for (std::size_t i = 0; i < strings.size(); ++i) {
         known->second({std::move(strings[i]), source_of(*scene.plants[i].model)}, i, step, values);
     }
-    float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
-    for (const float value : values) {
-        if (std::isnan(value)) continue;
-        lowest = std::min(lowest, value);
-        highest = std::max(highest, value);
-    }
-    if (lowest > highest) lowest = highest = 0;
-    MessageBytes out("ESC1");
-    out.put(growth, static_cast<std::int32_t>(step), static_cast<std::uint32_t>(values.size()), lowest, highest);
-    out.put_text(name);
-    out.put_all(std::span<const float>(values));
-    return out.take();
+    return column_message(growth, step, name, values);
 }
 
 }  // namespace espalier::studio

@@ -5,6 +5,7 @@
 #include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
 #include "studio/message_bytes.h"
+#include "studio/packet_parts.h"
 #include "timeline/meshes/organ_mesh.h"
 
 #include <glm/common.hpp>
@@ -14,18 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace espalier::studio {
 namespace {
 
 constexpr std::uint32_t disc = 0, sphere = 1, outline = 2, first_surface = 3;
-constexpr std::size_t most_label = 200;  ///< bytes
-
-using Rgba = std::array<std::uint8_t, 4>;
-using Normal = std::array<std::int8_t, 4>;
-using Point = std::array<float, 3>;
-using OnPicture = std::array<float, 2>;
 
 /// The colours of a plant's indices, each worked out once.
 class Colours {
@@ -49,102 +43,15 @@ private:
     std::map<std::uint16_t, Rgba> known_;
 };
 
-Point point_of(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+Extent extent_of(const timeline::Frame& frame) {
+    Extent extent;
+    for (const timeline::PlantFrame& plant : frame.plants) {
+        for (const Internode& internode : plant.interpretation->geometry.internodes) {
+            extent.add(internode.base, internode.tip, internode.base_radius, internode.tip_radius);
+        }
+    }
+    return extent;
 }
-
-Normal normal_of(const glm::dvec3& v) {
-    const auto part = [](double x) { return static_cast<std::int8_t>(std::lround(127 * std::clamp(x, -1.0, 1.0))); };
-    return {part(v.x), part(v.y), part(v.z), 0};
-}
-
-/// The box and the largest radius of all internodes, which their bytes are parts of.
-struct Extent {
-    Box box;
-    double radius = 0;
-
-    explicit Extent(const timeline::Frame& frame) {
-        for (const timeline::PlantFrame& plant : frame.plants) {
-            for (const Internode& internode : plant.interpretation->geometry.internodes) {
-                box.add(internode.base);
-                box.add(internode.tip);
-                radius = std::max({radius, internode.base_radius, internode.tip_radius});
-            }
-        }
-        if (box.empty()) box.lower = box.upper = glm::dvec3(0);
-    }
-
-    std::array<std::uint16_t, 3> parts(const glm::dvec3& point) const {
-        std::array<std::uint16_t, 3> result;
-        for (int k = 0; k < 3; ++k) {
-            const double size = box.upper[k] - box.lower[k];
-            result[static_cast<std::size_t>(k)] = part(size > 0 ? (point[k] - box.lower[k]) / size : 0);
-        }
-        return result;
-    }
-    std::uint16_t part_of_radius(double value) const { return part(radius > 0 ? value / radius : 0); }
-
-private:
-    static std::uint16_t part(double share) {
-        return static_cast<std::uint16_t>(65535 * std::clamp(share, 0.0, 1.0) + 0.5);
-    }
-};
-
-struct InternodeBytes {
-    std::array<std::uint16_t, 3> base, tip;
-    std::uint16_t base_radius, tip_radius;
-    std::array<std::uint8_t, 3> rgb;
-    std::uint8_t order;
-    std::uint32_t module;
-};
-static_assert(sizeof(InternodeBytes) == 24);
-
-struct Triangles {
-    std::vector<Point> points;
-    std::vector<Normal> normals;
-    std::vector<Rgba> colours;
-    std::vector<OnPicture> uvs;
-    std::vector<std::uint32_t> modules, indices;
-    std::vector<std::uint32_t> textures;  ///< of the triangles
-
-    std::uint32_t add(const SurfaceVertex& vertex, Rgba colour, std::uint32_t module) {
-        points.push_back(point_of(vertex.position));
-        normals.push_back(normal_of(vertex.normal));
-        colours.push_back(colour);
-        uvs.push_back({static_cast<float>(vertex.uv.x), static_cast<float>(vertex.uv.y)});
-        modules.push_back(module);
-        return static_cast<std::uint32_t>(points.size() - 1);
-    }
-    /// What was added since wears this texture.
-    void wear(std::uint32_t texture) { textures.resize(indices.size() / 3, texture); }
-
-    /// Puts triangles that wear the same texture behind each other.
-    void sort() {
-        if (std::is_sorted(textures.begin(), textures.end())) return;
-        std::vector<std::uint32_t> order(textures.size()), sorted;
-        std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return textures[a] < textures[b]; });
-        for (const std::uint32_t triangle : order) {
-            for (std::size_t k = 0; k < 3; ++k) sorted.push_back(indices[3 * std::size_t{triangle} + k]);
-        }
-        indices = std::move(sorted);
-        std::sort(textures.begin(), textures.end());
-    }
-};
-
-struct ShownLabel {
-    Point position;
-    Rgba colour;
-    std::uint32_t module;
-    const std::string* text;
-};
-
-/// Organs of one shape.
-struct Group {
-    std::vector<std::array<float, 12>> places;
-    std::vector<Rgba> colours;
-    std::vector<std::uint32_t> modules;
-};
 
 std::array<float, 12> matrix(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& at) {
     std::array<float, 12> rows;
@@ -180,7 +87,9 @@ std::vector<std::uint32_t> first_modules(const timeline::Frame& frame) {
 /// One packet while it is written.
 class PacketWriter::Scribe {
 public:
-    Scribe(PacketWriter& writer, const timeline::Frame& frame) : writer_(writer), frame_(frame), extent_(frame) {}
+    Scribe(PacketWriter& writer, const timeline::Frame& frame) : writer_(writer), frame_(frame) {
+        parts_.extent = extent_of(frame);
+    }
 
     Packet write() {
         const std::vector<std::uint32_t> firsts = first_modules(frame_);
@@ -193,27 +102,28 @@ public:
             add_organs(plant.interpretation->geometry, firsts[i], colours);
             add_labels(plant.interpretation->geometry, firsts[i], colours);
         }
-        triangles_.sort();
-        return {shapes_message(), packet(firsts), internodes_.size()};
+        parts_.first_modules.assign(firsts.begin(), firsts.end() - 1);
+        parts_.triangles.sort();
+        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), parts_.internodes.size()};
     }
 
 private:
     void add_internodes(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
-        internodes_.reserve(internodes_.size() + geometry.internodes.size());
+        parts_.internodes.reserve(parts_.internodes.size() + geometry.internodes.size());
         for (const Internode& internode : geometry.internodes) {
             const Rgba colour = colours.of(internode.colour, true);
-            internodes_.push_back({extent_.parts(internode.base),
-                                   extent_.parts(internode.tip),
-                                   extent_.part_of_radius(internode.base_radius),
-                                   extent_.part_of_radius(internode.tip_radius),
+            parts_.internodes.push_back({parts_.extent.parts(internode.base),
+                                   parts_.extent.parts(internode.tip),
+                                   parts_.extent.part_of_radius(internode.base_radius),
+                                   parts_.extent.part_of_radius(internode.tip_radius),
                                    {colour[0], colour[1], colour[2]},
                                    static_cast<std::uint8_t>(std::min<int>(internode.order, 255)),
                                    first + internode.module});
         }
         if (geometry.textures.empty()) return;
-        limb_textures_.resize(internodes_.size() - geometry.internodes.size());
+        parts_.limb_textures.resize(parts_.internodes.size() - geometry.internodes.size());
         for (const std::uint16_t texture : geometry.textures) {
-            limb_textures_.push_back(static_cast<std::uint16_t>(picture(geometry, texture)));
+            parts_.limb_textures.push_back(static_cast<std::uint16_t>(picture(geometry, texture)));
         }
     }
 
@@ -229,14 +139,14 @@ private:
         for (std::uint32_t i = 2; cut.size() < 3 * (corners.size() - 2) && i < corners.size(); ++i) {
             cut.insert(cut.end(), {0, i - 1, i});
         }
-        const auto origin = static_cast<std::uint32_t>(triangles_.points.size());
+        const auto origin = static_cast<std::uint32_t>(parts_.triangles.points.size());
         std::vector<glm::dvec2> uvs(corners.size());
         if (texture > 0) uvs = geometry::texture_coordinates(corners, normal);
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            triangles_.add({corners[i], normal, uvs[i]}, colour, module);
+            parts_.triangles.add({corners[i], normal, uvs[i]}, colour, module);
         }
-        for (const std::uint32_t corner : cut) triangles_.indices.push_back(origin + corner);
-        triangles_.wear(texture);
+        for (const std::uint32_t corner : cut) parts_.triangles.indices.push_back(origin + corner);
+        parts_.triangles.wear(texture);
     }
 
     void add_polygons(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
@@ -256,10 +166,10 @@ private:
             const Rgba colour = colours.of(piece.colour, piece.kind == MeshPiece::Kind::cylinder);
             for (const std::uint32_t index : std::span(mesh.triangles).subspan(piece.first, piece.count)) {
                 std::uint32_t& place = written[index];
-                if (place == unused) place = triangles_.add(mesh.vertices[index], colour, first + piece.module);
-                triangles_.indices.push_back(place);
+                if (place == unused) place = parts_.triangles.add(mesh.vertices[index], colour, first + piece.module);
+                parts_.triangles.indices.push_back(place);
             }
-            triangles_.wear(picture(geometry, piece.look.texture));
+            parts_.triangles.wear(picture(geometry, piece.look.texture));
         }
     }
 
@@ -273,7 +183,7 @@ private:
                 continue;
             }
             const Pose& pose = organ.pose;
-            Group& group = groups_[*shape];
+            Group& group = parts_.groups[*shape];
             // Round organs lie across `up`; surfaces have x along left, y along heading, z along up.
             const glm::dvec3 size = is_surface ? organ.size : glm::dvec3(organ.size.x);
             group.places.push_back(matrix(size.x * pose.left, size.y * pose.heading, size.z * pose.up, pose.position));
@@ -284,7 +194,7 @@ private:
 
     void add_labels(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
         for (const Label& label : geometry.labels) {
-            labels_.push_back(
+            parts_.labels.push_back(
                 {point_of(label.position), colours.of(label.colour, false), first + label.module, &label.text});
         }
     }
@@ -350,70 +260,9 @@ private:
         out.put_all(std::span<const std::uint32_t>(triangles));
     }
 
-    std::string packet(const std::vector<std::uint32_t>& firsts) const {
-        const auto count = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-        MessageBytes out("ESP1");
-        out.reserve(128 + 24 * internodes_.size() + 28 * triangles_.points.size() + 4 * triangles_.indices.size());
-        out.put(writer_.growth_, static_cast<std::int32_t>(frame_.step), count(frame_.plants), count(internodes_),
-                count(triangles_.points), count(triangles_.indices), count(groups_), point_of(extent_.box.lower),
-                point_of(extent_.box.upper), static_cast<float>(extent_.radius));
-        out.put_all(std::span(firsts).first(frame_.plants.size()));
-        out.put_all(std::span<const InternodeBytes>(internodes_));
-        out.put_all(std::span<const Point>(triangles_.points));
-        out.put_all(std::span<const Normal>(triangles_.normals));
-        out.put_all(std::span<const Rgba>(triangles_.colours));
-        out.put_all(std::span<const std::uint32_t>(triangles_.modules));
-        out.put_all(std::span<const std::uint32_t>(triangles_.indices));
-        for (const auto& [shape, group] : groups_) {
-            out.put(shape, count(group.places));
-            out.put_all(std::span<const std::array<float, 12>>(group.places));
-            out.put_all(std::span<const Rgba>(group.colours));
-            out.put_all(std::span<const std::uint32_t>(group.modules));
-        }
-        put_textures(out);
-        put_labels(out);
-        return out.take();
-    }
-
-    void put_textures(MessageBytes& out) const {
-        struct Range {
-            std::uint32_t texture, first, count;  ///< indices
-        };
-        std::vector<Range> ranges;
-        for (std::uint32_t i = 0; i < triangles_.textures.size(); ++i) {
-            const std::uint32_t texture = triangles_.textures[i];
-            if (texture == 0) continue;
-            if (ranges.empty() || ranges.back().texture != texture) ranges.push_back({texture, 3 * i, 0});
-            ranges.back().count += 3;
-        }
-        const bool has_limbs = std::any_of(limb_textures_.begin(), limb_textures_.end(), [](auto t) { return t > 0; });
-        std::vector<std::uint16_t> of_limbs;
-        if (has_limbs) {
-            of_limbs = limb_textures_;
-            of_limbs.resize((internodes_.size() + 1) / 2 * 2);  // a multiple of 4 bytes
-        }
-        out.put(static_cast<std::uint32_t>(ranges.size()), static_cast<std::uint32_t>(labels_.size()),
-                static_cast<std::uint32_t>(has_limbs));
-        out.put_all(std::span<const Range>(ranges));
-        if (!ranges.empty()) out.put_all(std::span<const OnPicture>(triangles_.uvs));
-        out.put_all(std::span<const std::uint16_t>(of_limbs));
-    }
-
-    void put_labels(MessageBytes& out) const {
-        for (const ShownLabel& label : labels_) {
-            out.put(label.position, label.colour, label.module);
-            out.put_text(label.text->substr(0, most_label));
-        }
-    }
-
     PacketWriter& writer_;
     const timeline::Frame& frame_;
-    const Extent extent_;
-    std::vector<InternodeBytes> internodes_;
-    std::vector<std::uint16_t> limb_textures_;  ///< of the internodes; shorter where the last ones have none
-    Triangles triangles_;
-    std::vector<ShownLabel> labels_;
-    std::map<std::uint32_t, Group> groups_;
+    PacketParts parts_;
     std::vector<NewShape> new_shapes_;
 };
 

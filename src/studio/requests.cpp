@@ -10,9 +10,7 @@
 #include "base/text.h"
 #include "language/parser/functions.h"
 #include "studio/document_files.h"
-#include "studio/field_bytes.h"
 #include "studio/graph_text.h"
-#include "studio/inquiry.h"
 #include "studio/notation_help.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
@@ -134,8 +132,7 @@ Json Session::open_text(Viewer&, const Json& request) {
 }
 
 Json Session::change(Viewer&, const Json& request) {
-    if (!document_.is_open()) throw UserError("nothing is open");
-    DocumentState state = document_.now();
+    DocumentState state = edited();
     const std::set<fs::path> known = texts();
     if (request.contains("texts")) {
         for (const auto& [path, text] : request["texts"].items()) {
@@ -161,7 +158,7 @@ Json Session::change(Viewer&, const Json& request) {
 Json Session::graph(Viewer&, const Json& request) {
     const fs::path file = request.at("path").get<std::string>();
     if (!texts().contains(file)) throw UserError(fmt::format("{} is not a text of this document", file.string()));
-    DocumentState state = document_.now();
+    DocumentState state = edited();
     state.unsaved[file] = edited_graph(file, text_of(file, state), request);
     apply(std::move(state), request.value("label", "graph"), request.value("transient", false));
     return {{"version", document_.version()}};
@@ -182,7 +179,7 @@ Json Session::redo(Viewer&, const Json&) {
 Json Session::grow(Viewer&, const Json& request) {
     if (!growth_) throw UserError("nothing grows");
     const int to = std::clamp(request.at("to").get<int>(), 0, most_steps);
-    DocumentState state = document_.now();
+    DocumentState state = edited();
     state.opened.steps = to;
     const int known = newest_.step;
     const std::string label = fmt::format("grow to step {}", to);
@@ -197,8 +194,9 @@ Json Session::grow(Viewer&, const Json& request) {
         tell(growth_json());
         follow_from_ = known + 1;
     } else {
+        const fs::path before = document_.now().opened.path;
         document_.change(std::move(state), label, false);
-        document_changed(document_.now().opened.path, known + 1);
+        document_changed(before, known + 1);
     }
     return {{"version", document_.version()}};
 }
@@ -215,7 +213,7 @@ Json Session::look(Viewer& viewer, const Json& request) {
     return {{"step", newest_.step}};
 }
 
-Growth& Session::grown_by(const Json& request) const {
+Shown& Session::grown_by(const Json& request) const {
     if (!growth_ || growth_->number() != request.at("growth").get<std::uint32_t>()) {
         throw UserError("this growth is gone; another has begun");
     }
@@ -223,35 +221,27 @@ Growth& Session::grown_by(const Json& request) const {
 }
 
 Json Session::frame(Viewer& viewer, const Json& request) {
-    const Growth& growth = grown_by(request);
+    const Shown& growth = grown_by(request);
     const int step = request.at("step").get<int>();
-    if (!growth.steps().has(step)) throw UserError(fmt::format("step {} has not been grown", step));
+    if (!growth.has(step)) throw UserError(fmt::format("step {} has not been grown", step));
     send_when_drawn(viewer, step);
     return {{"step", step}};
 }
 
 Json Session::column(Viewer& viewer, const Json& request) {
-    const Growth& growth = grown_by(request);
-    viewer.page.send_bytes(studio::column(*growth.scene(), growth.steps(), growth.number(),
-                                          request.at("step").get<int>(), request.at("name").get<std::string>()));
+    viewer.page.send_bytes(
+        grown_by(request).column(request.at("step").get<int>(), request.at("name").get<std::string>()));
     return Json::object();
 }
 
 Json Session::pick(Viewer&, const Json& request) {
-    const Growth& growth = grown_by(request);
-    return what_is_known(*growth.scene(), growth.steps(), request.at("step").get<int>(),
-                         request.at("module").get<std::uint32_t>());
+    return grown_by(request).what_is_known(request.at("step").get<int>(), request.at("module").get<std::uint32_t>());
 }
 
-// The field is read on the growth's thread, where it does not change meanwhile.
 Json Session::field(Viewer& viewer, const Json& request) {
-    Growth& growth = grown_by(request);
-    const std::string name = request.at("name").get<std::string>();
     Page* page = &viewer.page;
-    growth.ask([this, page, name, number = growth.number()](const World& world) {
-        const Field* found = world.environment().fields().find(name);
-        if (!found) return;
-        post_([this, page, bytes = field_bytes(*found, number, world.steps_done())] {
+    grown_by(request).ask_field(request.at("name").get<std::string>(), [this, page](std::string bytes) {
+        post_([this, page, bytes = std::move(bytes)] {
             for (const auto& known : viewers_) {
                 if (&known->page == page) page->send_bytes(bytes);
             }
@@ -297,7 +287,7 @@ Json Session::save(Viewer&, const Json& request) {
 
 // With the files below its folder that it reads, at the same places beside it.
 void Session::save_as(const fs::path& path) {
-    const DocumentState now = document_.now();
+    const DocumentState now = edited();
     const fs::path main = now.opened.path, folder = main.parent_path();
     if (kind_of(main) == "object") throw UserError("save the folder of an object under its own name");
     if (fs::exists(path)) throw UserError(fmt::format("{} is there already", path.string()));

@@ -3,7 +3,8 @@
 #include "espalier/base/file.h"
 
 #include "base/csv_file.h"
-#include "studio/inquiry.h"
+#include "studio/document_files.h"
+#include "studio/recording.h"
 #include "studio/session_viewer.h"
 
 #include <climits>
@@ -33,6 +34,12 @@ Json json_of(const Diagnostic& diagnostic) {
             {"column", diagnostic.place.column},
             {"message", diagnostic.message},
             {"source", diagnostic.source}};
+}
+
+bool same_files(const std::map<fs::path, ReadLog::File>& a, const std::map<fs::path, ReadLog::File>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+        return one.first == other.first && one.second.kept == other.second.kept;
+    });
 }
 
 Json cell_json(const std::string& cell) {
@@ -116,11 +123,27 @@ void Session::document_changed(const fs::path& before, std::optional<int> follow
     if (is_other) {
         read_.clear();
         problems_.clear();
+        recorded_from_.reset();
     }
     follow_from_ = follow_from.value_or(is_other ? 0 : INT_MAX);
     unkept_ = true;
-    tell(document_json());
+    // Of another document nothing is known before it has been read.
+    is_document_told_ = false;
+    if (!is_other) tell_document();
     begin_growth();
+}
+
+void Session::tell_document() {
+    is_document_told_ = true;
+    tell(document_json());
+}
+
+const DocumentState& Session::edited() const {
+    if (!document_.is_open()) throw UserError("nothing is open");
+    if (recorded_from_) return *recorded_from_;
+    if (is_run(document_.now().opened.path))
+        throw UserError("the run does not tell what it grew from: it can only be watched");
+    return document_.now();
 }
 
 std::string Session::text_of(const fs::path& file, const DocumentState& state) const {
@@ -164,7 +187,7 @@ void Session::begin_growth() {
 void Session::begin_next_growth() {
     if (!waits_ || !document_.is_open()) return;
     // A drag shows what it passes, even if it changes faster than the plant grows.
-    const std::unique_ptr<Growth>& latest = next_ ? next_ : growth_;
+    const std::unique_ptr<Shown>& latest = next_ ? next_ : growth_;
     if (document_.is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
     waits_ = false;
     is_busy_ = true;
@@ -181,7 +204,11 @@ void Session::begin_next_growth() {
     for (const auto& viewer : viewers_) {
         if (viewer->step) order.looked_at.insert(*viewer->step);
     }
-    next_ = std::make_unique<Growth>(std::move(order), listener, workers_);
+    if (is_run(now.opened.path)) {
+        next_ = std::make_unique<Recording>(std::move(order), listener, workers_);
+    } else {
+        next_ = std::make_unique<Growth>(std::move(order), listener, workers_);
+    }
 }
 
 void Session::started(std::uint32_t growth, GrowthStart start) {
@@ -204,7 +231,7 @@ void Session::failed(std::uint32_t growth, std::vector<Diagnostic> why) {
     post_([this, growth, why = std::move(why)] { note_failed(growth, why); });
 }
 
-void Session::retire(std::unique_ptr<Growth> growth) {
+void Session::retire(std::unique_ptr<Shown> growth) {
     if (!growth) return;
     growth->cancel();
     retired_.push_back(std::move(growth));
@@ -219,9 +246,14 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     retire(std::move(growth_));
     growth_ = std::move(next_);
     start_ = std::move(start);
+    const std::uint64_t seed = growth_->opened().seed ? own_seed_ : start_.seed;
+    const int steps = growth_->opened().steps ? own_steps_ : start_.last_step;
+    const bool is_known =
+        is_document_told_ && same_files(read_, start_.files) && own_seed_ == seed && own_steps_ == steps;
     read_ = start_.files;
-    if (!growth_->opened().seed) own_seed_ = start_.seed;
-    if (!growth_->opened().steps) own_steps_ = start_.last_step;
+    recorded_from_ = start_.recorded_from;
+    own_seed_ = seed;
+    own_steps_ = steps;
     problems_ = start_.warnings;
     newest_ = {};
     newest_.step = -1;
@@ -230,7 +262,7 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     reason_.clear();
     columns_.clear();
     rows_.clear();
-    tell(document_json());
+    if (!is_known) tell_document();
     tell(problems_json());
     tell(growth_json());
     tell(columns_json());
@@ -296,6 +328,7 @@ void Session::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& w
         retire(std::move(next_));
         if (growth_) growth_->rest(false);
         problems_ = why;
+        if (!is_document_told_) tell_document();
         tell(problems_json());
     } else if (growth_ && growth_->number() == growth) {
         state_ = "failed";
@@ -331,20 +364,20 @@ void Session::show(Viewer& viewer) {
 }
 
 void Session::send_when_drawn(Viewer& viewer, int step) {
-    if (growth_->steps().has_packet(step)) return send_packet(viewer, step);
+    if (growth_->has_packet(step)) return send_packet(viewer, step);
     viewer.awaits.insert(step);
     growth_->draw(step);
 }
 
 void Session::send_packet(Viewer& viewer, int step) {
     viewer.awaits.erase(step);
-    const std::vector<std::string> shapes = growth_->steps().shapes();
+    const std::vector<std::string> shapes = growth_->shapes();
     if (viewer.growth != growth_->number()) viewer.shapes = viewer.textures = 0;
     viewer.growth = growth_->number();
-    const std::size_t textures = growth_->steps().textures().size();
+    const std::size_t textures = growth_->textures().size();
     if (std::exchange(viewer.textures, textures) < textures) viewer.page.send_text(textures_json().dump());
     for (; viewer.shapes < shapes.size(); ++viewer.shapes) viewer.page.send_bytes(shapes[viewer.shapes]);
-    viewer.page.send_bytes(growth_->steps().packet(step));
+    viewer.page.send_bytes(growth_->packet(step));
 }
 
 // --- what pages are told
@@ -399,7 +432,7 @@ Json Session::growth_json() const {
 }
 
 Json Session::columns_json() const {
-    return {{"say", "columns"}, {"growth", growth_->number()}, {"columns", column_names(*growth_->scene())}};
+    return {{"say", "columns"}, {"growth", growth_->number()}, {"columns", growth_->column_names()}};
 }
 
 Json Session::fields_json() const {
@@ -413,7 +446,7 @@ Json Session::fields_json() const {
 Json Session::textures_json() {
     Json files = Json::array(), reliefs = Json::array();
     const auto number = [this](const fs::path& file) { return file.empty() ? Json() : Json(files_.number(file)); };
-    for (const WornPicture& worn : growth_->steps().textures()) {
+    for (const WornPicture& worn : growth_->textures()) {
         files.push_back(number(worn.colours));
         reliefs.push_back(number(worn.normals));
     }

@@ -83,6 +83,9 @@ private:
     Json dismiss(Viewer& viewer, const Json& request);
 
     // The document.
+    /// What a change begins with: of a run, what that grew from. Throws UserError if there is nothing to edit.
+    const DocumentState& edited() const;
+    void tell_document();
     void apply(DocumentState state, const std::string& label, bool transient);
     /// `before`: what was open. Pages that look at the last step see every one from `follow_from` on.
     void document_changed(const std::filesystem::path& before, std::optional<int> follow_from = {});
@@ -116,9 +119,9 @@ private:
     void note_stopped(std::uint32_t growth);
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why);
     void add_statistics(const std::string& rows);
-    void retire(std::unique_ptr<Growth> growth);
+    void retire(std::unique_ptr<Shown> growth);
     void forget_ended();
-    Growth& grown_by(const Json& request) const;
+    Shown& grown_by(const Json& request) const;
     Json document_json() const;
     Json texts_json() const;
     Json settings_json() const;
@@ -150,15 +153,17 @@ private:
 
     Document document_;
     std::map<std::filesystem::path, ReadLog::File> read_;  ///< what the last growth that started has read
+    std::optional<DocumentState> recorded_from_;           ///< of the run that is open
+    bool is_document_told_ = true;                         ///< pages know the newest version
     std::vector<Diagnostic> problems_;
     bool unkept_ = false;  ///< the newest state is not on disk
 
     Workers workers_;
     std::uint32_t last_growth_ = 0;
-    bool waits_ = false;                            ///< a growth of the newest version is to begin
-    std::unique_ptr<Growth> next_;                  ///< reads its files; the present growth goes on if it cannot
-    std::unique_ptr<Growth> growth_;                ///< the one that pages see
-    std::vector<std::unique_ptr<Growth>> retired_;  ///< end after their step
+    bool waits_ = false;                           ///< a growth of the newest version is to begin
+    std::unique_ptr<Shown> next_;                  ///< reads its files; the present growth goes on if it cannot
+    std::unique_ptr<Shown> growth_;                ///< the one that pages see
+    std::vector<std::unique_ptr<Shown>> retired_;  ///< end after their step
     GrowthStart start_;
     std::uint64_t own_seed_ = 0;  ///< what the files say, where nobody says more
     int own_steps_ = 0;

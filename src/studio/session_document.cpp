@@ -72,10 +72,9 @@ std::set<fs::path> Session::texts() const {
     for (const auto& [path, file] : read_) {
         if (file.kept && (is_palette(path) || is_text(file.bytes))) texts.insert(path);
     }
-    for (const auto& [path, text] : document_.now().unsaved) texts.insert(path);
-    if (document_.is_open() && !fs::is_directory(document_.now().opened.path)) {
-        texts.insert(document_.now().opened.path);
-    }
+    const DocumentState& now = edited();
+    for (const auto& [path, text] : now.unsaved) texts.insert(path);
+    if (!fs::is_directory(now.opened.path)) texts.insert(now.opened.path);
     return texts;
 }
 
@@ -124,6 +123,11 @@ Json Session::document_json() const {
                  {"redo", optional_json(document_.redo_label())}};
     if (!document_.is_open()) return json;
     json["kind"] = kind_of(opened.path);
+    if (json["kind"] == "run" && !recorded_from_) {
+        json.update({{"texts", Json::array()}, {"settings", Json::array()}, {"graphs", Json::array()}});
+        json.update({{"seed", own_seed_}, {"steps", own_steps_}});
+        return json;
+    }
     json["texts"] = texts_json();
     json["settings"] = settings_json();
     json["graphs"] = graphs_json();
@@ -136,14 +140,14 @@ Json Session::graphs_json() const {
     Json graphs = Json::array();
     for (const fs::path& file : texts()) {
         if (language_of(file) != "pgraph") continue;
-        Json graph = graph_json(file, text_of(file, document_.now()));
+        Json graph = graph_json(file, text_of(file, edited()));
         if (!graph.is_null()) graphs.push_back(std::move(graph));
     }
     return graphs;
 }
 
 Json Session::texts_json() const {
-    const DocumentState& now = document_.now();
+    const DocumentState& now = edited();
     Json list = Json::array();
     for (const fs::path& file : texts()) {
         Json text = {{"path", file.string()},
@@ -163,10 +167,10 @@ Json Session::settings_json() const {
         const fs::path* file;
         const WrittenNumber* number;
     };
-    const auto all = numbers(document_.now());
+    const auto all = numbers(edited());
     std::vector<Row> rows;
     for (const auto& [name, found] : all) rows.push_back({name, &found.first, &found.second});
-    const fs::path& main = document_.now().opened.path;
+    const fs::path& main = edited().opened.path;
     std::stable_sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
         return std::tuple(*a.file != main, *a.file, a.number->offset) <
                std::tuple(*b.file != main, *b.file, b.number->offset);

@@ -25,9 +25,9 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
         if (page == &viewer.page) run->cancel();
     }
     if (request.at("skin").is_null()) return Json::object();
-    const Growth& growth = grown_by(request);
+    const Shown& shown = grown_by(request);
     const int step = request.at("step").get<int>();
-    if (!growth.steps().has(step)) throw UserError(fmt::format("step {} has not been grown", step));
+    if (!shown.has_packet(step)) throw UserError(fmt::format("step {} has not been drawn", step));
     const bool smooth = request["skin"].get<std::string>() == "smooth";
     Page* const page = &viewer.page;
     const auto tell_page = [this, page](auto send) {
@@ -50,7 +50,7 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
         }
     };
     limb_runs_.emplace_back(
-        page, std::make_unique<LimbRun>(LimbOrder{growth.steps().packet(step), growth.steps().textures(), smooth},
+        page, std::make_unique<LimbRun>(LimbOrder{shown.packet(step), shown.textures(), smooth},
                                         progressed, done));
     return Json::object();
 }

@@ -24,10 +24,14 @@ const char* const stalk = "lsystem: 1\nderivation length: 3\naxiom: A\nA --> F(1
 /// serve() on a thread of its own.
 class Served {
 public:
-    Served() {
+    explicit Served(bool is_recorded = false) {
         options_.folder = folder_.path();
         options_.scratch = scratch_.path();
         options_.opened.path = folder_.write("stalk.l", stalk);
+        if (is_recorded) {
+            record(options_.opened.path, 3, folder_.path() / "run");
+            options_.opened.path = folder_.path() / "run";
+        }
         options_.read = read_as_run;
         options_.library = [] { return std::vector<espalier::studio::LibraryEntry>(); };
         options_.interrupt = &interrupted_;
@@ -132,6 +136,26 @@ TEST_CASE("a page of the studio with the token is told what grows", "[studio]") 
     page.write(R"({"do": "hello", "id": 1, "token": ")" + studio.token + "\"}");
     CHECK(page.read_text()["reply"] == 1);
     CHECK(page.read_text()["say"] == "document");
+}
+
+TEST_CASE("a page is told of a recorded run, and asks for its frames", "[studio]") {
+    const Served studio(true);
+    Client page(studio, "http://" + studio.host(), studio.host());
+    page.write(R"({"do": "hello", "id": 1, "token": ")" + studio.token + "\"}");
+    Json message = page.read_text();
+    while (!message.is_null() && (message.value("say", "") != "growth" || message["state"] != "done"))
+        message = page.read_text();
+    REQUIRE(!message.is_null());
+    CHECK(message["step"] == 3);
+    page.write(R"({"do": "frame", "id": 2, "step": 1, "growth": )" + message["growth"].dump() + "}");
+    std::string packet;
+    while (packet.substr(0, 4) != "ESP1" || number_at<std::int32_t>(packet, 8) != 1) {
+        beast::flat_buffer buffer;
+        page.socket.read(buffer, page.error);
+        REQUIRE(!page.error);
+        packet = beast::buffers_to_string(buffer.data());
+    }
+    CHECK(number_at<std::uint32_t>(packet, 16) == 1);  // internodes
 }
 
 TEST_CASE("a studio ends while pages are open, and they are told", "[studio]") {

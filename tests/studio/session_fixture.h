@@ -1,6 +1,8 @@
 // A studio without a network.
 #pragma once
 
+#include "espalier/simulation/simulation.h"
+
 #include "catch.h"
 #include "listening_page.h"
 #include "temporary_folder.h"
@@ -28,6 +30,7 @@ public:
     ListeningPage& begin() {
         session = std::make_unique<espalier::studio::Session>(
             options, [this](std::function<void()> work) { mailbox.post(std::move(work)); });
+        version_ = 0;
         session->join(page);
         ask({{"do", "hello"}});
         return page;
@@ -38,7 +41,9 @@ public:
         request["id"] = ++requests_;
         session->receive(page, request.dump());
         for (const Json& text : page.texts) {
-            if (text.contains("reply") && text["reply"] == requests_) return text;
+            if (!text.contains("reply") || text["reply"] != requests_) continue;
+            if (text.contains("version") && text["version"].is_number()) version_ = text["version"];
+            return text;
         }
         return nullptr;
     }
@@ -59,7 +64,7 @@ public:
             const Json growth = page.last("growth");
             const Json document = page.last("document");
             return !growth.is_null() && !document.is_null() && growth["state"] == "done" &&
-                   growth["version"] == document["version"];
+                   growth["version"] == document["version"] && document["version"] >= version_;
         });
     }
 
@@ -78,7 +83,18 @@ public:
 
 private:
     int requests_ = 0;
+    std::uint64_t version_ = 0;  ///< of the document, as the last reply told
 };
+
+/// Grows a file with a timeline, as `espalier run FILE --steps STEPS --output FOLDER` does.
+inline void record(const std::filesystem::path& file, int steps, const std::filesystem::path& folder) {
+    const espalier::ReadLog reads;
+    espalier::RunOptions options;
+    options.output = folder;
+    options.arguments = {file.string(), "--steps", std::to_string(steps)};
+    options.inputs = &reads;
+    espalier::run(read_as_run({file, steps, {}}), options);
+}
 
 /// A number of a binary message.
 template <class T>

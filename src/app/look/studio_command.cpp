@@ -1,3 +1,4 @@
+#include "espalier/archive/recorded_run.h"
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 #include "espalier/simulation/object.h"
@@ -19,6 +20,7 @@
 #include <map>
 #include <random>
 #include <regex>
+#include <set>
 #include <system_error>
 
 namespace espalier::app {
@@ -117,12 +119,24 @@ private:
     // The files of the opened folder itself, without what lies deeper: that may be anything.
     void add_own(const fs::path& data, std::vector<LibraryEntry>& entries) const {
         std::error_code ignored;
+        for (const fs::path& folder : {folder_, folder_ / "output"}) add_runs(folder, entries);
         for (const auto& file : fs::directory_iterator(folder_, ignored)) {
             const bool is_scene = file.is_regular_file() && describes_scene(file.path());
             if (!is_scene && !(file.is_regular_file() && describes_model(file.path()))) continue;
             if (file.path().parent_path() == data) continue;
             entries.push_back(
                 {file.path(), file.path().stem().string(), describe_file(file.path()).summary, {}, is_scene, true});
+        }
+    }
+
+    static void add_runs(const fs::path& folder, std::vector<LibraryEntry>& entries) {
+        std::error_code ignored;
+        std::set<fs::path> runs;
+        for (const auto& inside : fs::directory_iterator(folder, ignored)) {
+            if (fs::is_regular_file(inside.path() / "run.json", ignored)) runs.insert(inside.path());
+        }
+        for (const fs::path& run : runs) {
+            entries.push_back({run, run.filename().string(), "a recorded run", {}, false, true});
         }
     }
 
@@ -141,7 +155,8 @@ class Studio final : public Command {
 public:
     explicit Studio(CLI::App& program)
         : Command(program, "studio", "edit, grow, watch and measure plants in the browser") {
-        app().add_option("what", what_, "a model, a scene, or the folder of an object; default: a random tree");
+        app().add_option("what", what_,
+                         "a model, a scene, the folder of an object or of a recorded run; default: a random tree");
         app().add_option("--folder", folder_,
                          "files are read and written below it; default: this folder, or the one of a file outside it");
         app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
@@ -153,6 +168,7 @@ Examples:
   espalier studio                                    a random tree, and the library in the page's gallery
   espalier studio models/trees/honda.l
   espalier studio environments/two-trees.toml
+  espalier studio output/two-trees                   a recorded run
   espalier studio --no-browser --port 8700           for a tunnel: ssh -L 8700:127.0.0.1:8700 HOST)");
     }
 
@@ -190,9 +206,17 @@ private:
         return folder.has_filename() ? folder : folder.parent_path();
     }
 
+    // A file of a run stands for the run.
+    fs::path opened_path() const {
+        const fs::path path = fs::absolute(here_or_with_program(what_)).lexically_normal();
+        const fs::path run = folder_of_run(path);
+        const fs::path opened = fs::is_regular_file(run / "run.json") ? run : path;
+        return opened.has_filename() ? opened : opened.parent_path();
+    }
+
     // Nobody begins with an empty page: a random tree grows if nothing is named.
     Opened opened() const {
-        if (!what_.empty()) return {fs::absolute(here_or_with_program(what_)).lexically_normal(), {}, {}};
+        if (!what_.empty()) return {opened_path(), {}, {}};
         const fs::path tree = model_library({}).parent_path() / "environments/tree.toml";
         if (!fs::exists(tree)) return {};
         return {fs::absolute(tree).lexically_normal(), {}, std::random_device{}() % 1000};
