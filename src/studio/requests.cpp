@@ -14,6 +14,7 @@
 #include "studio/notation_help.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
+#include "studio/sharing.h"
 
 #include <fmt/format.h>
 
@@ -61,6 +62,7 @@ Session::Request Session::request_named(const std::string& name) {
         {"column", &Session::column},     {"pick", &Session::pick},           {"field", &Session::field},
         {"graph", &Session::graph},       {"save", &Session::save},           {"export", &Session::export_run},
         {"new-file", &Session::new_file}, {"limbs", &Session::limbs},         {"dismiss", &Session::dismiss},
+        {"share", &Session::share},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));
@@ -114,21 +116,27 @@ Json Session::open(Viewer&, const Json& request) {
     return {{"version", document_.version()}};
 }
 
-// A text of somebody else's becomes an unsaved file of the opened folder.
+// Texts of somebody else's become files of the opened folder.
 Json Session::open_text(Viewer&, const Json& request) {
-    const fs::path name = fs::path(request.at("name").get<std::string>()).filename();
-    const std::string content = request.at("content").get<std::string>();
-    if (name.empty() || content.size() > most_text) throw UserError("the link holds no model");
-    fs::path path = below_folder(options_.folder / name);
-    for (int number = 2; fs::exists(path); ++number) {
-        path = options_.folder / fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
-    }
-    write_text(path, content);
+    const fs::path path = write_shared(request, options_.folder, options_.library_folder);
     Opened opened{path, {}, {}};
     if (request.contains("steps") && request["steps"].is_number()) opened.steps = request["steps"].get<int>();
     if (request.contains("seed") && request["seed"].is_number()) opened.seed = request["seed"].get<std::uint64_t>();
     apply({opened, {}}, fmt::format("open {}", path.filename().string()), false);
     return {{"version", document_.version()}, {"path", path.string()}};
+}
+
+Json Session::share(Viewer&, const Json&) {
+    const DocumentState& state = edited();
+    if (fs::is_directory(state.opened.path)) throw UserError("a link holds a model or a scene, not a folder of files");
+    std::map<fs::path, std::string> files;
+    for (const auto& [file, read] : read_) files[file] = text_of(file, state);
+    for (const auto& [file, text] : state.unsaved) files[file] = text;
+    files.try_emplace(state.opened.path, text_of(state.opened.path, state));
+    Json shared = shared_files(state.opened.path, files, options_.library_folder);
+    shared.update(
+        {{"seed", state.opened.seed.value_or(own_seed_)}, {"steps", state.opened.steps.value_or(own_steps_)}});
+    return shared;
 }
 
 Json Session::change(Viewer&, const Json& request) {

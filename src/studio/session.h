@@ -65,6 +65,7 @@ private:
     Json help(Viewer& viewer, const Json& request);
     Json open(Viewer& viewer, const Json& request);
     Json open_text(Viewer& viewer, const Json& request);
+    Json share(Viewer& viewer, const Json& request);
     Json change(Viewer& viewer, const Json& request);
     Json graph(Viewer& viewer, const Json& request);
     Json undo(Viewer& viewer, const Json& request);

@@ -27,7 +27,7 @@ export interface StudioDocument {
   version: number;
   path: string;
   name: string;
-  kind: "model" | "scene" | "object";
+  kind: "model" | "scene" | "object" | "run";
   folder: string;
   texts: TextFile[];
   settings: Setting[];
@@ -218,9 +218,17 @@ export interface ChangeRequest {
   transient?: boolean;
 }
 
+/** A file is told by its content, or named if it is one of the library. */
+export interface SharedFile {
+  path: string;
+  content?: string;
+  library?: string;
+  digest?: string;
+}
+
 export interface SharedModel {
-  name: string;
-  content: string;
+  main: string;
+  files: SharedFile[];
   seed: number;
   steps: number;
 }
@@ -231,6 +239,7 @@ export interface Requests {
   library: { send: object; get: Library };
   help: { send: object; get: Help };
   open: { send: { path: string }; get: object };
+  share: { send: object; get: SharedModel };
   "open-text": { send: SharedModel; get: object };
   change: { send: ChangeRequest; get: { version: number } };
   graph: { send: GraphRequest; get: { version: number } };

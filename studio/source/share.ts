@@ -1,6 +1,5 @@
 /** Shares a growth as one HTML file that needs no server, and a model as a link. */
 import { openDialog } from "./dialog.js";
-import { shortName } from "./editor/editor.js";
 import { download, h, whole } from "./elements.js";
 import { compress, decompress, fromBase64, toBase64, urlSafe } from "./view/index.js";
 import type { SharedModel } from "./protocol.js";
@@ -138,17 +137,10 @@ export function shareHtmlDialog(studio: Studio, scene: PlantScene): void {
   }
 }
 
-/** The present model with its settings, as a fragment of an address. */
+/** The present document with its settings, as a fragment of an address. */
 async function linkOf(studio: Studio): Promise<string> {
-  const { document } = studio;
-  const main = document?.texts.find(({ role }) => role === "main") ?? document?.texts[0];
-  if (!document || !main) throw new Error("There is nothing to share yet.");
-  const model: SharedModel = {
-    name: shortName(main.path),
-    content: main.content,
-    seed: document.seed,
-    steps: document.steps,
-  };
+  const { main, files, seed, steps } = await studio.connection.request("share", {});
+  const model: SharedModel = { main, files, seed, steps };
   const packed = urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))));
   return `model=${packed}`;
 }
@@ -166,7 +158,7 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
     const address = `${location.origin}/#${fragment}`;
     if (address.length > longestLink)
       throw new Error(
-        `The model is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the file and send it instead.`,
+        `This is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the files and send them, or share the growth as HTML.`,
       );
     const field = h("textarea", "wide", { readonly: true, rows: 6, "aria-label": "Link" });
     field.value = address;
@@ -182,16 +174,14 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
       },
       "Copy",
     );
-    const files = (studio.document?.texts.length ?? 1) - 1;
     openDialog(
       "Share as a link",
       h(
         "p",
         "",
         {},
-        "The link holds the text of the model, its settings, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery.",
+        "The link holds the texts that did not come with Espalier, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery.",
       ),
-      files > 0 ? h("p", "hint", {}, "Only the main text is in the link, not its side files.") : h("span", ""),
       field,
       h("div", "form-end", {}, copy),
     );

@@ -1,5 +1,6 @@
 // The studio as people use it, in a real browser: node tests/studio.test.mjs PROGRAM
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
@@ -233,6 +234,38 @@ test("a link opens the same model in a studio", async () => {
   await page.waitForFunction(() => /tree-2/.test(document.title));
   await grown();
   assert.match(await page.locator(".cm-content").textContent(), /A tree for tests/);
+});
+
+test("a recorded run opens from the gallery, is scrubbed and picked, and a slider grows what it grew from", async () => {
+  const { base, folder } = place;
+  execFileSync(programPath, ["run", join(folder, "tree.l"), "--steps", "6", "--output", join(folder, "output", "recorded")], {
+    cwd: base,
+  });
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  await page.getByRole("button", { name: "My files" }).click();
+  await page.locator('.card[title$="/recorded"]').click();
+  await page.waitForFunction(() => document.title.startsWith("recorded"));
+  await grown();
+  await shows(6);
+  await page.locator(".scrub").fill("3");
+  await shows(3);
+  await page.locator(".scrub").fill("6");
+  await shows(6);
+  await page.getByLabel("Colour by").selectOption("age");
+  await shot(page, "run");
+  await page.getByLabel("Colour by").selectOption("");
+  await page.getByRole("tab", { name: "Settings" }).click();
+  await page.locator("#setting-RATIO").focus();
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction(() => document.title.startsWith("tree"));
+  await grown();
+  await shows(6);
+  await page.getByRole("button", { name: /^Undo: / }).click();
+  await page.waitForFunction(() => document.title.startsWith("recorded"));
+  await grown();
+  await page.getByRole("button", { name: /^Redo: / }).click();
+  await page.waitForFunction(() => document.title.startsWith("tree"));
+  await grown();
 });
 
 test("two pages show the same plant", async () => {

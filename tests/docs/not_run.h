@@ -22,6 +22,8 @@ inline const std::vector<NotRun>& not_run() {
         {"docs/studio.md", "espalier studio", "serves until somebody ends it; ./dev page --check uses it", ""},
         {"docs/studio.md", "espalier studio models/trees/honda.l",
          "serves until somebody ends it; ./dev page --check uses it", ""},
+        {"docs/studio.md", "espalier studio output/two-trees",
+         "serves until somebody ends it; ./dev page --check uses one", ""},
         {"docs/studio.md", "espalier studio environments/two-trees.toml",
          "serves until somebody ends it; ./dev page --check uses it", ""},
         {"docs/studio.md", "espalier studio --no-browser --port 8700",

@@ -31,12 +31,13 @@ struct LibraryEntry {
 };
 
 struct StudioOptions {
-    std::filesystem::path folder;   ///< files are saved below it only
-    std::filesystem::path scratch;  ///< a folder for what is grown, emptied by the caller
-    std::filesystem::path state;    ///< keeps unsaved work; empty: it is lost with the program
-    Opened opened = {};             ///< an empty path: the page begins with the library
-    bool is_named = true;           ///< somebody named it: it is opened even where unsaved work is kept
-    int port = 0;                   ///< 0: any that is free
+    std::filesystem::path folder;               ///< files are saved below it only
+    std::filesystem::path library_folder = {};  ///< what comes with the program: links only name its files
+    std::filesystem::path scratch;              ///< a folder for what is grown, emptied by the caller
+    std::filesystem::path state;                ///< keeps unsaved work; empty: it is lost with the program
+    Opened opened = {};                         ///< an empty path: the page begins with the library
+    bool is_named = true;                       ///< somebody named it: it is opened even where unsaved work is kept
+    int port = 0;                               ///< 0: any that is free
     /// Reads what is opened as `espalier run` does. Called on several threads. Throws UserError.
     std::function<Scene(const Opened&)> read;
     std::function<std::vector<LibraryEntry>()> library;

@@ -184,6 +184,7 @@ Examples:
                             what_.string()));
         }
         options.folder = folder();
+        options.library_folder = fs::absolute(model_library({})).lexically_normal().parent_path();
         options.scratch = scratch.path();
         options.state = state_file(options.folder);
         options.port = port_;
