@@ -218,7 +218,8 @@ private:
         if (!std::exchange(known.is_told, true)) {
             const bool as_whole =
                 texture > 0 && texture <= shapes->textures.size() && shapes->textures[texture - 1].per_surface;
-            new_shapes_.push_back({known.number, writer_.texture_of(*shapes, texture), organ.surface, shapes, as_whole});
+            new_shapes_.push_back(
+                {known.number, writer_.texture_of(*shapes, texture), organ.surface, shapes, as_whole});
         }
         return known.number;
     }

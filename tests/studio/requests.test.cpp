@@ -2,6 +2,11 @@
 // what reads outside memory.
 #include "session_fixture.h"
 
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+
 using namespace studio_test;
 
 namespace {
@@ -14,17 +19,29 @@ A --> F(LENGTH) A
 endlsystem
 )";
 
-/// One request of each kind, as a page makes it.
+const char* const flower = R"(pgraph 1
+
+Horn stem
+  length 2
+
+Leaf petal
+
+camera -> stem -> petal
+)";
+
+/// Requests as a page makes them, one of each kind or more. The last ones open another document.
 std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
     const std::string file = studio.file.string();
     return {{{"do", "hello"}},
             {{"do", "help"}},
             {{"do", "library"}},
-            {{"do", "open"}, {"path", file}},
-            {{"do", "open-text"}, {"name", "other.l"}, {"content", stem}, {"steps", 2}, {"seed", 1}},
-            {{"do", "change"}, {"texts", {{file, stem}}}, {"label", "text"}, {"transient", true}},
             {{"do", "change"}, {"settings", {{"LENGTH", 3}}}, {"seed", 7}, {"steps", 4}},
-            {{"do", "graph"}, {"path", file}, {"what", "value"}, {"component", "a"}, {"key", "b"}, {"value", "1"}},
+            {{"do", "graph"}, {"path", file}, {"edit", "set"}, {"component", "stem"}, {"key", "bend"}, {"text", "3"}},
+            {{"do", "graph"}, {"path", file}, {"edit", "add"}, {"type", "Leaf"}, {"name", "a"}, {"from", "petal"}},
+            {{"do", "graph"}, {"path", file}, {"edit", "unlink"}, {"from", "stem"}, {"to", "petal"}, {"kind", "->"}},
+            {{"do", "graph"}, {"path", file}, {"edit", "link"}, {"from", "stem"}, {"to", "petal"}, {"kind", "->"}},
+            {{"do", "graph"}, {"path", file}, {"edit", "remove"}, {"component", "petal"}},
+            {{"do", "change"}, {"texts", {{file, stem}}}, {"label", "text"}, {"transient", true}},
             {{"do", "undo"}},
             {{"do", "redo"}},
             {{"do", "grow"}, {"to", 4}},
@@ -34,68 +51,107 @@ std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
             {{"do", "column"}, {"growth", growth}, {"step", 2}, {"name", "age"}},
             {{"do", "pick"}, {"growth", growth}, {"step", 2}, {"module", 1}},
             {{"do", "field"}, {"growth", growth}, {"name", "light"}},
-            {{"do", "save"}, {"path", "kept.l"}},
+            {{"do", "limbs"}, {"growth", growth}, {"step", 2}, {"skin", "tubes"}},
             {{"do", "export"}, {"format", "none"}, {"step", 2}, {"film", true}},
-            {{"do", "dismiss"}, {"message", 1}}};
+            {{"do", "dismiss"}, {"message", 1}},
+            {{"do", "new-file"}, {"name", "bark.bark"}, {"content", "stripes = 3\n"}},
+            {{"do", "save"}, {"path", "kept.l"}},
+            {{"do", "open"}, {"path", file}},
+            {{"do", "open-text"}, {"name", "other.l"}, {"content", stem}, {"steps", 2}, {"seed", 1}}};
 }
 
 /// What a key may wrongly have; the first stands for its absence.
-std::vector<Json> values() {
-    return {Json::value_t::discarded,
-            nullptr,
-            true,
-            -1,
-            0,
-            3.5,
-            1e300,
-            -1e300,
-            4000000000,
-            18446744073709551615u,
-            "",
-            "../x",
-            "1e9",
-            "\xff",
-            std::string(5000, 'a'),
-            Json::array(),
-            Json::array({1, Json::array()}),
-            Json::object(),
-            {{"a", {{"b", nullptr}}}}};
+const std::vector<Json>& wrong_values() {
+    static const std::vector<Json> values{Json::value_t::discarded,
+                                          nullptr,
+                                          true,
+                                          -1,
+                                          0,
+                                          3.5,
+                                          1e300,
+                                          -1e300,
+                                          4000000000,
+                                          18446744073709551615u,
+                                          "",
+                                          "../x",
+                                          "1e9",
+                                          "\xff",
+                                          std::string(5000, 'a'),
+                                          Json::array(),
+                                          Json::array({1, Json::array()}),
+                                          Json::object(),
+                                          {{"a", {{"b", nullptr}}}}};
+    return values;
+}
+
+/// Sends the request; true if it was answered.
+bool is_answered(OpenStudio& studio, Json request) {
+    studio.page.texts.clear();
+    studio.page.packets.clear();
+    request["id"] = "asked";
+    studio.session->receive(studio.page, request.dump(-1, ' ', false, Json::error_handler_t::replace));
+    const bool answered = std::any_of(studio.page.texts.begin(), studio.page.texts.end(),
+                                      [](const Json& text) { return text.value("reply", Json()) == "asked"; });
+    studio.session->tick();
+    while (studio.mailbox.work_once(std::chrono::milliseconds(0))) {
+    }
+    return answered;
+}
+
+/// Every request with every key wrong, and as it should be. Returns how many.
+std::size_t ask_wrongly(OpenStudio& studio) {
+    std::size_t asked = 0;
+    std::uint32_t growth = 1;
+    for (std::size_t kind = 0; kind < requests(studio, growth).size(); ++kind) {
+        const Json plain = requests(studio, growth)[kind];
+        for (const auto& [key, value] : plain.items()) {
+            for (const Json& wrong : wrong_values()) {
+                if (const Json last = studio.page.last("growth"); !last.is_null()) growth = last["growth"];
+                Json request = requests(studio, growth)[kind];
+                if (wrong.is_discarded()) {
+                    request.erase(key);
+                } else {
+                    request[key] = wrong;
+                }
+                INFO(request.dump(-1, ' ', false, Json::error_handler_t::replace));
+                CHECK(is_answered(studio, request));
+                ++asked;
+            }
+        }
+        CHECK(is_answered(studio, plain));
+    }
+    return asked;
 }
 
 }  // namespace
 
 TEST_CASE("a request with any key missing or wrong is answered, and the studio goes on", "[studio]") {
-    OpenStudio studio(stem);
-    ListeningPage& page = studio.begin();
+    const bool is_graph = GENERATE(false, true);
+    OpenStudio studio(is_graph ? flower : stem, is_graph ? "plant.pgraph" : "plant.l");
+    studio.begin();
     studio.wait_until_grown();
-    const std::size_t kinds = requests(studio, 1).size();
-    std::size_t asked = 0;
-    std::uint32_t growth = 1;
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-        const Json plain = requests(studio, 1)[kind];
-        for (const auto& [key, value] : plain.items()) {
-            if (key == "do") continue;
-            for (const Json& wrong : values()) {
-                if (const Json last = page.last("growth"); !last.is_null()) growth = last["growth"];
-                Json request = requests(studio, growth)[kind];
-                wrong.is_discarded() ? static_cast<void>(request.erase(key)) : static_cast<void>(request[key] = wrong);
-                INFO(request.dump(-1, ' ', false, Json::error_handler_t::replace));
-                page.texts.clear();
-                page.packets.clear();
-                request["id"] = "asked";
-                studio.session->receive(page, request.dump(-1, ' ', false, Json::error_handler_t::replace));
-                CHECK(std::any_of(page.texts.begin(), page.texts.end(),
-                                  [](const Json& text) { return text.value("reply", Json()) == "asked"; }));
-                studio.session->tick();
-                while (studio.mailbox.work_once(std::chrono::milliseconds(0))) {
-                }
-                ++asked;
-            }
+    CHECK(ask_wrongly(studio) > 1000);
+
+    const std::filesystem::path whole = studio.folder.write("whole.l", stem);
+    CHECK(!studio.ask({{"do", "open"}, {"path", whole.string()}}).contains("error"));
+    studio.wait_until_grown();
+    CHECK(studio.page.last("growth")["step"] == 3);
+}
+
+TEST_CASE("every request of the protocol is asked wrongly", "[studio]") {
+    OpenStudio studio(stem);
+    std::set<std::string> known, named;
+    for (const Json& request : requests(studio, 1)) known.insert(request["do"]);
+    std::ifstream page(std::filesystem::path(ESPALIER_SOURCE_DIR) / "docs/studio-protocol.md");
+    bool in_table = false;
+    const std::regex name("`([a-z-]+)`");
+    for (std::string line; std::getline(page, line);) {
+        in_table = line.starts_with("| `do` | sends") || (in_table && line.starts_with("|"));
+        if (!in_table || line.starts_with("| `do`")) continue;
+        const std::string cell = line.substr(0, line.find('|', 1));
+        for (std::sregex_iterator match(cell.begin(), cell.end(), name), end; match != end; ++match) {
+            named.insert((*match)[1]);
         }
     }
-    CHECK(asked > 600);
-    CHECK(!studio.ask({{"do", "open"}, {"path", studio.file.string()}}).contains("error"));
-    studio.change({{"steps", 3}, {"seed", nullptr}, {"texts", {{studio.file.string(), stem}}}});
-    studio.wait_until_grown();
-    CHECK(page.last("growth")["step"] == 3);
+    CHECK(known == named);
 }
