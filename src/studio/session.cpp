@@ -70,6 +70,7 @@ void Session::join(Page& page) {
 
 void Session::leave(Page& page) {
     std::erase_if(viewers_, [&](const auto& viewer) { return &viewer->page == &page; });
+    waiting_limbs_.erase(&page);
 }
 
 void Session::receive(Page& page, const std::string& text) {
@@ -96,7 +97,7 @@ void Session::tick() {
     guard([this] {
         begin_next_growth();
         forget_ended();
-        std::erase_if(limb_runs_, [](const auto& run) { return run.second->has_ended(); });
+        begin_limbs();
         if (unkept_) keep();
     });
 }

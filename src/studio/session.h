@@ -133,6 +133,7 @@ private:
     Json fields_json() const;
     Json textures_json();
     Json view_json() const;
+    void begin_limbs();
     Json statistics_json(std::size_t first) const;
     void tell_statistics();
     void show(Viewer& viewer);
@@ -179,7 +180,8 @@ private:
 
     int exports_ = 0;
     std::unique_ptr<ExportRun> export_;
-    std::vector<std::pair<const Page*, std::unique_ptr<LimbRun>>> limb_runs_;  ///< of pages; those but the last end
+    std::map<const Page*, std::unique_ptr<LimbRun>> limb_runs_;                       ///< of pages
+    std::map<const Page*, std::function<std::unique_ptr<LimbRun>()>> waiting_limbs_;  ///< begin when that has ended
 };
 
 }  // namespace espalier::studio

@@ -21,9 +21,9 @@ constexpr const char* skin_name(bool smooth) {
 }
 
 Json Session::limbs(Viewer& viewer, const Json& request) {
-    for (const auto& [page, run] : limb_runs_) {
-        if (page == &viewer.page) run->cancel();
-    }
+    const auto running = limb_runs_.find(&viewer.page);
+    if (running != limb_runs_.end()) running->second->cancel();
+    waiting_limbs_.erase(&viewer.page);
     if (request.at("skin").is_null()) return Json::object();
     const Shown& shown = grown_by(request);
     const int step = request.at("step").get<int>();
@@ -49,10 +49,23 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
             post_([this, why] { say("error", why); });
         }
     };
-    limb_runs_.emplace_back(
-        page, std::make_unique<LimbRun>(LimbOrder{shown.packet(step), shown.textures(), smooth},
-                                        progressed, done));
+    LimbOrder order{shown.packet(step), shown.textures(), smooth};
+    waiting_limbs_[page] = [order = std::move(order), progressed, done] {
+        return std::make_unique<LimbRun>(order, progressed, done);
+    };
+    begin_limbs();
     return Json::object();
+}
+
+// One at a time for each page: those that were cancelled still take the machine until they end.
+void Session::begin_limbs() {
+    std::erase_if(limb_runs_, [](const auto& run) { return run.second->has_ended(); });
+    std::erase_if(waiting_limbs_, [this](const auto& waiting) {
+        const auto& [page, make] = waiting;
+        if (limb_runs_.contains(page)) return false;
+        limb_runs_[page] = make();
+        return true;
+    });
 }
 
 Json Session::view_json() const {

@@ -1,4 +1,4 @@
-/** Limbs as rendered pictures have them, once the picture rests: with bark where the model gives it, with a smooth skin on demand. */
+/** Limbs as rendered pictures have them, once the picture rests: with bark where they wear it, with a smooth skin on demand. */
 import { h, remember, remembered } from "./elements.js";
 import type { Studio } from "./state.js";
 import type { Limbs, Packet, PlantScene } from "./view/index.js";
@@ -35,13 +35,20 @@ export class LimbLook {
   setSmooth(smooth: boolean): void {
     this.smooth = smooth;
     remember("smooth", smooth);
-    this.element.hidden = true;
+    this.endProgress();
     this.studio.connection.request("limbs", { skin: null }).catch(() => undefined);
     this.asked = "";
     this.studio.limbs = null;
     this.scene.wear(null);
     this.note();
     this.ask(0);
+  }
+
+  /** What is being made is not waited for any more. */
+  private endProgress(): void {
+    if (this.element.hidden) return;
+    this.element.hidden = true;
+    this.studio.emit("progress", { what: "smooth skin", done: 1 });
   }
 
   /** Tells in the page how the limbs are drawn: "", "tubes" or "smooth", and that others are on their way. */
@@ -71,6 +78,7 @@ export class LimbLook {
       return;
     }
     this.studio.limbs = null;
+    this.endProgress();
     this.note();
     this.ask(rest);
   }

@@ -117,7 +117,12 @@ export class Viewport {
     const look = menuButton(
       iconButton("layers", "What is drawn: ground, shadows, labels, smooth skin", () => undefined),
       () => [
-        { name: "Smooth skin", hint: "limbs as one surface", on: this.limbs.isSmooth, run: () => this.limbs.setSmooth(!this.limbs.isSmooth) },
+        {
+          name: "Smooth skin",
+          hint: "limbs as one surface",
+          on: this.limbs.isSmooth,
+          run: () => this.limbs.setSmooth(!this.limbs.isSmooth),
+        },
         ...this.looks
           .filter(({ offered }) => offered?.() ?? true)
           .map(({ name, key, apply }) => ({ name, on: remembered(key, true), run: () => flip(key, apply) })),

@@ -136,6 +136,18 @@ TEST_CASE("labels travel with their places and texts", "[studio]") {
     CHECK(number_at<std::uint32_t>(packet, begin - 4) == 7);
 }
 
+TEST_CASE("of several wishes the last one counts", "[studio]") {
+    OpenStudio studio(tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    const Json growth = page.last("growth")["growth"];
+    for (const char* skin : {"smooth", "smooth", "tubes"}) {
+        studio.ask({{"do", "limbs"}, {"growth", growth}, {"step", 0}, {"skin", skin}});
+    }
+    studio.wait([&] { return page.packets.back().substr(0, 4) == "ESM1"; });
+    CHECK(Limbs(page.packets.back()).smooth == 0);
+}
+
 TEST_CASE("limbs of a step that has not been grown, or of another growth, are refused", "[studio]") {
     OpenStudio studio(tree);
     ListeningPage& page = studio.begin();

@@ -21,8 +21,12 @@ export interface FileHolder {
   contentOf: (path: string) => string;
 }
 
+/** A blade: narrow at its foot and its tip. */
 const controlPoints = [0, 1, 2, 3]
-  .map((row) => [-0.5, -0.17, 0.17, 0.5].map((x) => `${(x * Math.sin((Math.PI * (row + 0.4)) / 4)).toFixed(2)} ${(row / 3).toFixed(2)} 0`).join("  "))
+  .map((row) => {
+    const width = Math.sin((Math.PI * (row + 0.4)) / 4);
+    return [-0.5, -0.17, 0.17, 0.5].map((x) => `${(x * width).toFixed(2)} ${(row / 3).toFixed(2)} 0`).join("  ");
+  })
   .join("\n");
 
 function surface(): string {

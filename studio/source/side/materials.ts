@@ -27,7 +27,13 @@ export class MaterialEditor implements SideEditor {
 
   constructor(private readonly text: SideText) {
     this.bytes = fromBase64(text.content());
-    const index = h("input", "number", { type: "number", min: 0, max: most, value: this.free(), "aria-label": "Index of a new material" });
+    const index = h("input", "number", {
+      type: "number",
+      min: 0,
+      max: most,
+      value: this.free(),
+      "aria-label": "Index of a new material",
+    });
     const add = h("button", "button small", { type: "button", onclick: () => this.add(Number(index.value)) }, "Add material");
     const remove = h("button", "button small", { type: "button", onclick: () => this.remove() }, "Remove");
     this.elements = [this.swatches, this.form, h("div", "plane-tools", {}, index, add, remove)];

@@ -1,4 +1,4 @@
-/** The surface on which a field has one value, by surface nets (Gibson 1998): one vertex in each voxel-sized cell that it crosses. */
+/** The surface on which a field has one value, by surface nets (Gibson 1998): one vertex in each cell that it crosses. */
 import type { Vector } from "./packets.js";
 
 export interface Isosurface {
