@@ -97,8 +97,9 @@ Json shared_files(const fs::path& main, const std::map<fs::path, std::string>& f
 }
 
 fs::path write_shared(const Json& shared, const fs::path& folder, const fs::path& library) {
-    const fs::path main = checked(shared.at("main").get<std::string>());
-    const Json& files = shared.at("files");
+    if (!shared.contains("main") || !shared.contains("files")) throw UserError("the link holds no model");
+    const fs::path main = checked(shared["main"].get<std::string>());
+    const Json& files = shared["files"];
     if (!files.is_array() || files.empty() || files.size() > most_files) throw UserError("the link holds no model");
     std::map<fs::path, std::string> bytes;  // all, before any is written
     for (const Json& file : files) {
