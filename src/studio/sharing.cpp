@@ -41,7 +41,7 @@ Json file_json(const fs::path& file, const std::string& bytes, const fs::path& r
     const fs::path known = library.empty() ? fs::path() : file.lexically_relative(library);
     if (is_below(known) && text_on_disk(file) == bytes) {
         json.update({{"library", known.generic_string()}, {"digest", digest_text(bytes)}});
-    } else if (is_map(file) || is_text(bytes)) {
+    } else if (is_palette(file) || is_text(bytes)) {
         json["content"] = content_of(file, bytes);
     } else {
         throw UserError(fmt::format("{} is no text: a link cannot carry it", file.string()));
