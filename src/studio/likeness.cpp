@@ -125,8 +125,8 @@ private:
 
     bool is_same_patterns(const std::vector<ModulePattern>& a, const std::vector<ModulePattern>& b) const {
         return same_all(a, b, [this](const ModulePattern& x, const ModulePattern& y) {
-            return is_same_letter(x.letter, y.letter) && x.first_formal == y.first_formal &&
-                   x.skip_branch == y.skip_branch;
+            if (x.skip_branch || y.skip_branch) return x.skip_branch == y.skip_branch;  // these have no letter
+            return is_same_letter(x.letter, y.letter) && x.first_formal == y.first_formal;
         });
     }
 

@@ -199,6 +199,16 @@ TEST_CASE("angles, colours and pictures of modules change without a step of deri
     check_same(*back, *grower.grow(tree, nullptr, 3, 0));
 }
 
+TEST_CASE("contexts that skip the end of a branch are compared", "[studio]") {
+    const std::string text = with(tree, "A(l) -->", "A(l) > [+=] A(m) --> A(l)\nA(l) -->");
+    const TemporaryFolder folder;
+    Grower grower(folder.write("tree.l", text));
+    const auto first = grower.grow(text, nullptr, 6, 0);
+    REQUIRE(first->is_whole);
+    CHECK(grower.grow(with(text, "COLOUR 3", "COLOUR 7"), first->growth.get(), 6)->watcher.derived == 0);
+    CHECK(grower.grow(with(text, "[+=]", "[+(a)=]"), first->growth.get(), 6)->watcher.derived == 7);
+}
+
 TEST_CASE("what derivation reads is derived again", "[studio]") {
     const TemporaryFolder folder;
     Grower grower(folder.write("tree.l", tree));
