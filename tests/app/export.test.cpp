@@ -182,6 +182,7 @@ TEST_CASE("export explains what it cannot do", "[export]") {
     refused("run --format obj --triangles 0", "--triangles");
     refused("run --format obj --split 2", "--split");
     refused("run --format obj,usd --triangles 100", "--mesh-axes makes them triangles");
+    refused("run --format obj --displace", "add --skin smooth");
     refused("nowhere --format obj", "holds no run");
     CHECK(!exists(place, "run/export"));
     refused("run --format vdb", "no fields");

@@ -4,7 +4,9 @@
 #include "espalier/base/error.h"
 
 #include "archive/meshes/limb_level_set.h"
+#include "archive/meshes/texture_file.h"
 #include "catch.h"
+#include "temporary_folder.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -366,4 +368,60 @@ TEST_CASE("a voxel is chosen for the thinnest limb and for a surface that fits m
     CHECK_THROWS_WITH(skin_voxel(axes, {true, 1, 1e-5}),
                       Contains("--voxel 1e-05") && Contains("the smallest voxel is"));
     CHECK_THROWS_AS(skin_voxel(axes, {true, 1, 1e-5}), UserError);
+}
+
+TEST_CASE("bark moves the vertices of a skin into its furrows, and leaves it closed", "[skin]") {
+    const TemporaryFolder folder;
+    folder.write("deep.bark", "stripes = 4\nwaviness = 0\nroughness = 0\ndepth = 0.1\nsize = 64\n");
+    std::vector<AxisLine> axes = fork(60);
+    for (AxisLine& each : axes) {
+        each.texture = "deep.bark";
+        each.line.pictures_around = 2;
+    }
+    const std::vector<int> sides(axes.size(), 8);
+    AxisSkin skin{true, 1.5, 0.012};
+    const std::vector<Tube> smooth = skin_of(axes, sides, skin);
+    skin.displaced = true;
+    skin.folder = folder.path();
+    const std::vector<Tube> rough = skin_of(axes, sides, skin);
+    CHECK(Whole(rough).open_edges() == 0);
+    const double deepest = 0.1 * std::numbers::pi * 0.12;  // two pictures around a trunk of 0.12 m
+    double most = 0;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        REQUIRE(rough[i].vertices.size() == smooth[i].vertices.size());
+        for (std::size_t k = 0; k < smooth[i].vertices.size(); ++k) {
+            const TubeVertex &before = smooth[i].vertices[k], &after = rough[i].vertices[k];
+            CHECK(after.uv == before.uv);
+            const glm::dvec3 by = after.position - before.position;
+            CHECK(glm::dot(by, glm::dvec3(before.normal)) <= 1e-6);  // inwards
+            CHECK(glm::length(by) <= deepest + 1e-6);
+            most = std::max(most, glm::length(by));
+            moved += glm::length(by) > 1e-4;
+            // The flat foot stays flat.
+            if (before.normal.y < -0.999) CHECK(glm::length(by) < 1e-4);
+        }
+    }
+    CHECK(most > 0.95 * deepest);
+    CHECK(moved > 1000);
+}
+
+TEST_CASE("on a limb of its own, the outline is the radius less the furrow", "[skin]") {
+    const TemporaryFolder folder;
+    folder.write("deep.bark", "stripes = 4\nwaviness = 0\nroughness = 0\ndepth = 0.1\nsize = 64\n");
+    std::vector<AxisLine> axes{axis({{0, 0, 0}, {0, 0.5f, 0}, {0, 1, 0}}, {0.2f}, true)};
+    axes[0].texture = "deep.bark";
+    axes[0].line.pictures_around = 2;
+    const std::vector<int> sides{8};
+    AxisSkin skin{true, 1.5, 0.01};
+    skin.displaced = true;
+    skin.folder = folder.path();
+    const BarkRelief relief = *bark_relief(folder.path(), "deep.bark");
+    const double picture = std::numbers::pi * 0.2;
+    const std::vector<Tube> tubes = skin_of(axes, sides, skin);
+    for (const TubeVertex& vertex : tubes[0].vertices) {
+        if (vertex.position.y < 0.2 || vertex.position.y > 0.8) continue;
+        const double radius = std::hypot(double(vertex.position.x), double(vertex.position.z));
+        CHECK(radius == Approx(0.2 - picture * relief.furrow(vertex.uv.x, vertex.uv.y)).margin(0.0005));
+    }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 
 namespace espalier::archive {
@@ -9,8 +10,10 @@ namespace espalier::archive {
 /// How thick axes join: as tubes that run into each other, or as one smooth surface.
 struct AxisSkin {
     bool smooth = false;
-    double blend = 1.5;  ///< radius of the fillet between two axes, in radii of the thinner; 0: sharp joints
-    double voxel = 0;    ///< metres between vertices; 0: chosen. Axes thinner than 1.5 voxels stay tubes
+    double blend = 1.5;      ///< radius of the fillet between two axes, in radii of the thinner; 0: sharp joints
+    double voxel = 0;        ///< metres between vertices; 0: chosen. Axes thinner than 1.5 voxels stay tubes
+    bool displaced = false;  ///< the relief of bark moves the vertices; otherwise light alone sees it
+    std::filesystem::path folder{};  ///< where files of bark may lie that are not where their names say
 };
 
 struct MeshOptions {

@@ -26,6 +26,8 @@ AxisSurfaceOptions::AxisSurfaceOptions(CLI::App& command) {
                     "smooth: metres between vertices; default: fine enough for the thinnest axis, or for 300,000 "
                     "triangles")
         ->check(CLI::Range(1e-9, 1e9));
+    command.add_flag("--displace", displace_,
+                     "smooth: the relief of bark moves the vertices, so that it shows in the outline");
 }
 
 std::string AxisSurfaceOptions::bark() const {
@@ -38,8 +40,10 @@ std::string AxisSurfaceOptions::bark() const {
     return file.string();
 }
 
-archive::AxisSkin AxisSurfaceOptions::skin() const {
-    return {skin_ == "smooth", blend_, voxel_};
+archive::AxisSkin AxisSurfaceOptions::skin(const std::filesystem::path& run) const {
+    const bool is_smooth = skin_ == "smooth";
+    if (displace_ && !is_smooth) throw UserError("--displace moves the vertices of a skin: add --skin smooth");
+    return {is_smooth, blend_, voxel_, displace_, run};
 }
 
 }  // namespace espalier::app

@@ -54,7 +54,7 @@ void MeshFileOptions::put_into(ExportJob& job) const {
     job.most_vertices = most_vertices_;
     job.instances = instances_;
     job.bark = axes_->bark();
-    job.options.skin = axes_->skin();
+    job.options.skin = axes_->skin(job.run.folder());
     if (job.options.skin.smooth && triangles_) {
         throw UserError("--triangles makes tubes coarser; with --skin smooth a larger --voxel gives fewer triangles");
     }

@@ -263,7 +263,7 @@ private:
             style.background = picture_background(background_.empty() ? "dark" : background_);
         }
         style.bark = axes_->bark();
-        style.skin = axes_->skin();
+        style.skin = axes_->skin(run.folder());
         style.shading = !no_shade_;
         style.legend = !no_legend_;
         style.scale_bar = scale_bar_;

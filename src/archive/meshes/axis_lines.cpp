@@ -34,8 +34,8 @@ std::vector<AxisLine> axis_lines(const RecordedGeometry& geometry, std::span<con
     for (AxisLine& axis : lines) {
         const std::uint16_t texture = geometry.textures[axis.row];
         if (texture == 0) continue;
-        axis.line.pictures_around =
-            pictures_around(geometry.texture_files[texture], thickest_radius(axis.line), thickest[axis.plant]);
+        axis.texture = geometry.texture_files[texture];
+        axis.line.pictures_around = pictures_around(axis.texture, thickest_radius(axis.line), thickest[axis.plant]);
     }
     return lines;
 }

@@ -5,6 +5,7 @@
 #include "archive/meshes/tubes.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace espalier::archive {
@@ -12,7 +13,8 @@ namespace espalier::archive {
 struct AxisLine {
     TubeLine line;  ///< two nodes at least
     std::uint32_t plant;
-    std::size_t row;  ///< of `of_cells`: of the axis it begins with
+    std::size_t row;           ///< of `of_cells`: of the axis it begins with
+    std::string texture = {};  ///< the file that it wears; "": none
 };
 
 /// As `tube_line` makes them, with as many pictures of their textures around as fit the thickest axis of their plant.

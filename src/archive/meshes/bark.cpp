@@ -165,6 +165,15 @@ HeightMap heights_of(const Bark& bark) {
     return bark.heights ? read_heights(*bark.heights) : grown(bark);
 }
 
+double BarkRelief::furrow(double u, double v) const {
+    const double x = (u - std::floor(u)) * static_cast<double>(map.width) + static_cast<double>(map.width) - 0.5;
+    const double y = (v - std::floor(v)) * static_cast<double>(map.height) + static_cast<double>(map.height) - 0.5;
+    const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
+    const double right = x - static_cast<double>(column), up = y - static_cast<double>(row);
+    const auto at = [&](std::size_t a, std::size_t b) { return double(map.at((column + a) % map.width, row + b)); };
+    return depth * (1 - between(between(at(0, 0), at(1, 0), right), between(at(0, 1), at(1, 1), right), up));
+}
+
 OpacityPicture shades_of(const Bark& bark, const HeightMap& map) {
     return painted(map, [&](std::size_t x, std::size_t y) -> OpacityPicture::Pixel {
         const std::uint8_t shade = byte(1 - bark.darkness * (1 - map.at(x, y)));

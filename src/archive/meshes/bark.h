@@ -52,6 +52,15 @@ std::vector<float> brownian_noise(std::size_t size, std::uint64_t seed, std::siz
 /// Throws UserError if the picture of heights cannot be read.
 HeightMap heights_of(const Bark& bark);
 
+/// How far bark is below its ridges.
+struct BarkRelief {
+    double depth;  ///< of the deepest furrow, as a share of a picture's width
+    HeightMap map;
+
+    /// At a place of the texture, in pictures, as a share of a picture's width; linear between pixels. Not below 0.
+    double furrow(double u, double v) const;
+};
+
 /// Brightness by height, to be multiplied by the colour of the axis.
 OpacityPicture shades_of(const Bark& bark, const HeightMap& map);
 /// The heights as shades of grey.
@@ -64,6 +73,7 @@ OpacityPicture normals_of(const Bark& bark, const HeightMap& map);
 namespace espalier {
 
 using archive::Bark;
+using archive::BarkRelief;
 using archive::HeightMap;
 using archive::is_bark;
 using archive::pictures_around;

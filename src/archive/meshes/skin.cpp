@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "archive/meshes/limb_level_set.h"
+#include "archive/meshes/texture_file.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -112,11 +113,29 @@ Limb limb_of(const TubeLine& whole, double voxel) {
     return limb;
 }
 
+/// The relief of each texture that lines wear.
+using Reliefs = std::map<std::string, std::optional<BarkRelief>>;
+
+Reliefs reliefs_of(std::span<const AxisLine> lines, const AxisSkin& skin) {
+    Reliefs reliefs;
+    for (const AxisLine& line : lines) {
+        if (!skin.displaced || line.texture.empty() || reliefs.contains(line.texture)) continue;
+        reliefs[line.texture] = bark_relief(skin.folder, line.texture);
+    }
+    return reliefs;
+}
+
 /// A plant's lines, their pieces and its surface.
 class Skin {
 public:
-    Skin(std::span<const AxisLine> lines, const std::vector<std::size_t>& members, double blend, double voxel)
-        : members_(members), voxel_(voxel), curves_(curves(lines)), limbs_(pieces(), blend) {}
+    Skin(std::span<const AxisLine> lines, const std::vector<std::size_t>& members, const Reliefs& reliefs, double blend,
+         double voxel)
+        : members_(members), voxel_(voxel), curves_(curves(lines)), limbs_(pieces(), blend) {
+        for (const std::size_t member : members) {
+            const auto relief = reliefs.find(lines[member].texture);
+            reliefs_.push_back(relief == reliefs.end() || !relief->second ? nullptr : &*relief->second);
+        }
+    }
 
     /// Adds a patch to each of the plant's tubes.
     void cover(std::vector<Tube>& tubes) {
@@ -126,6 +145,7 @@ public:
         mesh_ = set_->mesh();
         for (const glm::dvec3& point : mesh_.points) owners_.push_back(limb_nearest_to(point));
         for (const auto& triangle : std::exchange(mesh_.triangles, {})) cut(triangle);
+        displace();
         for (std::uint32_t limb = 0; limb < members_.size(); ++limb) add_patch(limb, tubes[members_[limb]]);
     }
 
@@ -230,6 +250,8 @@ private:
     struct Place {
         glm::dvec2 uv;
         std::uint32_t node;
+        double picture;      ///< its width there, metres
+        glm::dvec3 tangent;  ///< of the limb
     };
 
     // Planes across the curve's nodes, not the nearest point, so that the texture stretches evenly in bends.
@@ -246,7 +268,8 @@ private:
         const glm::dvec3 base = nodes[end - 1].position, tip = nodes[end].position;
         const glm::dvec3 off = point - (base + share * (tip - base));
         const glm::dvec3 across = from.across + share * (to.across - from.across);
-        const glm::dvec3 left = glm::cross(from.tangent + share * (to.tangent - from.tangent), across);
+        const glm::dvec3 tangent = from.tangent + share * (to.tangent - from.tangent);
+        const glm::dvec3 left = glm::cross(tangent, across);
         const double turn = std::atan2(glm::dot(off, left), glm::dot(off, across)) / (2 * std::numbers::pi);
         const double beyond = passed < 0 ? passed : std::max(0.0, -left_over);  // on a rounded end
         const double picture =
@@ -256,7 +279,32 @@ private:
         const double around = std::max(1, limb.curve.pictures_around);
         return {
             {around * (turn < 0 ? turn + 1 : turn), from.along + share * (to.along - from.along) + beyond / picture},
-            limb.node_of[end]};
+            limb.node_of[end],
+            picture,
+            glm::normalize(tangent)};
+    }
+
+    /// Moves points into the furrows of the bark. Points are moved once, whatever patches share them, so that the
+    /// surface stays closed; where limbs meet, which wear other pictures, and on flat ends they stay.
+    void displace() {
+        placed_ = mesh_.points;
+        for (std::uint32_t i = 0; i < owners_.size(); ++i) {
+            const BarkRelief* const relief = reliefs_[owners_[i]];
+            if (!relief) continue;
+            const glm::dvec3 &point = mesh_.points[i], &normal = mesh_.normals[i];
+            const Nearest own = nearest_of(owners_[i], point);
+            double lead = std::numeric_limits<double>::infinity();
+            limbs_.nearest(point, set_->near(point), found_);
+            for (const Nearest& other : found_) {
+                if (limbs_.pieces()[other.piece].limb != owners_[i])
+                    lead = std::min(lead, other.distance - own.distance);
+            }
+            const Place at = place_on(curves_[owners_[i]], limbs_.pieces()[own.piece].node, point);
+            const double fade = 2 * (voxel_ + relief->depth * at.picture);
+            const double share = std::clamp(lead / fade, 0.0, 1.0), along = glm::dot(normal, at.tangent);
+            const double weight = share * share * (3 - 2 * share) * (1 - along * along);
+            placed_[i] -= weight * at.picture * relief->furrow(at.uv.x, at.uv.y) * normal;
+        }
     }
 
     void add_patch(std::uint32_t limb, Tube& tube) {
@@ -285,7 +333,7 @@ private:
                 made.corners[k] = number->second;
                 if (!is_new) continue;
                 const glm::dvec2 uv(at[k].uv.x + (is_beyond ? around : 0), at[k].uv.y);
-                tube.vertices.push_back({glm::vec3(mesh_.points[triangle[k]]), glm::vec3(mesh_.normals[triangle[k]]),
+                tube.vertices.push_back({glm::vec3(placed_[triangle[k]]), glm::vec3(mesh_.normals[triangle[k]]),
                                          glm::vec2(uv), at[k].node});
             }
             tube.triangles.push_back(made);
@@ -298,7 +346,9 @@ private:
     LimbUnion limbs_;
     std::optional<LimbLevelSet> set_;
     LimbMesh mesh_;
-    std::vector<std::uint32_t> owners_;  ///< of the level set's points: the nearest limb
+    std::vector<const BarkRelief*> reliefs_;  ///< of each member; null: none
+    std::vector<glm::dvec3> placed_;          ///< where the points of the mesh are drawn
+    std::vector<std::uint32_t> owners_;       ///< of the level set's points: the nearest limb
     std::unordered_map<std::uint64_t, std::uint32_t> cuts_;
     std::vector<std::vector<Triangle>> patches_;  ///< of each limb
     std::vector<Nearest> found_;
@@ -349,7 +399,8 @@ std::vector<Tube> skin_of(std::span<const AxisLine> lines, std::span<const int> 
     std::map<std::uint32_t, std::vector<std::size_t>> members;
     for (std::size_t i = 0; i < lines.size(); ++i) members[lines[i].plant].push_back(i);
     std::vector<Tube> tubes(lines.size());
-    for (const auto& [plant, own] : members) Skin(lines, own, skin.blend, voxel).cover(tubes);
+    const Reliefs reliefs = reliefs_of(lines, skin);
+    for (const auto& [plant, own] : members) Skin(lines, own, reliefs, skin.blend, voxel).cover(tubes);
     for (std::size_t i = 0; i < lines.size(); ++i) add_thin_rest(lines[i].line, sides[i], voxel, tubes[i]);
     return tubes;
 }

@@ -18,7 +18,7 @@ double skin_voxel(std::span<const AxisLine> lines, const AxisSkin& skin);
 
 /// A patch for each line: the part of its plant's surface that is nearest to it, textured as a tube is, and a tube of
 /// `sides` for what is thinner than 1.5 voxels. Patches of one plant meet in the same points: together they are closed,
-/// and so is each tube. Lines that stand free are flat at their base.
+/// and so is each tube. Lines that stand free are flat at their base. Throws UserError for wrong settings of bark.
 std::vector<Tube> skin_of(std::span<const AxisLine> lines, std::span<const int> sides, const AxisSkin& skin);
 
 }  // namespace espalier::archive

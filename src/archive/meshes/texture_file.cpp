@@ -100,6 +100,13 @@ vtkSmartPointer<vtkImageData> texture_image(const fs::path& run, const std::stri
     return nullptr;
 }
 
+std::optional<BarkRelief> bark_relief(const fs::path& run, const std::string& file) {
+    const std::vector<fs::path> places = is_bark(file) ? places_of(run, file) : std::vector<fs::path>();
+    if (places.empty()) return std::nullopt;
+    const Bark bark = read_bark(places.front());
+    return BarkRelief{bark.depth, heights_of(bark)};
+}
+
 ReliefImages relief_images(const fs::path& run, const std::string& file) {
     const std::vector<fs::path> places = is_bark(file) ? places_of(run, file) : std::vector<fs::path>();
     if (places.empty()) return {};

@@ -1,9 +1,12 @@
 // Pictures that surfaces wear: from files, or of bark.
 #pragma once
 
+#include "archive/meshes/bark.h"
+
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 class vtkImageData;
@@ -20,12 +23,15 @@ struct ReliefImages {
     vtkSmartPointer<vtkImageData> normals;  ///< of tangent space; null where a texture is flat, as all but bark are
     vtkSmartPointer<vtkImageData> heights;  ///< grey
 };
+/// The relief as numbers; none where a texture is flat.
+std::optional<BarkRelief> bark_relief(const std::filesystem::path& run, const std::string& file);
 ReliefImages relief_images(const std::filesystem::path& run, const std::string& file);
 
 }  // namespace espalier::archive
 
 namespace espalier {
 
+using archive::bark_relief;
 using archive::relief_images;
 using archive::ReliefImages;
 using archive::texture_image;

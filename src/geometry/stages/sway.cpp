@@ -18,7 +18,7 @@
 namespace espalier::geometry {
 namespace {
 
-double length_of(const Internode& internode) {
+double length_of_piece(const Internode& internode) {
     return glm::distance(internode.base, internode.tip);
 }
 
@@ -41,7 +41,7 @@ struct Rods {
     double bend(const Column<Internode>& internodes, std::uint32_t i) const {
         const RodOfInternodes& rod = all[of[i]];
         const double radius = (internodes[i].base_radius + internodes[i].tip_radius) / 2;
-        return radius > 0 ? 4 * (rod.length - up[i]) / radius * length_of(internodes[i]) / rod.length : 0;
+        return radius > 0 ? 4 * (rod.length - up[i]) / radius * length_of_piece(internodes[i]) / rod.length : 0;
     }
 };
 
@@ -69,7 +69,7 @@ Rods::Rods(const Column<Internode>& internodes, const std::vector<std::uint32_t>
         of[i] = goes_on ? of[bearers[i]] : static_cast<std::uint32_t>(all.size());
         if (!goes_on) all.push_back({i});
         RodOfInternodes& rod = all[of[i]];
-        const double length = length_of(internodes[i]);
+        const double length = length_of_piece(internodes[i]);
         up[i] = rod.length + length / 2;
         rod.length += length;
     }
@@ -77,7 +77,7 @@ Rods::Rods(const Column<Internode>& internodes, const std::vector<std::uint32_t>
 }
 
 /// Two directions across another, at right angles to each other.
-std::array<glm::dvec3, 2> across(const glm::dvec3& along) {
+std::array<glm::dvec3, 2> axes_across(const glm::dvec3& along) {
     const glm::dvec3 other = std::abs(along.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 a = glm::normalize(glm::cross(along, other));
     return {a, glm::cross(along, a)};
@@ -142,7 +142,7 @@ private:
         RandomSamples samples(plant.key, string.has_lineage() ? string.identity(foot.module) : foot.module, 0);
         const glm::dvec3 along = foot.tip - foot.base;
         glm::dvec3 turn(0);
-        for (const glm::dvec3& axis : across(glm::length(along) > 0 ? glm::normalize(along) : plant.heading)) {
+        for (const glm::dvec3& axis : axes_across(glm::length(along) > 0 ? glm::normalize(along) : plant.heading)) {
             const double offset = 2 * std::numbers::pi * samples.uniform();
             const double b = offset + pace_ * foot.base_radius / rod.length * plant.time;
             turn += axis * limit * (first * std::sin(b) + second * std::sin(0.7 * b));
