@@ -73,6 +73,9 @@ render maple.png maple --size 380x380 --skin smooth
 grow fork models/trees/maple.l --view models/trees/maple.v --define THINNEST=0.2 --define ROOTS=0 --every 1000
 render fork-tubes.png fork --size 380x380 --azimuth 60 --elevation 5 --zoom 1.5 --no-ground
 render fork-skin.png fork --size 380x380 --azimuth 60 --elevation 5 --zoom 1.5 --no-ground --skin smooth
+printf 'stripes = 3\ndepth = 0.15\nwaviness = 0.3\nroughness = 0.02\n' >"$work/cork.bark"
+grow cork models/trees/maple.l --define THINNEST=0.2 --every 1000
+render displaced.png cork --bark "$work/cork.bark" --skin smooth --displace --azimuth 60 --elevation 5 --zoom 2.2 --no-ground --size 380x380 --voxel 0.01
 species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a large tree takes gigabytes
     grow "species-$1" "models/species/$1.species" --colour-map models/plants.map --every 1000 "${@:2}"
     render "species-$1.png" "species-$1" --size 300x300
