@@ -10,8 +10,8 @@ interface State {
 }
 
 const headers =
-  /^(?:derivation length|maximum depth|ring L-system|production|seed|axiom|ignore|consider|define|external|StartEach|EndEach|Start|End|lsystem|environment|module|const|field|include)\s*:/;
-const sections = /^(?:decomposition|homomorphism|interpretation|endlsystem|endgroup|warnings|no warnings|group)\b/;
+  /^(?:derivation length|maximum depth|time step|ageing|ring L-system|production|seed|axiom|ignore|consider|define|external|StartEach|EndEach|Start|End|lsystem|environment|module|const|field|include)\s*:/;
+const sections = /^(?:decomposition|homomorphism|interpretation|timed|endlsystem|endgroup|warnings|no warnings|group)\b/;
 const declarations = /^(?:module|const|field|environment|array)\b/;
 const statements = new Set([
   "if",
