@@ -57,7 +57,12 @@ std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
             {{"do", "new-file"}, {"name", "bark.bark"}, {"content", "stripes = 3\n"}},
             {{"do", "save"}, {"path", "kept.l"}},
             {{"do", "open"}, {"path", file}},
-            {{"do", "open-text"}, {"name", "other.l"}, {"content", stem}, {"steps", 2}, {"seed", 1}}};
+            {{"do", "share"}},
+            {{"do", "open-text"},
+             {"main", "other.l"},
+             {"files", Json::array({{{"path", "other.l"}, {"content", stem}}})},
+             {"steps", 2},
+             {"seed", 1}}};
 }
 
 /// What a key may wrongly have; the first stands for its absence.
