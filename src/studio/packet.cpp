@@ -113,12 +113,12 @@ private:
         for (const Internode& internode : geometry.internodes) {
             const Rgba colour = colours.of(internode.colour, true);
             parts_.internodes.push_back({parts_.extent.parts(internode.base),
-                                   parts_.extent.parts(internode.tip),
-                                   parts_.extent.part_of_radius(internode.base_radius),
-                                   parts_.extent.part_of_radius(internode.tip_radius),
-                                   {colour[0], colour[1], colour[2]},
-                                   static_cast<std::uint8_t>(std::min<int>(internode.order, 255)),
-                                   first + internode.module});
+                                         parts_.extent.parts(internode.tip),
+                                         parts_.extent.part_of_radius(internode.base_radius),
+                                         parts_.extent.part_of_radius(internode.tip_radius),
+                                         {colour[0], colour[1], colour[2]},
+                                         static_cast<std::uint8_t>(std::min<int>(internode.order, 255)),
+                                         first + internode.module});
         }
         if (geometry.textures.empty()) return;
         parts_.limb_textures.resize(parts_.internodes.size() - geometry.internodes.size());
