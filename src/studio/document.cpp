@@ -50,7 +50,7 @@ void Document::change(DocumentState state, const std::string& label, bool transi
 
 bool Document::undo() {
     is_transient_ = false;
-    if (at_ == 0) return false;
+    if (is_first()) return false;
     ++version_;
     --at_;
     return true;
@@ -71,7 +71,11 @@ void Document::keep_text(const std::filesystem::path& file, const std::string& t
 }
 
 std::optional<std::string> Document::undo_label() const {
-    return at_ > 0 ? std::optional(states_[at_].label) : std::nullopt;
+    return is_first() ? std::nullopt : std::optional(states_[at_].label);
+}
+
+bool Document::is_first() const {
+    return at_ == 0 || states_[at_ - 1].state.opened.path.empty();
 }
 
 std::optional<std::string> Document::redo_label() const {

@@ -46,6 +46,9 @@ public:
     static Document from_json(const nlohmann::ordered_json& json);
 
 private:
+    /// Nothing was open before.
+    bool is_first() const;
+
     struct Entry {
         DocumentState state;
         std::string label;  ///< of the change that led to it

@@ -129,32 +129,44 @@ public:
     explicit SceneNumbers(const std::string& text) : text_(text), lines_(text) {}
 
     std::vector<WrittenNumber> of(const Settings& scene) {
-        add(scene, "");
+        add(scene, "", "");
         return std::move(numbers_);
     }
 
 private:
-    void add(const Settings& table, const std::string& path) {
+    // `group`: how people call the table.
+    void add(const Settings& table, const std::string& path, const std::string& group) {
         for (const std::string& key : table.keys()) {
             const std::string name = path.empty() ? key : path + "." + key;
+            const std::string inner = group.empty() ? key : group + ", " + key;
             if (table.is_table(key)) {
-                add(table.table(key), name);
-            } else if (!add_tables(table, key, name)) {
-                add(table.place(key), name, path);
+                add(table.table(key), name, inner);
+            } else if (!add_tables(table, key, name, inner)) {
+                add(table.place(key), name, group);
             }
         }
     }
 
     // False if the key has no list of tables.
-    bool add_tables(const Settings& table, const std::string& key, const std::string& name) {
+    bool add_tables(const Settings& table, const std::string& key, const std::string& name, const std::string& group) {
         std::vector<Settings> tables;
         try {
             tables = table.tables(key);
         } catch (const UserError&) {
             return false;
         }
-        for (std::size_t i = 0; i < tables.size(); ++i) add(tables[i], fmt::format("{}.{}", name, i));
+        for (std::size_t i = 0; i < tables.size(); ++i) {
+            add(tables[i], fmt::format("{}.{}", name, i), group + name_of(tables[i], i, tables.size()));
+        }
         return true;
+    }
+
+    // What tells it from others of its list: its name, what stage it is, or its number; "" for the only one.
+    static std::string name_of(const Settings& table, std::size_t place, std::size_t count) {
+        for (const char* key : {"name", "stage"}) {
+            if (table.has(key)) return fmt::format(" {}", table.text_or(key, ""));
+        }
+        return count > 1 ? fmt::format(" {}", place + 1) : "";
     }
 
     // `place` is the key's.

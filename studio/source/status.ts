@@ -44,14 +44,15 @@ export class StatusLine {
     const wrong = this.studio.problems.filter(({ severity }) => severity === "error").length;
     const busy = growth.state === "growing" || growth.state === "reading";
     if (growth.growth !== this.began.growth) this.began = { growth: growth.growth, step: growth.step, at: performance.now() };
+    const recorded = growth.state === "done" && this.studio.document?.kind === "run";
     this.state.textContent =
       wrong > 0
         ? `${wrong} ${wrong === 1 ? "error" : "errors"} in the text: the plant before it stays`
-        : `${names[growth.state]}${growth.reason ? `: ${growth.reason}` : ""}`;
+        : `${recorded ? "recorded" : names[growth.state]}${growth.reason ? `: ${growth.reason}` : ""}`;
     this.element.dataset.state = wrong > 0 ? "failed" : growth.state;
     this.progress.hidden = !busy;
     this.progress.value = growth.last > 0 ? Math.max(0, growth.step) / growth.last : 0;
-    this.what.textContent = busy ? this.timeLeft(growth) : `in ${duration(growth.seconds)}`;
+    this.what.textContent = busy ? this.timeLeft(growth) : recorded ? "" : `in ${duration(growth.seconds)}`;
     this.showCounts();
   }
 

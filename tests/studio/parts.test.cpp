@@ -69,6 +69,8 @@ define = { HEIGHT = 1e1 }
     CHECK(numbers[2].value == -3);
     CHECK(numbers[3].is_switch);
     CHECK(numbers[4].value == 10);
+    CHECK(numbers[1].group == "environment, light");
+    CHECK(numbers[4].group == "plant 2, define");
     CHECK(with_number(scene, numbers[1], "0.25").find("voxel = 0.25   # metres") != std::string::npos);
 }
 

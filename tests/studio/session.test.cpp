@@ -126,6 +126,7 @@ TEST_CASE("undo takes back the seed, the steps and the text; drags are one chang
     CHECK(page.last("document")["seed"] == 7);
     studio.ask({{"do", "undo"}});
     CHECK(page.last("document")["seed"] != 7);
+    CHECK(page.last("document")["undo"].is_null());  // nothing was open before
     studio.ask({{"do", "redo"}});
     CHECK(page.last("document")["seed"] == 7);
 }
