@@ -6,6 +6,7 @@
 #include "archive/meshes/skin.h"
 #include "archive/meshes/surface_mesh.h"
 #include "studio/message_bytes.h"
+#include "studio/packet_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,9 @@ namespace {
 
 constexpr int tube_sides = 12;
 constexpr double on_screen = 1.7;  // voxels that are coarser than those of pictures: a third of the triangles
-constexpr std::size_t head_bytes = 60, internode_bytes = 24, vertex_bytes = 24, place_bytes = 56;
+constexpr std::size_t head_bytes = 60;
+constexpr std::size_t vertex_bytes = sizeof(Point) + sizeof(Normal) + sizeof(Rgba) + sizeof(std::uint32_t);
+constexpr std::size_t place_bytes = sizeof(std::array<float, 12>) + sizeof(Rgba) + sizeof(std::uint32_t);
 
 /// Numbers of a packet, one after the other.
 class PacketCursor {
@@ -72,7 +75,7 @@ Head head_of(PacketCursor& in) {
 
 /// The textures of the internodes; none if no limb wears one.
 std::vector<std::uint16_t> limb_textures(PacketCursor in, const Head& head) {
-    in.go_to(head_bytes + 4 * std::size_t{head.plants} + internode_bytes * head.internodes +
+    in.go_to(head_bytes + 4 * std::size_t{head.plants} + sizeof(InternodeBytes) * head.internodes +
              vertex_bytes * std::size_t{head.vertices} + 4 * std::size_t{head.indices});
     for (std::uint32_t i = 0; i < head.groups; ++i) {
         in.skip(4);
@@ -111,57 +114,53 @@ private:
     };
 
     void read(const std::vector<std::uint32_t>& firsts, std::uint16_t texture) {
-        const auto base = in_.several<std::uint16_t, 3>(), tip = in_.several<std::uint16_t, 3>();
-        const auto radii = in_.several<std::uint16_t, 2>();
-        const auto look = in_.several<std::uint8_t, 4>();
-        const auto module = in_.next<std::uint32_t>();
-        const auto plant =
-            static_cast<std::uint32_t>(std::upper_bound(firsts.begin(), firsts.end(), module) - firsts.begin() - 1);
+        const auto internode = in_.next<InternodeBytes>();
+        const auto behind = std::upper_bound(firsts.begin(), firsts.end(), internode.module);
+        const auto plant = static_cast<std::uint32_t>(behind - firsts.begin() - 1);
         if (plant != plant_) open_.fill(none);
         plant_ = plant;
-        const std::uint16_t order = look[3];
+        const std::uint16_t order = internode.order;
         std::fill(open_.begin() + order + 1, open_.end(), none);
-        if (open_[order] == none || ends_[order] != base) {
+        if (open_[order] == none || ends_[order] != internode.base) {
             open_[order] = lines_.size();
             lines_.push_back({{}, order, texture});
-            add_point(base, radii[0], look, module);
+            add_point(internode, internode.base, internode.base_radius);
         }
-        add_point(tip, radii[1], look, module);
-        ends_[order] = tip;
+        add_point(internode, internode.tip, internode.tip_radius);
+        ends_[order] = internode.tip;
     }
 
-    void add_point(const std::array<std::uint16_t, 3>& parts, std::uint16_t radius,
-                   const std::array<std::uint8_t, 4>& look, std::uint32_t module) {
+    // One end of an internode.
+    void add_point(const InternodeBytes& internode, const std::array<std::uint16_t, 3>& parts, std::uint16_t radius) {
         glm::vec3 point;
         for (int k = 0; k < 3; ++k) {
             const float share = static_cast<float>(parts[static_cast<std::size_t>(k)]) / 65535;
             point[k] = head_.lower[k] + (head_.upper[k] - head_.lower[k]) * share;
         }
-        lines_[open_[look[3]]].points.push_back(static_cast<std::int32_t>(geometry_.points.size()));
+        lines_[open_[internode.order]].points.push_back(static_cast<std::int32_t>(geometry_.points.size()));
         geometry_.points.push_back(point);
         geometry_.radii.push_back(head_.radius * static_cast<float>(radius) / 65535);
-        add_attributes(geometry_.of_points, look);
-        modules_.push_back(module);
+        add_attributes(geometry_.of_points, internode.rgb, internode.order);
+        modules_.push_back(internode.module);
     }
 
-    void add_attributes(RecordedAttributes& of, const std::array<std::uint8_t, 4>& look) const {
+    void add_attributes(RecordedAttributes& of, const archive::Rgb& rgb, std::uint16_t order) const {
         of.identities.push_back(0);
         of.parents.push_back(0);
         of.plants.push_back(plant_);
         of.symbols.push_back(0);
         of.births.push_back(0);
-        of.orders.push_back(look[3]);
+        of.orders.push_back(order);
         of.colours.push_back(0);
         of.kinds.push_back(Kind::axis);
-        of.rgb.push_back({look[0], look[1], look[2]});
+        of.rgb.push_back(rgb);
     }
 
     void close() {
         for (const Line& line : lines_) {
             const auto first = static_cast<std::size_t>(line.points.front());
             plant_ = geometry_.of_points.plants[first];
-            const auto [red, green, blue] = geometry_.of_points.rgb[first];
-            add_attributes(geometry_.of_cells, {red, green, blue, static_cast<std::uint8_t>(line.order)});
+            add_attributes(geometry_.of_cells, geometry_.of_points.rgb[first], line.order);
             geometry_.textures.push_back(line.texture);
             geometry_.lines.connectivity.insert(geometry_.lines.connectivity.end(), line.points.begin(),
                                                 line.points.end());

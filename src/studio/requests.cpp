@@ -247,13 +247,9 @@ Json Session::pick(Viewer&, const Json& request) {
 }
 
 Json Session::field(Viewer& viewer, const Json& request) {
-    Page* page = &viewer.page;
+    const Page* const page = &viewer.page;
     grown_by(request).ask_field(request.at("name").get<std::string>(), [this, page](std::string bytes) {
-        post_([this, page, bytes = std::move(bytes)] {
-            for (const auto& known : viewers_) {
-                if (&known->page == page) page->send_bytes(bytes);
-            }
-        });
+        send_later(page, [bytes = std::move(bytes)](Page& to) { to.send_bytes(bytes); });
     });
     return Json::object();
 }

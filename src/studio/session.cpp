@@ -73,6 +73,14 @@ void Session::leave(Page& page) {
     waiting_limbs_.erase(&page);
 }
 
+void Session::send_later(const Page* page, std::function<void(Page&)> send) {
+    post_([this, page, send = std::move(send)] {
+        for (const auto& known : viewers_) {
+            if (&known->page == page) send(known->page);
+        }
+    });
+}
+
 void Session::receive(Page& page, const std::string& text) {
     const auto viewer =
         std::find_if(viewers_.begin(), viewers_.end(), [&](const auto& known) { return &known->page == &page; });

@@ -134,6 +134,8 @@ private:
     Json textures_json();
     Json view_json() const;
     void begin_limbs();
+    /// From any thread: sends to a page, on the session's thread and if it is still here.
+    void send_later(const Page* page, std::function<void(Page&)> send);
     Json statistics_json(std::size_t first) const;
     void tell_statistics();
     void show(Viewer& viewer);

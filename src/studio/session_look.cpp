@@ -30,21 +30,14 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
     if (!shown.has_packet(step)) throw UserError(fmt::format("step {} has not been drawn", step));
     const bool smooth = request["skin"].get<std::string>() == "smooth";
     Page* const page = &viewer.page;
-    const auto tell_page = [this, page](auto send) {
-        post_([this, page, send] {
-            for (const auto& known : viewers_) {
-                if (&known->page == page) send(*page);
-            }
-        });
-    };
-    const auto progressed = [tell_page, smooth](double share) {
+    const auto progressed = [this, page, smooth](double share) {
         const Json progress{{"say", "progress"}, {"what", skin_name(smooth)}, {"done", share}};
-        tell_page([text = progress.dump()](Page& to) { to.send_text(text); });
+        send_later(page, [text = progress.dump()](Page& to) { to.send_text(text); });
     };
-    const auto done = [this, tell_page, progressed](std::string bytes, const std::string& why) {
+    const auto done = [this, page, progressed](std::string bytes, const std::string& why) {
         progressed(1);
         if (why.empty()) {
-            tell_page([bytes = std::move(bytes)](Page& to) { to.send_bytes(bytes); });
+            send_later(page, [bytes = std::move(bytes)](Page& to) { to.send_bytes(bytes); });
         } else {
             post_([this, why] { say("error", why); });
         }

@@ -132,23 +132,26 @@ Command command_of(const Lines& lines, std::vector<Diagnostic>& diagnostics) {
     return command;
 }
 
-std::vector<std::string> known_programs() {
+const std::map<std::string, const ProcessType*>& process_types() {
     open_grid_library();
+    return registered<ProcessType>();
+}
+
+std::vector<std::string> known_programs() {
     std::vector<std::string> names{"multiple"};
-    for (const auto& entry : registered<ProcessType>()) names.push_back(entry.first);
+    for (const auto& entry : process_types()) names.push_back(entry.first);
     std::sort(names.begin(), names.end());
     return names;
 }
 
 bool is_process(const std::string& program) {
-    open_grid_library();
-    return registered<ProcessType>().find(program) != registered<ProcessType>().end();
+    return process_types().contains(program);
 }
 
 // What the file says beside the parameters: keys of [environment.<name>] and their values as TOML.
 std::vector<std::pair<std::string, std::string>> communication_of(const Lines& lines, const std::string& program) {
     std::vector<std::pair<std::string, std::string>> entries;
-    if (registered<ProcessType>().at(program)->has_numbers_of_cpfg) entries.emplace_back("numbers", toml_text("cpfg"));
+    if (process_types().at(program)->has_numbers_of_cpfg) entries.emplace_back("numbers", toml_text("cpfg"));
     if (!lines.following_module) entries.emplace_back("following_module", "false");
     if (!lines.binary) entries.emplace_back("digits", "6");
     std::map<std::string, std::string> turtle;
