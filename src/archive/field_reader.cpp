@@ -1,5 +1,6 @@
 #include "archive/field_reader.h"
 
+#include "espalier/base/file.h"
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "archive/vtk_xml.h"
@@ -60,6 +61,7 @@ std::string metadata(const openvdb::GridBase& grid, const char* name) {
 
 openvdb::FloatGrid::Ptr open_grid(const std::filesystem::path& path, const std::string& name) {
     initialize_openvdb();
+    require_readable(path);
     try {
         openvdb::io::File file(path.string());
         file.open(/*delayLoad=*/false);

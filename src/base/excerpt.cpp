@@ -1,7 +1,8 @@
 #include "base/excerpt.h"
 
+#include "espalier/base/file.h"
+
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 
 namespace espalier {
@@ -55,8 +56,7 @@ std::string excerpt(const std::string& line, int column) {
 }
 
 std::string source_line(const Place& place) {
-    std::error_code unknown;
-    if (!std::filesystem::is_regular_file(place.file, unknown)) return "";
+    if (!is_readable(place.file)) return "";
     std::string line;
     std::ifstream file(place.file);
     for (int number = 0; number < place.line; ++number) {

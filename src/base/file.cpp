@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <sstream>
@@ -42,11 +43,69 @@ std::string likely_reason(const fs::path& folder) {
     return "the writer failed (disk full or file too large?)";
 }
 
+constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30;
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+    const auto [rest, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return rest == folder.end();
+}
+
+bool is_permitted(const fs::path& path, const ReadPermission& permission) {
+    std::error_code error;
+    const fs::path file = fs::weakly_canonical(fs::absolute(path), error);
+    return !error && std::any_of(permission.folders.begin(), permission.folders.end(), [&](const fs::path& folder) {
+        const fs::path root = fs::weakly_canonical(folder, error);
+        return !error && is_below(file, root);
+    });
+}
+
+std::string folders_text(const ReadPermission& permission) {
+    std::string text;
+    for (const fs::path& folder : permission.folders) text += (text.empty() ? "" : " and ") + folder.string();
+    return text;
+}
+
+/// Why the file must not be read; empty if it may be. That of a missing file is the system's.
+std::string reason_not_to_read(const fs::path& path) {
+    if (path.native().find('\0') != std::string::npos) return "its name holds a zero byte";
+    const ReadPermission* const permission = ReadLog::permission();
+    if (permission && !is_permitted(path, *permission)) {
+        return "what is open reads only files below " + folders_text(*permission);
+    }
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) return reason(ENOENT);
+    if (error) return error.message();
+    if (fs::is_directory(status)) return "it is a folder";
+    if (!fs::is_regular_file(status)) return "it is a device, a pipe or a socket and no regular file";
+    const std::uintmax_t size = fs::file_size(path, error), most = permission ? permission->most_bytes : most_bytes;
+    return size > most ? fmt::format("it has {} bytes, and the most that is read is {}", size, most) : "";
+}
+
+void write_parts(const fs::path& path, std::span<const std::string_view> parts, OpenFile::Mode mode) {
+    write_file(path, [&](const fs::path& temporary) {
+        std::error_code error;
+        OpenFile file(temporary, mode, error);
+        if (!error) error = file.write(parts);
+        if (!error) error = file.close();
+        if (error) throw std::system_error(error);
+        return true;
+    });
+}
+
 }  // namespace
 
+void require_readable(const fs::path& path) {
+    const std::string why = reason_not_to_read(path);
+    if (!why.empty()) throw UserError(fmt::format("cannot read {}: {}", path.string(), why));
+}
+
+bool is_readable(const fs::path& path) {
+    return reason_not_to_read(path).empty();
+}
+
 std::string read_text(const fs::path& path) {
-    std::error_code error;
-    if (fs::is_directory(path, error)) throw UserError(fmt::format("cannot read {}: it is a folder", path.string()));
+    require_readable(path);
     if (std::optional<std::string> unsaved = ReadLog::unsaved(path)) {
         ReadLog::note(path, *unsaved);
         return *std::move(unsaved);
@@ -66,14 +125,11 @@ void write_text(const fs::path& path, std::string_view text) {
 }
 
 void write_text(const fs::path& path, std::span<const std::string_view> parts) {
-    write_file(path, [&](const fs::path& temporary) {
-        std::error_code error;
-        OpenFile file(temporary, OpenFile::Mode::create, error);
-        if (!error) error = file.write(parts);
-        if (!error) error = file.close();
-        if (error) throw std::system_error(error);
-        return true;
-    });
+    write_parts(path, parts, OpenFile::Mode::create);
+}
+
+void write_private_text(const fs::path& path, std::string_view text) {
+    write_parts(path, std::span(&text, 1), OpenFile::Mode::create_private);
 }
 
 void write_file(const fs::path& path, const std::function<bool(const fs::path&)>& write) {

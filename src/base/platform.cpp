@@ -39,7 +39,8 @@ std::error_code error_unless(bool done) {
 }
 
 int flags_of(OpenFile::Mode mode) {
-    if (mode == OpenFile::Mode::create) return O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
+    if (mode == OpenFile::Mode::create || mode == OpenFile::Mode::create_private)
+        return O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
     return mode == OpenFile::Mode::append ? O_WRONLY | O_APPEND | O_CLOEXEC : O_WRONLY | O_CLOEXEC;
 }
 
@@ -109,7 +110,7 @@ int code_of(int status) {
 // --- files ----------------------------------------------------------------------------------------------------------
 
 OpenFile::OpenFile(const fs::path& path, Mode mode, std::error_code& error)
-    : number_(::open(path.c_str(), flags_of(mode), 0666)) {
+    : number_(::open(path.c_str(), flags_of(mode), mode == Mode::create_private ? 0600 : 0666)) {
     error = error_unless(is_open());
 }
 

@@ -20,9 +20,10 @@ namespace espalier::platform {
 class OpenFile {
 public:
     enum class Mode {
-        create,    ///< made, or emptied
-        append,    ///< there already; written at its end
-        overwrite  ///< there already; its bytes are replaced in place
+        create,          ///< made, or emptied
+        create_private,  ///< the same; nobody but its owner may read a file that is made
+        append,          ///< there already; written at its end
+        overwrite        ///< there already; its bytes are replaced in place
     };
 
     OpenFile() = default;

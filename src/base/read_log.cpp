@@ -19,7 +19,10 @@ std::uint64_t digest(std::string_view bytes, std::uint64_t before) {
     return hash;
 }
 
-ReadLog::ReadLog(std::size_t most_kept, UnsavedTexts unsaved) : most_kept_(most_kept), unsaved_(std::move(unsaved)) {}
+ReadLog::ReadLog(std::size_t most_kept, UnsavedTexts unsaved, std::optional<ReadPermission> permission)
+    : most_kept_(most_kept),
+      unsaved_(std::move(unsaved)),
+      permission_(permission || !log_of_thread ? std::move(permission) : log_of_thread->permission_) {}
 
 ReadLog::~ReadLog() = default;
 
@@ -46,6 +49,10 @@ std::optional<std::string> ReadLog::unsaved(const std::filesystem::path& path) {
     if (!log_of_thread || log_of_thread->unsaved_.empty()) return std::nullopt;
     const auto found = log_of_thread->unsaved_.find(name_of(path));
     return found == log_of_thread->unsaved_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const ReadPermission* ReadLog::permission() {
+    return log_of_thread && log_of_thread->permission_ ? &*log_of_thread->permission_ : nullptr;
 }
 
 void ReadLog::add(const std::filesystem::path& path, std::string_view bytes) {

@@ -12,11 +12,12 @@ std::string new_token();
 /// Compares in a time that does not tell how much of it is right.
 bool is_token(std::string_view given, std::string_view token);
 
-/// True for this machine under its own names, with any port: a tunnel may have another. A name that somebody else's
-/// server gave to this machine is none of them (DNS rebinding).
-bool is_own_host(std::string_view host);
+/// True for this machine under its own names and the port that the studio listens on. A name that somebody else's
+/// server gave to this machine is none of them (DNS rebinding), nor is another port, which another program may listen
+/// on.
+bool is_own_host(std::string_view host, int port);
 
-/// True for an Origin that is a page of this host.
+/// True for an Origin that is a page of this host, which is one of the studio's own.
 bool is_own_origin(std::string_view origin, std::string_view host);
 
 }  // namespace espalier::studio

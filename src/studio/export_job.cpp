@@ -4,6 +4,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "studio/document_files.h"
+#include "studio/worn_pictures.h"
 
 #include <exception>
 #include <utility>
@@ -35,10 +36,11 @@ void ExportRun::work() {
 
 // Returns the folder of the run.
 fs::path ExportRun::grow() {
-    const ReadLog reads(std::size_t(16) << 20, order_.unsaved);
+    const ReadLog reads(std::size_t(16) << 20, order_.unsaved, order_.permission);
     Opened opened = order_.opened;
     if (order_.step >= 0) opened.steps = order_.step;
     const Scene scene = order_.read(opened);
+    note_worn_files(scene);
 
     RunOptions options;
     options.output = order_.scratch / "run";

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +21,7 @@ struct ExportOrder {
     bool is_film = false;  ///< every step, in formats that have animations or a file a step
     std::filesystem::path scratch;
     std::function<Scene(const Opened&)> read;
+    std::optional<ReadPermission> permission = {};  ///< none: it may read everything
 };
 
 class ExportRun {

@@ -153,9 +153,9 @@ void Growth::draw(int step) {
 
 void Growth::live() {
     try {
-        const ReadLog reads(std::size_t(64) << 20, order_.unsaved);
+        const ReadLog reads(std::size_t(64) << 20, order_.unsaved, order_.permission);
         const Scene scene = order_.read(order_.opened);
-        note_barks(scene);
+        note_worn_files(scene);
         GrowthStart start;
         start.files = reads.files();
         start.warnings = scene.notes.diagnostics;

@@ -33,6 +33,7 @@ struct GrowthOrder {
     UnsavedTexts unsaved;
     std::filesystem::path scratch;  ///< a folder for its files
     std::function<Scene(const Opened&)> read;
+    std::optional<ReadPermission> permission = {};  ///< none: it may read everything
     /// The steps of an earlier growth, which need not be derived again if only looks have changed; may be null.
     std::shared_ptr<const KeptSteps> before = nullptr;
     /// Nobody wants to see it grow up to this step: where drawing can wait, what pages look at is drawn first.

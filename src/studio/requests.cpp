@@ -12,6 +12,7 @@
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
 #include "studio/notation_help.h"
+#include "studio/request_text.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
 #include "studio/sharing.h"
@@ -51,6 +52,10 @@ Json names(const std::vector<std::string>& all) {
     return list;
 }
 
+bool has_number(const Json& request, const char* key) {
+    return request.contains(key) && request[key].is_number();
+}
+
 }  // namespace
 
 Session::Request Session::request_named(const std::string& name) {
@@ -62,7 +67,7 @@ Session::Request Session::request_named(const std::string& name) {
         {"column", &Session::column},     {"pick", &Session::pick},           {"field", &Session::field},
         {"graph", &Session::graph},       {"save", &Session::save},           {"export", &Session::export_run},
         {"new-file", &Session::new_file}, {"limbs", &Session::limbs},         {"dismiss", &Session::dismiss},
-        {"share", &Session::share},
+        {"share", &Session::share},       {"read-link", &Session::read_link},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));
@@ -116,12 +121,24 @@ Json Session::open(Viewer&, const Json& request) {
     return {{"version", document_.version()}};
 }
 
-// Texts of somebody else's become files of the opened folder.
+// What `open-text` would write, and where.
+Json Session::read_link(Viewer&, const Json& request) {
+    const SharedDocument shared = read_shared(request, options_.library_folder);
+    Json files = Json::array();
+    for (const auto& [path, bytes] : shared.files) {
+        const auto known = shared.of_library.find(path);
+        const Json library = known == shared.of_library.end() ? Json() : Json(known->second.generic_string());
+        files.push_back({{"path", path.generic_string()}, {"bytes", bytes.size()}, {"library", library}});
+    }
+    return {{"folder", place_of_shared(shared, options_.folder).string()}, {"files", files}};
+}
+
+// Texts of somebody else's become files of a folder of their own.
 Json Session::open_text(Viewer&, const Json& request) {
-    const fs::path path = write_shared(request, options_.folder, options_.library_folder);
-    Opened opened{path, {}, {}};
-    if (request.contains("steps") && request["steps"].is_number()) opened.steps = request["steps"].get<int>();
-    if (request.contains("seed") && request["seed"].is_number()) opened.seed = request["seed"].get<std::uint64_t>();
+    Opened opened;
+    if (has_number(request, "steps")) opened.steps = whole(request, "steps", 0, most_steps);
+    if (has_number(request, "seed")) opened.seed = whole<std::uint64_t>(request, "seed");
+    const fs::path path = opened.path = write_shared(read_shared(request, options_.library_folder), options_.folder);
     apply({opened, {}}, fmt::format("open {}", path.filename().string()), false);
     return {{"version", document_.version()}, {"path", path.string()}};
 }
@@ -152,12 +169,11 @@ Json Session::change(Viewer&, const Json& request) {
     if (request.contains("settings")) set_numbers(request["settings"], state);
     if (request.contains("seed")) {
         state.opened.seed =
-            request["seed"].is_null() ? std::nullopt : std::optional(request["seed"].get<std::uint64_t>());
+            request["seed"].is_null() ? std::nullopt : std::optional(whole<std::uint64_t>(request, "seed"));
     }
     if (request.contains("steps")) {
-        state.opened.steps = request["steps"].is_null()
-                                 ? std::nullopt
-                                 : std::optional(std::clamp(request["steps"].get<int>(), 0, most_steps));
+        state.opened.steps =
+            request["steps"].is_null() ? std::nullopt : std::optional(whole(request, "steps", 0, most_steps));
     }
     apply(std::move(state), request.value("label", "change"), request.value("transient", false));
     return {{"version", document_.version()}};
@@ -186,7 +202,7 @@ Json Session::redo(Viewer&, const Json&) {
 
 Json Session::grow(Viewer&, const Json& request) {
     if (!growth_) throw UserError("nothing grows");
-    const int to = std::clamp(request.at("to").get<int>(), 0, most_steps);
+    const int to = whole(request, "to", 0, most_steps);
     DocumentState state = edited();
     state.opened.steps = to;
     const int known = newest_.step;
@@ -215,14 +231,14 @@ Json Session::stop(Viewer&, const Json&) {
 }
 
 Json Session::look(Viewer& viewer, const Json& request) {
-    viewer.step = request.at("step").is_number() ? std::optional(request["step"].get<int>()) : std::nullopt;
+    viewer.step = has_number(request, "step") ? std::optional(whole<int>(request, "step")) : std::nullopt;
     const bool is_held = growth_ && request.value("held", Json()) == Json(growth_->number());
     if (!is_held) show(viewer);
     return {{"step", newest_.step}};
 }
 
 Shown& Session::grown_by(const Json& request) const {
-    if (!growth_ || growth_->number() != request.at("growth").get<std::uint32_t>()) {
+    if (!growth_ || growth_->number() != whole<std::uint32_t>(request, "growth")) {
         throw UserError("this growth is gone; another has begun");
     }
     return *growth_;
@@ -230,7 +246,7 @@ Shown& Session::grown_by(const Json& request) const {
 
 Json Session::frame(Viewer& viewer, const Json& request) {
     const Shown& growth = grown_by(request);
-    const int step = request.at("step").get<int>();
+    const int step = whole<int>(request, "step");
     if (!growth.has(step)) throw UserError(fmt::format("step {} has not been grown", step));
     send_when_drawn(viewer, step);
     return {{"step", step}};
@@ -238,12 +254,12 @@ Json Session::frame(Viewer& viewer, const Json& request) {
 
 Json Session::column(Viewer& viewer, const Json& request) {
     viewer.page.send_bytes(
-        grown_by(request).column(request.at("step").get<int>(), request.at("name").get<std::string>()));
+        grown_by(request).column(whole<int>(request, "step"), request.at("name").get<std::string>()));
     return Json::object();
 }
 
 Json Session::pick(Viewer&, const Json& request) {
-    return grown_by(request).what_is_known(request.at("step").get<int>(), request.at("module").get<std::uint32_t>());
+    return grown_by(request).what_is_known(whole<int>(request, "step"), whole<std::uint32_t>(request, "module"));
 }
 
 Json Session::field(Viewer& viewer, const Json& request) {
@@ -256,14 +272,10 @@ Json Session::field(Viewer& viewer, const Json& request) {
 
 // A side file beside the document, which its texts may then name.
 Json Session::new_file(Viewer&, const Json& request) {
-    static const std::set<std::string> kinds{".v", ".func", ".con", ".s", ".map", ".mat", ".bark"};
     if (!document_.is_open()) throw UserError("nothing is open");
     const fs::path main = document_.now().opened.path,
                    name = fs::path(request.at("name").get<std::string>()).filename();
-    if (!kinds.contains(name.extension().string())) {
-        throw UserError(fmt::format("'{}' is no name of a side file", name.string()));
-    }
-    const fs::path path = below_folder((fs::is_directory(main) ? main : main.parent_path()) / name);
+    const fs::path path = writable((fs::is_directory(main) ? main : main.parent_path()) / name);
     const std::string& content = request.at("content").get_ref<const std::string&>();
     if (content.size() > most_text) throw UserError("the text is too long");
     if (fs::exists(path)) throw UserError(fmt::format("{} is there already", path.string()));
@@ -275,12 +287,12 @@ Json Session::new_file(Viewer&, const Json& request) {
 Json Session::save(Viewer&, const Json& request) {
     if (!document_.is_open()) throw UserError("nothing is open");
     if (request.contains("path")) {
-        save_as(below_folder(options_.folder / request["path"].get<std::string>()));
+        save_as(writable(options_.folder / request["path"].get<std::string>()));
     } else {
         for (const auto& [file, text] : document_.now().unsaved) {
             const std::optional<std::string> before = text_on_disk(file);
             if (before == text) continue;
-            below_folder(file);
+            writable(file);
             if (before) document_.keep_text(file, *before);
             write_text(file, text);
         }
@@ -302,7 +314,7 @@ void Session::save_as(const fs::path& path) {
             throw UserError(
                 fmt::format("it reads {}, which is not below {}: save it there", file.string(), folder.string()));
         }
-        const fs::path copy = below_folder(path.parent_path() / beside);
+        const fs::path copy = writable(path.parent_path() / beside);
         if (fs::exists(copy)) continue;
         fs::create_directories(copy.parent_path());
         write_text(copy, text_of(file, now));
@@ -323,10 +335,11 @@ Json Session::export_run(Viewer&, const Json& request) {
     order.unsaved = document_.now().unsaved;
     order.format = request.at("format").get<std::string>();
     if (!registered<ExporterType>().contains(order.format)) throw UserError("there is no such format");
-    if (request.contains("step") && request["step"].is_number()) order.step = request["step"].get<int>();
+    if (has_number(request, "step")) order.step = whole<int>(request, "step");
     order.is_film = request.value("film", false);
     order.scratch = scratch;
     order.read = options_.read;
+    order.permission = permission_of(order.opened.path, options_.library_folder);
     const auto progressed = [this](double share) {
         post_([this, share] { tell({{"say", "progress"}, {"what", "export"}, {"done", share}}); });
     };
@@ -349,7 +362,7 @@ void Session::note_exported(const std::vector<fs::path>& files, const std::strin
 }
 
 Json Session::dismiss(Viewer&, const Json& request) {
-    messages_.erase(request.at("message").get<std::uint32_t>());
+    messages_.erase(whole<std::uint32_t>(request, "message"));
     return Json::object();
 }
 

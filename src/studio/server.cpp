@@ -5,6 +5,7 @@
 
 #include "studio/access.h"
 #include "studio/page_files.h"
+#include "studio/request_text.h"
 #include "studio/session.h"
 
 #include <fmt/format.h>
@@ -31,47 +32,82 @@ using asio::ip::tcp;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+constexpr std::size_t most_greeting = 4096;                 ///< bytes of a message without the token
 constexpr std::size_t most_message = std::size_t(8) << 20;  ///< bytes that a page may send at once
 constexpr std::size_t most_unsent = std::size_t(1) << 30;   ///< bytes that a page may leave lying
-constexpr int most_connections = 64;
+constexpr seconds patience{5};                              ///< with a client that has not shown the token
+constexpr seconds patience_with_pages{600};                 ///< with one that fetches a file
+constexpr std::size_t most_strangers = 64;                  ///< clients at once that have not shown the token
+constexpr std::size_t most_pages = 32;
+
+/// A client that has not shown the token.
+class Stranger {
+public:
+    virtual ~Stranger() = default;
+    virtual void turn_away() = 0;
+};
 
 /// What every connection needs.
-struct House {
+struct ServerState {
     std::string token;
+    int port = 0;
     Session* session = nullptr;  ///< null once the studio ends: connections go after it
-    int connections = 0;
+    std::deque<std::weak_ptr<Stranger>> strangers;
+    std::size_t pages = 0;
+
+    /// Whoever comes may make the one who has waited longest go, so that nobody keeps the owner out.
+    void let_in(const std::shared_ptr<Stranger>& stranger) {
+        std::erase_if(strangers, [](const auto& known) { return known.expired(); });
+        if (strangers.size() >= most_strangers) {
+            if (const auto oldest = strangers.front().lock()) oldest->turn_away();
+            strangers.pop_front();
+        }
+        strangers.push_back(stranger);
+    }
+    void forget(const Stranger& stranger) {
+        std::erase_if(strangers, [&](const auto& known) { return known.lock().get() == &stranger; });
+    }
 };
 
-/// Counts a connection while it lives.
-class Guest {
-public:
-    explicit Guest(House& house) : house_(house) { ++house_.connections; }
-    ~Guest() { --house_.connections; }
-    Guest(const Guest&) = delete;
-    Guest& operator=(const Guest&) = delete;
-
-    House& house() const { return house_; }
-
-private:
-    House& house_;
-};
+/// Nothing that a client sends may end the studio: what goes wrong ends this client's connection.
+template <class Work>
+void contain(const Work& work) {
+    try {
+        work();
+    } catch (const std::exception&) {
+        // The connection is gone with the last who held it.
+    }
+}
 
 /// A page over its WebSocket. It keeps itself alive by what it waits for.
-class SocketPage final : public Page, public std::enable_shared_from_this<SocketPage> {
+class SocketPage final : public Page, public Stranger, public std::enable_shared_from_this<SocketPage> {
 public:
-    SocketPage(beast::tcp_stream&& stream, std::shared_ptr<Guest> guest)
-        : socket_(std::move(stream)), guest_(std::move(guest)) {}
+    SocketPage(beast::tcp_stream&& stream, ServerState& state)
+        : socket_(std::move(stream)), deadline_(socket_.get_executor()), state_(state) {}
     ~SocketPage() override {
-        if (house().session) house().session->leave(*this);
+        if (!joined_) return;
+        --state_.pages;
+        if (state_.session) state_.session->leave(*this);
     }
 
     void accept(const http::request<http::empty_body>& request) {
+        state_.let_in(shared_from_this());
         beast::get_lowest_layer(socket_).expires_never();
-        socket_.set_option(websocket::stream_base::timeout{seconds(10), seconds(60), true});
-        socket_.read_message_max(most_message);
+        socket_.set_option(websocket::stream_base::timeout{patience, seconds(60), true});
+        socket_.read_message_max(most_greeting);
+        deadline_.expires_after(patience);
+        deadline_.async_wait([self = weak_from_this()](beast::error_code error) {
+            const auto page = self.lock();
+            if (!error && page && !page->joined_) page->turn_away();
+        });
         socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
             if (!error) self->read();
         });
+    }
+
+    void turn_away() override {
+        beast::error_code ignored;
+        beast::get_lowest_layer(socket_).socket().close(ignored);
     }
 
     void send_text(std::string text) override { send({false, std::move(text)}); }
@@ -84,11 +120,9 @@ private:
         std::string content;
     };
 
-    House& house() const { return guest_->house(); }
-
     void read() {
         socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (!error) self->receive();
+            if (!error) contain([&] { self->receive(); });
         });
     }
 
@@ -96,16 +130,25 @@ private:
         const std::string text = beast::buffers_to_string(buffer_.data());
         buffer_.consume(buffer_.size());
         if (!joined_ && !greets(text)) return close();
-        if (!std::exchange(joined_, true)) house().session->join(*this);
-        house().session->receive(*this, text);
+        if (!joined_) join();
+        state_.session->receive(*this, text);
         read();
+    }
+
+    void join() {
+        joined_ = true;
+        ++state_.pages;
+        state_.forget(*this);
+        deadline_.cancel();
+        socket_.read_message_max(most_message);
+        state_.session->join(*this);
     }
 
     // The first message holds the token.
     bool greets(const std::string& text) const {
-        const auto json = nlohmann::json::parse(text, nullptr, false);
-        return json.is_object() && json.value("do", "") == "hello" && json.contains("token") &&
-               json["token"].is_string() && is_token(json["token"].get<std::string>(), house().token);
+        const nlohmann::ordered_json request = read_request(text);
+        const std::string token = request.value("token", "");
+        return request.value("do", "") == "hello" && is_token(token, state_.token) && state_.pages < most_pages;
     }
 
     void close() {
@@ -134,7 +177,8 @@ private:
     }
 
     websocket::stream<beast::tcp_stream> socket_;
-    std::shared_ptr<Guest> guest_;
+    asio::steady_timer deadline_;  ///< until it has greeted
+    ServerState& state_;
     beast::flat_buffer buffer_;
     std::deque<Message> unsent_;
     std::size_t unsent_bytes_ = 0;
@@ -142,22 +186,29 @@ private:
 };
 
 /// A connection that asks for files, until it becomes a page.
-class Visitor : public std::enable_shared_from_this<Visitor> {
+class HttpConnection final : public Stranger, public std::enable_shared_from_this<HttpConnection> {
 public:
-    Visitor(tcp::socket&& socket, House& house) : stream_(std::move(socket)), guest_(std::make_shared<Guest>(house)) {}
+    HttpConnection(tcp::socket&& socket, ServerState& state) : stream_(std::move(socket)), state_(state) {}
 
-    void read() {
-        parser_.emplace();
-        parser_->header_limit(16384);
-        stream_.expires_after(seconds(30));
-        http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (!error) self->serve();
-        });
+    void begin() {
+        state_.let_in(shared_from_this());
+        read();
     }
+
+    void turn_away() override { stream_.close(); }
 
 private:
     using Request = http::request<http::empty_body>;
     using Response = http::response<http::string_body>;
+
+    void read() {
+        parser_.emplace();
+        parser_->header_limit(16384);
+        stream_.expires_after(patience);
+        http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+            if (!error) contain([&] { self->serve(); });
+        });
+    }
 
     static std::string_view field(const Request& request, http::field name) {
         const auto value = request[name];
@@ -168,7 +219,7 @@ private:
         const Request& request = parser_->get();
         const std::string_view host = field(request, http::field::host);
         const std::string_view target(request.target().data(), request.target().size());
-        if (!is_own_host(host))
+        if (!is_own_host(host, state_.port))
             return answer(http::status::forbidden, "text/plain", "this is not a host of the studio");
         if (websocket::is_upgrade(request)) return upgrade(request, host);
         if (request.method() != http::verb::get) return answer(http::status::method_not_allowed, "text/plain", "");
@@ -184,18 +235,21 @@ private:
         if (!is_own_origin(field(request, http::field::origin), host)) {
             return answer(http::status::forbidden, "text/plain", "this is not a page of the studio");
         }
-        std::make_shared<SocketPage>(std::move(stream_), guest_)->accept(request);
+        state_.forget(*this);
+        std::make_shared<SocketPage>(std::move(stream_), state_)->accept(request);
     }
 
     void serve_file(const Request& request, std::string_view number) {
         constexpr std::string_view bearer = "Bearer ";
         const std::string_view given = field(request, http::field::authorization);
-        if (!given.starts_with(bearer) || !is_token(given.substr(bearer.size()), guest_->house().token)) {
+        if (!given.starts_with(bearer) || !is_token(given.substr(bearer.size()), state_.token)) {
             return answer(http::status::unauthorized, "text/plain", "the token is missing or wrong");
         }
+        state_.forget(*this);
+        stream_.expires_after(patience_with_pages);
         std::uint32_t wanted = 0;
         std::from_chars(number.data(), number.data() + number.size(), wanted);
-        const auto file = guest_->house().session->file(wanted);
+        const auto file = state_.session->file(wanted);
         if (!file) return answer(http::status::not_found, "text/plain", "there is no such file");
         try {
             answer(http::status::ok, "application/octet-stream", read_text(*file));
@@ -223,12 +277,12 @@ private:
         response_.keep_alive(parser_->get().keep_alive());
         response_.prepare_payload();
         http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-            if (!error && self->response_.keep_alive()) self->read();
+            if (!error && self->response_.keep_alive()) contain([&] { self->read(); });
         });
     }
 
     beast::tcp_stream stream_;
-    std::shared_ptr<Guest> guest_;
+    ServerState& state_;
     beast::flat_buffer buffer_;
     std::optional<http::request_parser<http::empty_body>> parser_;
     Response response_;
@@ -237,19 +291,19 @@ private:
 class Server {
 public:
     explicit Server(const StudioOptions& options)
-        : options_(options), house_{new_token()}, acceptor_(io_), timer_(io_), session_(options, [this](auto work) {
+        : options_(options), state_{new_token()}, acceptor_(io_), timer_(io_), session_(options, [this](auto work) {
               asio::post(io_, std::move(work));
           }) {
-        house_.session = &session_;
+        state_.session = &session_;
         listen();
+        state_.port = acceptor_.local_endpoint().port();
     }
-    ~Server() { house_.session = nullptr; }
+    ~Server() { state_.session = nullptr; }
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     void run() {
-        const std::string address =
-            fmt::format("http://127.0.0.1:{}/#token={}", acceptor_.local_endpoint().port(), house_.token);
+        const std::string address = fmt::format("http://127.0.0.1:{}/#token={}", state_.port, state_.token);
         accept();
         tick();
         if (options_.ready) options_.ready(address);
@@ -273,9 +327,7 @@ private:
     void accept() {
         acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
             if (error == asio::error::operation_aborted) return;
-            if (!error && house_.connections < most_connections) {
-                std::make_shared<Visitor>(std::move(socket), house_)->read();
-            }
+            if (!error) contain([&] { std::make_shared<HttpConnection>(std::move(socket), state_)->begin(); });
             accept();
         });
     }
@@ -288,7 +340,7 @@ private:
     }
 
     const StudioOptions& options_;
-    House house_;  ///< before what the connections lie in, which leave it when that is destroyed
+    ServerState state_;  ///< before what the connections lie in, which leave it when that is destroyed
     asio::io_context io_{1};
     tcp::acceptor acceptor_;
     asio::steady_timer timer_;

@@ -5,7 +5,9 @@
 #include "base/csv_file.h"
 #include "studio/document_files.h"
 #include "studio/recording.h"
+#include "studio/request_text.h"
 #include "studio/session_viewer.h"
+#include "studio/sharing.h"
 
 #include <climits>
 #include <fmt/format.h>
@@ -87,8 +89,8 @@ void Session::receive(Page& page, const std::string& text) {
     if (viewer == viewers_.end()) return;
     Json reply = {{"reply", nullptr}};
     try {
-        const Json request = Json::parse(text);
-        reply["reply"] = request.at("id");
+        const Json request = read_request(text);
+        reply["reply"] = request["id"];
         const Request answer = request_named(request.at("do").get<std::string>());
         reply.update((this->*answer)(**viewer, request));
     } catch (const Json::exception& error) {
@@ -98,7 +100,7 @@ void Session::receive(Page& page, const std::string& text) {
     }
     page.send_text(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
     // What a page shows at first it is told behind the reply to its greeting.
-    if ((*viewer)->is_new && !reply.contains("error")) tell_all_to(**viewer);
+    if ((*viewer)->is_new && !reply.contains("error")) guard([&] { tell_all_to(**viewer); });
 }
 
 void Session::tick() {
@@ -165,7 +167,7 @@ void Session::keep() {
     if (options_.state.empty()) return;
     try {
         fs::create_directories(options_.state.parent_path());
-        write_text(options_.state, document_.to_json().dump());
+        write_private_text(options_.state, document_.to_json().dump());
     } catch (const std::exception& error) {
         say("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
     }
@@ -209,6 +211,7 @@ void Session::begin_next_growth() {
         growth_->rest(true);
         order.before = growth_->shared_steps();
     }
+    order.permission = permission_of(now.opened.path, options_.library_folder);
     order.unseen_to = follow_from_;
     for (const auto& viewer : viewers_) {
         if (viewer->step) order.looked_at.insert(*viewer->step);

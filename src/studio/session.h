@@ -64,6 +64,7 @@ private:
     Json library(Viewer& viewer, const Json& request);
     Json help(Viewer& viewer, const Json& request);
     Json open(Viewer& viewer, const Json& request);
+    Json read_link(Viewer& viewer, const Json& request);
     Json open_text(Viewer& viewer, const Json& request);
     Json share(Viewer& viewer, const Json& request);
     Json change(Viewer& viewer, const Json& request);
@@ -100,6 +101,8 @@ private:
     void set_numbers(const Json& values, DocumentState& state) const;
     /// Throws UserError for a path that leads out of the opened folder.
     std::filesystem::path below_folder(const std::filesystem::path& path) const;
+    /// The same for what the studio does not write.
+    std::filesystem::path writable(const std::filesystem::path& path) const;
     void save_as(const std::filesystem::path& path);
     void note_exported(const std::vector<std::filesystem::path>& files, const std::string& why);
     void guard(const std::function<void()>& work);

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
+#include "studio/plain_name.h"
 #include "studio/session.h"
 
 #include <fmt/format.h>
@@ -58,6 +59,7 @@ Json bound(double value) {
 }  // namespace
 
 fs::path Session::below_folder(const fs::path& path) const {
+    if (path.native().find('\0') != std::string::npos) throw UserError("the path holds a zero byte");
     const fs::path whole = fs::weakly_canonical(path), folder = fs::weakly_canonical(options_.folder);
     const fs::path below = whole.lexically_relative(folder);
     if (below.empty() || *below.begin() == "..") {
@@ -65,6 +67,12 @@ fs::path Session::below_folder(const fs::path& path) const {
                                     path.string(), folder.string()));
     }
     return path.lexically_normal();
+}
+
+fs::path Session::writable(const fs::path& path) const {
+    const fs::path place = below_folder(path);
+    require_plain_name(place.lexically_relative(options_.folder));
+    return place;
 }
 
 std::set<fs::path> Session::texts() const {

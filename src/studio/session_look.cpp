@@ -2,6 +2,7 @@
 #include "espalier/turtle/view_setting.h"
 
 #include "simulation/run/view_record.h"
+#include "studio/request_text.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
 
@@ -26,7 +27,7 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
     waiting_limbs_.erase(&viewer.page);
     if (request.at("skin").is_null()) return Json::object();
     const Shown& shown = grown_by(request);
-    const int step = request.at("step").get<int>();
+    const int step = whole<int>(request, "step");
     if (!shown.has_packet(step)) throw UserError(fmt::format("step {} has not been drawn", step));
     const bool smooth = request["skin"].get<std::string>() == "smooth";
     Page* const page = &viewer.page;

@@ -2,14 +2,17 @@
 
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
-#include "espalier/base/read_log.h"
 
+#include "base/folder.h"
 #include "studio/document_files.h"
+#include "studio/plain_name.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -20,10 +23,24 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_files = 200;
+constexpr int most_of_one_name = 1000;
 constexpr int most_above = 3;  ///< folders between a document and the files that it reads
 
-bool is_below(const fs::path& relative) {
-    return !relative.empty() && relative.is_relative() && *relative.begin() != ".." && relative != ".";
+/// Its presence says that a folder came by a link.
+constexpr const char* mark = ".came-by-a-link";
+constexpr const char* words_of_mark =
+    "The files of this folder came by a link. The studio lets them read only this folder and the library.\n"
+    "If you trust whoever sent the link, remove this file: they may then read what you may read.\n";
+
+/// One file of a link, in bytes: a model that reads more does not come by a link.
+constexpr std::size_t most_read = std::size_t(64) << 20;
+
+/// Of the folder of the program's data, these hold the library.
+constexpr std::array<std::string_view, 2> parts_of_library{"models", "environments"};
+
+bool is_of_library(const fs::path& relative) {
+    const std::string first = relative.empty() ? "" : relative.begin()->string();
+    return std::find(parts_of_library.begin(), parts_of_library.end(), first) != parts_of_library.end();
 }
 
 // How many folders up from `folder` the file lies.
@@ -39,7 +56,7 @@ std::string digest_text(const std::string& bytes) {
 Json file_json(const fs::path& file, const std::string& bytes, const fs::path& root, const fs::path& library) {
     Json json = {{"path", file.lexically_relative(root).generic_string()}};
     const fs::path known = library.empty() ? fs::path() : file.lexically_relative(library);
-    if (is_below(known) && text_on_disk(file) == bytes) {
+    if (is_of_library(known) && text_on_disk(file) == bytes) {
         json.update({{"library", known.generic_string()}, {"digest", digest_text(bytes)}});
     } else if (is_palette(file) || is_text(bytes)) {
         json["content"] = content_of(file, bytes);
@@ -49,22 +66,22 @@ Json file_json(const fs::path& file, const std::string& bytes, const fs::path& r
     return json;
 }
 
-// The path of a shared file, which must not lead out of where it is written.
+// A folder above the file has no name of a link's choosing.
 fs::path checked(const std::string& text) {
     const fs::path path = fs::path(text).lexically_normal();
-    if (!is_below(path) || !path.has_filename()) throw UserError(fmt::format("the link names the file '{}'", text));
+    require_plain_name(path);
     return path;
 }
 
-std::string bytes_of_shared(const Json& file, const fs::path& path, const fs::path& library) {
-    if (file.contains("content")) {
-        const auto& content = file["content"].get_ref<const std::string&>();
-        if (content.size() > most_text) throw UserError(fmt::format("{} is too long", path.string()));
-        return bytes_of(path, content);
-    }
-    const fs::path known = checked(file.at("library").get<std::string>());
-    const std::optional<std::string> bytes = library.empty() ? std::nullopt : text_on_disk(library / known);
-    if (!bytes || digest_text(*bytes) != file.at("digest").get<std::string>()) {
+std::string bytes_of_content(const fs::path& path, const std::string& content) {
+    if (content.size() > most_text) throw UserError(fmt::format("{} is too long", path.string()));
+    return bytes_of(path, content);
+}
+
+std::string bytes_of_library(const fs::path& known, const std::string& wanted, const fs::path& library) {
+    const bool is_there = !library.empty() && is_of_library(known);
+    const std::optional<std::string> bytes = is_there ? text_on_disk(library / known) : std::nullopt;
+    if (!bytes || digest_text(*bytes) != wanted) {
         throw UserError(
             fmt::format("the link needs {} of the library as another version of Espalier has it; ask for the files",
                         known.generic_string()));
@@ -72,12 +89,15 @@ std::string bytes_of_shared(const Json& file, const fs::path& path, const fs::pa
     return *bytes;
 }
 
-fs::path free_place(const fs::path& folder, const fs::path& name) {
-    fs::path place = folder / name;
-    for (int number = 2; fs::exists(place); ++number) {
-        place = folder / fmt::format("{}-{}{}", name.stem().string(), number, name.extension().string());
+void read_file(const Json& file, const fs::path& library, SharedDocument& shared) {
+    const fs::path path = checked(file.at("path").get<std::string>());
+    if (file.contains("content")) {
+        shared.files[path] = bytes_of_content(path, file["content"].get_ref<const std::string&>());
+        return;
     }
-    return place;
+    const fs::path known = checked(file.at("library").get<std::string>());
+    shared.files[path] = bytes_of_library(known, file.at("digest").get<std::string>(), library);
+    shared.of_library[path] = known;
 }
 
 }  // namespace
@@ -96,24 +116,50 @@ Json shared_files(const fs::path& main, const std::map<fs::path, std::string>& f
     return {{"main", main.lexically_relative(root).generic_string()}, {"files", list}};
 }
 
-fs::path write_shared(const Json& shared, const fs::path& folder, const fs::path& library) {
+SharedDocument read_shared(const Json& shared, const fs::path& library) {
     if (!shared.contains("main") || !shared.contains("files")) throw UserError("the link holds no model");
-    const fs::path main = checked(shared["main"].get<std::string>());
+    SharedDocument document;
+    document.main = checked(shared["main"].get<std::string>());
     const Json& files = shared["files"];
     if (!files.is_array() || files.empty() || files.size() > most_files) throw UserError("the link holds no model");
-    std::map<fs::path, std::string> bytes;  // all, before any is written
-    for (const Json& file : files) {
-        const fs::path path = checked(file.at("path").get<std::string>());
-        bytes[path] = bytes_of_shared(file, path, library);
+    for (const Json& file : files) read_file(file, library, document);
+    if (!document.files.contains(document.main)) throw UserError("the link holds no model");
+    return document;
+}
+
+fs::path place_of_shared(const SharedDocument& shared, const fs::path& folder) {
+    const fs::path home = folder / "shared", name = shared.main.stem();
+    for (int number = 1; number <= most_of_one_name; ++number) {
+        const fs::path place = number == 1 ? home / name : home / fmt::format("{}-{}", name.string(), number);
+        std::error_code error;
+        if (fs::symlink_status(place, error).type() == fs::file_type::not_found) return place;
     }
-    if (!bytes.contains(main)) throw UserError("the link holds no model");
-    const fs::path base = free_place(folder, bytes.size() == 1 ? main.filename() : main.stem());
-    for (const auto& [path, text] : bytes) {
-        const fs::path place = bytes.size() == 1 ? base : base / path;
-        fs::create_directories(place.parent_path());
-        write_text(place, text);
+    throw UserError(
+        fmt::format("{} has {} folders called {}: remove some", home.string(), most_of_one_name, name.string()));
+}
+
+fs::path write_shared(const SharedDocument& shared, const fs::path& folder) {
+    const fs::path place = place_of_shared(shared, folder);
+    make_folder(place);
+    write_text(place / mark, words_of_mark);
+    for (const auto& [path, text] : shared.files) {
+        make_folder((place / path).parent_path());
+        write_text(place / path, text);
     }
-    return bytes.size() == 1 ? base : base / main;
+    return place / shared.main;
+}
+
+std::optional<ReadPermission> permission_of(const fs::path& document, const fs::path& library) {
+    std::error_code ignored;
+    for (fs::path folder = document; folder.has_relative_path(); folder = folder.parent_path()) {
+        if (!fs::exists(folder / mark, ignored)) continue;
+        ReadPermission permission{{folder}, most_read};
+        for (const std::string_view part : parts_of_library) {
+            if (!library.empty()) permission.folders.push_back(library / part);
+        }
+        return permission;
+    }
+    return std::nullopt;
 }
 
 }  // namespace espalier::studio

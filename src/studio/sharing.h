@@ -1,24 +1,44 @@
-// A document as a link carries it: the texts that are not those of the library, and the names of those that are.
+// A document as a link carries it: the texts that are not those of the library, and the names of those that are. What
+// comes by a link lies in a folder of its own and reads nothing but that and the library.
 #pragma once
+
+#include "espalier/base/read_log.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace espalier::studio {
 
 /// `files`: what the document reads, by absolute paths, as it is now. `library`: the folder of the models that come
-/// with the program; may be empty. The part of `open-text` in docs/studio-protocol.md that tells the files. Throws
-/// UserError for files that a link cannot carry.
+/// with the program; may be empty. The part of `open-text` in docs/studio-protocol.md that tells the files.
+/// Throws UserError for files that a link cannot carry.
 nlohmann::ordered_json shared_files(const std::filesystem::path& main,
                                     const std::map<std::filesystem::path, std::string>& files,
                                     const std::filesystem::path& library);
 
-/// Writes what `shared_files` told into the folder: one file there, or several in a new folder below it. Returns the
-/// file to open. Throws UserError for what it did not tell, and for files that this library does not have.
-std::filesystem::path write_shared(const nlohmann::ordered_json& shared, const std::filesystem::path& folder,
-                                   const std::filesystem::path& library);
+/// What came by a link, read and checked.
+struct SharedDocument {
+    std::filesystem::path main;                          ///< one of the files
+    std::map<std::filesystem::path, std::string> files;  ///< their bytes, by plain names below one folder
+    std::map<std::filesystem::path, std::filesystem::path> of_library;  ///< the library's names of those that it has
+};
+
+/// Throws UserError for what `shared_files` did not tell, for names that the studio does not write (plain_name.h), and
+/// for files that this library does not have.
+SharedDocument read_shared(const nlohmann::ordered_json& shared, const std::filesystem::path& library);
+
+/// Where `write_shared` will write: `shared/NAME` below the folder, which is not there yet.
+std::filesystem::path place_of_shared(const SharedDocument& shared, const std::filesystem::path& folder);
+
+/// Writes the files there. Returns the one to open.
+std::filesystem::path write_shared(const SharedDocument& shared, const std::filesystem::path& folder);
+
+/// What a document may read: everything, or if it lies where `write_shared` wrote it, its own folder and the library.
+std::optional<ReadPermission> permission_of(const std::filesystem::path& document,
+                                            const std::filesystem::path& library);
 
 }  // namespace espalier::studio

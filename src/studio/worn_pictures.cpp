@@ -49,14 +49,26 @@ fs::path written(const fs::path& place, const fs::path& file, formats::TextureMa
     return place;
 }
 
+void require_readable_if_there(const fs::path& file) {
+    std::error_code ignored;
+    if (fs::exists(file, ignored)) require_readable(file);
+}
+
+void note_worn_file(const fs::path& file) {
+    require_readable_if_there(file);
+    if (!is_bark(file.string()) || !is_readable(file)) return;
+    const Bark bark = read_bark(file);
+    for (const std::optional<fs::path>& picture : {bark.heights, bark.picture}) {
+        if (picture) require_readable_if_there(*picture);
+    }
+}
+
 }  // namespace
 
-void note_barks(const Scene& scene) {
+void note_worn_files(const Scene& scene) {
     for (const Plant& plant : scene.plants) {
         if (!plant.turtle.shapes) continue;
-        for (const Texture& texture : plant.turtle.shapes->textures) {
-            if (is_bark(texture.file.string()) && fs::is_regular_file(texture.file)) read_text(texture.file);
-        }
+        for (const Texture& texture : plant.turtle.shapes->textures) note_worn_file(texture.file);
     }
 }
 

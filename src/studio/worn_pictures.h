@@ -15,8 +15,9 @@ struct WornPicture {
     std::filesystem::path normals;  ///< of tangent space, PNG; empty where it is flat
 };
 
-/// Reads the settings of bark that plants of a scene wear, so that they count among what was read.
-void note_barks(const Scene& scene);
+/// Reads the settings of bark that plants of a scene wear, so that they count among what was read. Throws UserError for
+/// a picture that this thread has no permission to read.
+void note_worn_files(const Scene& scene);
 
 class WornPictures {
 public:

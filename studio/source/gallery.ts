@@ -1,8 +1,8 @@
 /** The gallery: models and scenes of the library with pictures, one's own files, and a search. */
 import { h, icon, iconButton } from "./elements.js";
 import type { Library, LibraryEntry } from "./protocol.js";
-import { modelOfLink } from "./share.js";
-import { errorText, type Studio } from "./state.js";
+import { openLink } from "./links.js";
+import type { Studio } from "./state.js";
 
 type Shelf = keyof Library;
 const shelves: { key: Shelf; name: string }[] = [
@@ -149,12 +149,7 @@ export class Gallery {
 
   private async openLink(link: string): Promise<void> {
     this.search.value = "";
-    try {
-      const model = await modelOfLink(link.slice(link.indexOf("#")));
-      if (model && (await this.studio.ask("open-text", model))) this.leave();
-    } catch (error) {
-      this.studio.tell("error", `The link could not be read: ${errorText(error)}`);
-    }
+    if (await openLink(this.studio, link.slice(link.indexOf("#")))) this.leave();
   }
 
   private leave(): void {

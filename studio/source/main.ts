@@ -9,8 +9,8 @@ import { Layout, Tabs } from "./layout.js";
 import { Messages } from "./messages.js";
 import { PickPanel } from "./pick.js";
 import { SettingsPanel } from "./settings.js";
-import { modelOfLink } from "./share.js";
-import { errorText, Studio } from "./state.js";
+import { openLink } from "./links.js";
+import { Studio } from "./state.js";
 import { StatusLine } from "./status.js";
 import { Timeline } from "./timeline.js";
 import { Viewport } from "./viewport.js";
@@ -54,16 +54,11 @@ function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): 
   });
 }
 
-async function openLink(studio: Studio): Promise<boolean> {
-  try {
-    const model = await modelOfLink(location.hash);
-    if (!model) return false;
-    history.replaceState(null, "", location.pathname);
-    return (await studio.ask("open-text", model)) !== undefined;
-  } catch (error) {
-    studio.tell("error", `The link could not be read: ${errorText(error)}`);
-    return false;
-  }
+/** A link that was opened as the address of this page. */
+async function openAddress(studio: Studio): Promise<boolean> {
+  const fragment = location.hash;
+  if (fragment.includes("model=")) history.replaceState(null, "", location.pathname);
+  return openLink(studio, fragment);
 }
 
 function start(): void {
@@ -120,7 +115,7 @@ function start(): void {
   studio.on("connection", (state) => {
     if (state !== "open" || !first) return;
     first = false;
-    void openLink(studio).then((opened) => {
+    void openAddress(studio).then((opened) => {
       // The document of the server follows its greeting.
       setTimeout(() => {
         if (!opened && !studio.document?.path) void gallery.show();

@@ -233,6 +233,12 @@ export interface SharedModel {
   steps: number;
 }
 
+/** What a link would write, and where. */
+export interface LinkContents {
+  folder: string;
+  files: { path: string; bytes: number; library: string | null }[];
+}
+
 /** What each request sends and gets. */
 export interface Requests {
   hello: { send: { token: string }; get: { version: string } };
@@ -240,6 +246,7 @@ export interface Requests {
   help: { send: object; get: Help };
   open: { send: { path: string }; get: object };
   share: { send: object; get: SharedModel };
+  "read-link": { send: SharedModel; get: LinkContents };
   "open-text": { send: SharedModel; get: object };
   change: { send: ChangeRequest; get: { version: number } };
   graph: { send: GraphRequest; get: { version: number } };

@@ -1,7 +1,7 @@
 /** Shares a growth as one HTML file that needs no server, and a model as a link. */
 import { openDialog } from "./dialog.js";
 import { download, h, whole } from "./elements.js";
-import { compress, decompress, fromBase64, toBase64, urlSafe } from "./view/index.js";
+import { compress, toBase64, urlSafe } from "./view/index.js";
 import type { SharedModel } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
 import type { PlantScene, Recording } from "./view/index.js";
@@ -137,25 +137,33 @@ export function shareHtmlDialog(studio: Studio, scene: PlantScene): void {
   }
 }
 
-/** The present document with its settings, as a fragment of an address. */
-async function linkOf(studio: Studio): Promise<string> {
+/** The present document with its settings. */
+async function sharedModel(studio: Studio): Promise<SharedModel> {
   const { main, files, seed, steps } = await studio.connection.request("share", {});
-  const model: SharedModel = { main, files, seed, steps };
-  const packed = urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))));
-  return `model=${packed}`;
+  return { main, files, seed, steps };
 }
 
-export async function modelOfLink(fragment: string): Promise<SharedModel | null> {
-  const packed = new URLSearchParams(fragment.replace(/^#/, "")).get("model");
-  if (!packed) return null;
-  const text = new TextDecoder().decode(await decompress(fromBase64(packed)));
-  return JSON.parse(text) as SharedModel;
+/** As a fragment of an address. */
+async function fragmentOf(model: SharedModel): Promise<string> {
+  return `model=${urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))))}`;
+}
+
+/** Which texts leave this machine with the link. */
+function whatItTakesAlong(model: SharedModel): HTMLElement {
+  const own = model.files.filter(({ content }) => content !== undefined);
+  return h(
+    "div",
+    "",
+    {},
+    h("p", "", {}, own.length > 0 ? "It takes along the texts of these files:" : "It takes along no text: all its files come with Espalier."),
+    h("ul", "shared-files", {}, ...own.map(({ path }) => h("li", "", {}, h("code", "", {}, path)))),
+  );
 }
 
 export async function shareLinkDialog(studio: Studio): Promise<void> {
   try {
-    const fragment = await linkOf(studio);
-    const address = `${location.origin}/#${fragment}`;
+    const model = await sharedModel(studio);
+    const address = `${location.origin}/#${await fragmentOf(model)}`;
     if (address.length > longestLink)
       throw new Error(
         `This is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the files and send them, or share the growth as HTML.`,
@@ -182,6 +190,7 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
         {},
         "The link holds the texts that did not come with Espalier, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery.",
       ),
+      whatItTakesAlong(model),
       field,
       h("div", "form-end", {}, copy),
     );

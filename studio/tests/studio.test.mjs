@@ -1,7 +1,7 @@
 // The studio as people use it, in a real browser: node tests/studio.test.mjs PROGRAM
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { openBrowser, openPage, shot } from "./browser.mjs";
@@ -228,11 +228,18 @@ test("a link opens the same model in a studio", async () => {
   await page.getByRole("menuitem", { name: /^Share as a link/ }).click();
   const link = await page.getByRole("textbox", { name: "Link" }).inputValue();
   assert.ok(link.length < 8000 && link.includes("#model="));
+  assert.match(await page.locator(".shared-files").textContent(), /tree\.l/);
   await page.keyboard.press("Escape");
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
   await page.locator(".gallery .search").fill(link);
-  await page.waitForFunction(() => /tree-2/.test(document.title));
+  const dialog = page.getByRole("dialog", { name: "Open a link" });
+  assert.match(await dialog.textContent(), /shared\/tree.*tree\.l, [\d,]+ bytes/s);
+  const written = join(place.folder, "shared", "tree", "tree.l");
+  assert.ok(!existsSync(written));
+  await dialog.getByRole("button", { name: "Write and open" }).click();
+  await dialog.waitFor({ state: "detached" });
   await grown();
+  assert.ok(existsSync(written));
   assert.match(await page.locator(".cm-content").textContent(), /A tree for tests/);
 });
 

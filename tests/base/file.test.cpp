@@ -8,8 +8,10 @@
 
 #include <fstream>
 #include <string_view>
+#include <sys/stat.h>
 
 using namespace espalier;
+using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
@@ -72,4 +74,34 @@ TEST_CASE("two holders of one folder are refused, and a released folder is free"
         CHECK_THROWS_AS(FolderLock(folder.path() / "run"), UserError);
     }
     CHECK_NOTHROW(FolderLock(folder.path() / "run"));
+}
+
+TEST_CASE("devices and pipes, which may never end, are no files to read", "[base]") {
+    const TemporaryFolder folder;
+    const fs::path pipe = folder.path() / "pipe";
+    REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+    for (const fs::path& path : {pipe, fs::path("/dev/zero"), fs::path("/dev/null")}) {
+        INFO(path.string());
+        CHECK_FALSE(is_readable(path));
+        CHECK_THROWS_WITH(read_text(path), Contains("cannot read " + path.string()) && Contains("no regular file"));
+    }
+    const std::string name("a.l\0b", 5);
+    CHECK_THROWS_WITH(read_text(folder.path() / name), Contains("zero byte"));
+}
+
+TEST_CASE("a file of more than 4 GiB is refused before it fills the memory", "[base]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("large.l", "x");
+    std::error_code error;
+    fs::resize_file(file, (std::uintmax_t{4} << 30) + 1, error);
+    if (error) return;  // the file system has no holes in files
+    CHECK_THROWS_WITH(read_text(file), Contains("it has 4294967297 bytes"));
+}
+
+TEST_CASE("a text of one's own is for its owner alone", "[base]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("state.json", "old");
+    write_private_text(file, "new");
+    CHECK(read_text(file) == "new");
+    CHECK((fs::status(file).permissions() & fs::perms::all) == (fs::perms::owner_read | fs::perms::owner_write));
 }

@@ -7,7 +7,9 @@
 
 #include <thread>
 
+using Catch::Matchers::Contains;
 using espalier::ReadLog;
+namespace fs = std::filesystem;
 
 TEST_CASE("the digest is FNV-1a's", "[base]") {
     // The authors' own test values.
@@ -62,4 +64,29 @@ TEST_CASE("a log keeps no more bytes than it may, but knows every file", "[base]
     CHECK(files.at(folder.path() / "large").size == 11);
     CHECK(files.at(folder.path() / "small").kept);
     CHECK_FALSE(files.at(folder.path() / "more").kept);
+}
+
+TEST_CASE("a permission holds for its folders, whatever links lead out, and for the logs within", "[base]") {
+    const TemporaryFolder mine, theirs;
+    const fs::path own = mine.write("own.l", "own"), secret = theirs.write("secret", "secret");
+    fs::create_symlink(secret, mine.path() / "link.l");
+    fs::create_directory(mine.path() / "deeper");
+    const fs::path sibling = mine.path().string() + "-sibling";
+    fs::create_directory(sibling);
+    std::ofstream(sibling / "a.l") << "a";
+    {
+        const espalier::ReadLog log(100, {}, espalier::ReadPermission{{mine.path()}, 10});
+        const espalier::ReadLog within;
+        CHECK(espalier::read_text(own) == "own");
+        CHECK(espalier::read_text(mine.path() / "deeper/../own.l") == "own");
+        for (const fs::path& path : {secret, mine.path() / "link.l", sibling / "a.l", mine.path() / ".." / "none",
+                                     fs::path("/proc/self/environ")}) {
+            INFO(path.string());
+            CHECK_FALSE(espalier::is_readable(path));
+            CHECK_THROWS_WITH(espalier::read_text(path), Contains("what is open reads only files below"));
+        }
+        CHECK_THROWS_WITH(espalier::read_text(mine.write("long.l", std::string(11, 'x'))), Contains("11 bytes"));
+    }
+    CHECK(espalier::read_text(secret) == "secret");
+    fs::remove_all(sibling);
 }

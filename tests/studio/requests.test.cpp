@@ -32,37 +32,39 @@ camera -> stem -> petal
 /// Requests as a page makes them, one of each kind or more. The last ones open another document.
 std::vector<Json> requests(const OpenStudio& studio, std::uint32_t growth) {
     const std::string file = studio.file.string();
-    return {{{"do", "hello"}},
-            {{"do", "help"}},
-            {{"do", "library"}},
-            {{"do", "change"}, {"settings", {{"LENGTH", 3}}}, {"seed", 7}, {"steps", 4}},
-            {{"do", "graph"}, {"path", file}, {"edit", "set"}, {"component", "stem"}, {"key", "bend"}, {"text", "3"}},
-            {{"do", "graph"}, {"path", file}, {"edit", "add"}, {"type", "Leaf"}, {"name", "a"}, {"from", "petal"}},
-            {{"do", "graph"}, {"path", file}, {"edit", "unlink"}, {"from", "stem"}, {"to", "petal"}, {"kind", "->"}},
-            {{"do", "graph"}, {"path", file}, {"edit", "link"}, {"from", "stem"}, {"to", "petal"}, {"kind", "->"}},
-            {{"do", "graph"}, {"path", file}, {"edit", "remove"}, {"component", "petal"}},
-            {{"do", "change"}, {"texts", {{file, stem}}}, {"label", "text"}, {"transient", true}},
-            {{"do", "undo"}},
-            {{"do", "redo"}},
-            {{"do", "grow"}, {"to", 4}},
-            {{"do", "stop"}},
-            {{"do", "look"}, {"step", 2}, {"held", growth}},
-            {{"do", "frame"}, {"growth", growth}, {"step", 2}},
-            {{"do", "column"}, {"growth", growth}, {"step", 2}, {"name", "age"}},
-            {{"do", "pick"}, {"growth", growth}, {"step", 2}, {"module", 1}},
-            {{"do", "field"}, {"growth", growth}, {"name", "light"}},
-            {{"do", "limbs"}, {"growth", growth}, {"step", 2}, {"skin", "tubes"}},
-            {{"do", "export"}, {"format", "none"}, {"step", 2}, {"film", true}},
-            {{"do", "dismiss"}, {"message", 1}},
-            {{"do", "new-file"}, {"name", "bark.bark"}, {"content", "stripes = 3\n"}},
-            {{"do", "save"}, {"path", "kept.l"}},
-            {{"do", "open"}, {"path", file}},
-            {{"do", "share"}},
-            {{"do", "open-text"},
-             {"main", "other.l"},
-             {"files", Json::array({{{"path", "other.l"}, {"content", stem}}})},
-             {"steps", 2},
-             {"seed", 1}}};
+    return {
+        {{"do", "hello"}},
+        {{"do", "help"}},
+        {{"do", "library"}},
+        {{"do", "change"}, {"settings", {{"LENGTH", 3}}}, {"seed", 7}, {"steps", 4}},
+        {{"do", "graph"}, {"path", file}, {"edit", "set"}, {"component", "stem"}, {"key", "bend"}, {"text", "3"}},
+        {{"do", "graph"}, {"path", file}, {"edit", "add"}, {"type", "Leaf"}, {"name", "a"}, {"from", "petal"}},
+        {{"do", "graph"}, {"path", file}, {"edit", "unlink"}, {"from", "stem"}, {"to", "petal"}, {"kind", "->"}},
+        {{"do", "graph"}, {"path", file}, {"edit", "link"}, {"from", "stem"}, {"to", "petal"}, {"kind", "->"}},
+        {{"do", "graph"}, {"path", file}, {"edit", "remove"}, {"component", "petal"}},
+        {{"do", "change"}, {"texts", {{file, stem}}}, {"label", "text"}, {"transient", true}},
+        {{"do", "undo"}},
+        {{"do", "redo"}},
+        {{"do", "grow"}, {"to", 4}},
+        {{"do", "stop"}},
+        {{"do", "look"}, {"step", 2}, {"held", growth}},
+        {{"do", "frame"}, {"growth", growth}, {"step", 2}},
+        {{"do", "column"}, {"growth", growth}, {"step", 2}, {"name", "age"}},
+        {{"do", "pick"}, {"growth", growth}, {"step", 2}, {"module", 1}},
+        {{"do", "field"}, {"growth", growth}, {"name", "light"}},
+        {{"do", "limbs"}, {"growth", growth}, {"step", 2}, {"skin", "tubes"}},
+        {{"do", "export"}, {"format", "none"}, {"step", 2}, {"film", true}},
+        {{"do", "dismiss"}, {"message", 1}},
+        {{"do", "new-file"}, {"name", "bark.bark"}, {"content", "stripes = 3\n"}},
+        {{"do", "save"}, {"path", "kept.l"}},
+        {{"do", "open"}, {"path", file}},
+        {{"do", "share"}},
+        {{"do", "read-link"}, {"main", "other.l"}, {"files", Json::array({{{"path", "other.l"}, {"content", stem}}})}},
+        {{"do", "open-text"},
+         {"main", "other.l"},
+         {"files", Json::array({{{"path", "other.l"}, {"content", stem}}})},
+         {"steps", 2},
+         {"seed", 1}}};
 }
 
 /// What a key may wrongly have; the first stands for its absence.
@@ -93,10 +95,11 @@ const std::vector<Json>& wrong_values() {
 bool is_answered(OpenStudio& studio, Json request) {
     studio.page.texts.clear();
     studio.page.packets.clear();
-    request["id"] = "asked";
+    constexpr int number = 4711;
+    request["id"] = number;
     studio.session->receive(studio.page, request.dump(-1, ' ', false, Json::error_handler_t::replace));
     const bool answered = std::any_of(studio.page.texts.begin(), studio.page.texts.end(),
-                                      [](const Json& text) { return text.value("reply", Json()) == "asked"; });
+                                      [](const Json& text) { return text.value("reply", Json()) == number; });
     studio.session->tick();
     while (studio.mailbox.work_once(std::chrono::milliseconds(0))) {
     }

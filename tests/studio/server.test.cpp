@@ -188,19 +188,87 @@ TEST_CASE("pages of other origins, without the token or with too long a message 
     CHECK(verbose.read_text().is_null());
 }
 
-TEST_CASE("many visitors that say nothing do not keep a page out for ever", "[studio]") {
+TEST_CASE("another port is another program's, whatever its name", "[studio]") {
     const Served studio;
-    {
-        asio::io_context io;
-        std::vector<tcp::socket> silent;
-        for (int i = 0; i < 80; ++i) silent.push_back(studio.connect(io));
+    const int other = std::stoi(studio.port) ^ 1;
+    CHECK(get(studio, "/", "127.0.0.1:" + std::to_string(other)).result_int() == 403);
+    CHECK(get(studio, "/", "127.0.0.1").result_int() == 403);
+    const std::string host = "localhost:" + std::to_string(other);
+    const Client page(studio, "http://" + host, host);
+    CHECK(page.error == beast::websocket::error::upgrade_declined);
+}
+
+TEST_CASE("first messages that are no greeting end their connection and nothing else", "[studio]") {
+    const Served studio;
+    const std::string token = "\"token\": \"" + studio.token + "\"";
+    std::string nested = R"({"do": "stop", "id": )";
+    nested.append(100000, '[');
+    for (const std::string& first :
+         {std::string(R"({"do":5})"), std::string(R"({"do": "hello", "id": 1, "token": 5})"), nested,
+          R"({"do": ["hello"], "id": 1, )" + token + "}", R"({"do": "hello", "id": [[1]], )" + token + "}",
+          std::string("[]"), std::string("null"), std::string(), std::string("\xff\xfe"), std::string(5000, ' ')}) {
+        INFO(first.substr(0, 80));
+        Client page(studio, "http://" + studio.host(), studio.host());
+        REQUIRE(!page.error);
+        page.write(first);
+        CHECK(page.read_text().is_null());
     }
-    for (int attempt = 0; attempt < 50; ++attempt) {
-        try {
-            if (get(studio, "/", studio.host()).result_int() == 200) return;
-        } catch (const boost::system::system_error&) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-    }
-    FAIL("no page is served any more");
+    CHECK(get(studio, "/", studio.host()).result_int() == 200);
+}
+
+TEST_CASE("requests that are nested too deep, or whose number is none, are refused in words", "[studio]") {
+    const Served studio;
+    Client page(studio, "http://" + studio.host(), studio.host());
+    page.write(R"({"do": "hello", "id": 1, "token": ")" + studio.token + "\"}");
+    REQUIRE(page.read_text()["reply"] == 1);
+    const auto refusal = [&](const std::string& request) {
+        page.write(request);
+        Json message = page.read_text();
+        while (!message.is_null() && !message.contains("error")) message = page.read_text();
+        return message.value("error", "");
+    };
+    const std::string deep(2000000, '[');
+    CHECK(refusal(R"({"do": "stop", "id": )" + deep + "}") == "the request is nested more than 16 deep");
+    CHECK(refusal(R"({"id": 2, "do": "change", "label": )" + deep) == "the request is nested more than 16 deep");
+    CHECK(refusal(R"({"do": "stop", "id": "1"})") == "'id' is no whole number");
+    CHECK(refusal(R"({"do": "stop", "id": 1.5})") == "'id' is no whole number");
+    CHECK(refusal("[1]") == "the request is no object");
+    CHECK(refusal(R"({"do": "stop")").starts_with("the request is no JSON"));
+}
+
+TEST_CASE("sockets that never greet are closed after five seconds", "[studio]") {
+    const Served studio;
+    asio::io_context io;
+    tcp::socket silent = studio.connect(io);
+    Client page(studio, "http://" + studio.host(), studio.host());
+    REQUIRE(!page.error);
+    const auto begin = std::chrono::steady_clock::now();
+    char byte;
+    beast::error_code error;
+    silent.read_some(asio::buffer(&byte, 1), error);
+    CHECK(error);
+    CHECK(page.read_text().is_null());
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+    CHECK(waited.count() > 3);
+    CHECK(waited.count() < 15);
+}
+
+TEST_CASE("however many clients say nothing, the owner's page is served, and stays", "[studio]") {
+    const Served studio;
+    Client page(studio, "http://" + studio.host(), studio.host());
+    page.write(R"({"do": "hello", "id": 1, "token": ")" + studio.token + "\"}");
+    CHECK(page.read_text()["reply"] == 1);
+    asio::io_context io;
+    std::vector<tcp::socket> silent;
+    for (int i = 0; i < 300; ++i) silent.push_back(studio.connect(io));
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(get(studio, "/", studio.host()).result_int() == 200);
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(4));
+    Client another(studio, "http://" + studio.host(), studio.host());
+    another.write(R"({"do": "hello", "id": 1, "token": ")" + studio.token + "\"}");
+    CHECK(another.read_text()["reply"] == 1);
+    page.write(R"({"do": "stop", "id": 7})");
+    Json message = page.read_text();
+    while (!message.is_null() && message.value("reply", 0) != 7) message = page.read_text();
+    CHECK_FALSE(message.is_null());
 }

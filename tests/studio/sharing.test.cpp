@@ -51,13 +51,13 @@ TEST_CASE("a link names what comes with the program, and holds what was changed"
     shared["do"] = "open-text";
     studio.ask(shared);
     studio.wait_until_grown();
-    CHECK(page.last("document")["path"] == (studio.folder.path() / "stalk/environments/stalk.toml").string());
+    CHECK(page.last("document")["path"] == (studio.folder.path() / "shared/stalk/environments/stalk.toml").string());
     CHECK(page.last("document")["seed"] == 7);
     CHECK((page.packets.back().substr(8) == picture));
-    CHECK(text_of(studio.folder.path() / "stalk/environments/view.v") == "angle increment: 30\n");
+    CHECK(text_of(studio.folder.path() / "shared/stalk/environments/view.v") == "angle increment: 30\n");
 }
 
-TEST_CASE("a model alone becomes one file", "[studio]") {
+TEST_CASE("a model alone becomes one file of a folder of its own", "[studio]") {
     Shelf studio;
     studio.options.opened.path = studio.file;
     ListeningPage& page = studio.begin();
@@ -65,10 +65,19 @@ TEST_CASE("a model alone becomes one file", "[studio]") {
     Json shared = studio.ask({{"do", "share"}});
     CHECK(shared["main"] == "own.l");
     CHECK(shared["files"] == Json::array({{{"path", "own.l"}, {"content", model}}}));
-    shared["do"] = "open-text";
-    studio.ask(shared);
-    studio.wait_until_grown();
-    CHECK(page.last("document")["name"] == "own-2.l");
+    for (const char* const place : {"shared/own/own.l", "shared/own-2/own.l"}) {
+        shared["do"] = "read-link";
+        const Json contents = studio.ask(shared);
+        CHECK(contents["folder"] == (studio.folder.path() / place).parent_path().string());
+        CHECK(contents["files"] ==
+              Json::array({{{"path", "own.l"}, {"bytes", std::string(model).size()}, {"library", nullptr}}}));
+        CHECK_FALSE(fs::exists(studio.folder.path() / place));
+        shared["do"] = "open-text";
+        studio.ask(shared);
+        studio.wait_until_grown();
+        CHECK(page.last("document")["path"] == (studio.folder.path() / place).string());
+        CHECK(text_of(studio.folder.path() / place) == model);
+    }
 }
 
 TEST_CASE("a link that leads out of the folder, or needs another library, is refused and writes nothing", "[studio]") {
@@ -80,16 +89,19 @@ TEST_CASE("a link that leads out of the folder, or needs another library, is ref
         const Json reply = studio.ask({{"do", "open-text"}, {"main", main}, {"files", files}});
         return reply.value("error", "");
     };
-    CHECK(refusal("../a.l", Json::array({good})) == "the link names the file '../a.l'");
-    CHECK(refusal("/a.l", Json::array({good})) == "the link names the file '/a.l'");
+    CHECK(refusal("../a.l", Json::array({good})) == "'../a.l' cannot be written: it leads out of the folder");
+    CHECK(refusal("/a.l", Json::array({good})) == "'/a.l' cannot be written: it leads out of the folder");
     CHECK(refusal("a.l", Json::array({good, {{"path", "b/../../b.l"}, {"content", ""}}})) ==
-          "the link names the file 'b/../../b.l'");
+          "'../b.l' cannot be written: it leads out of the folder");
     CHECK(refusal("b.l", Json::array({good})) == "the link holds no model");
     CHECK(refusal("a.l", Json::array()) == "the link holds no model");
     const Json other = {{"path", "b.l"}, {"library", "models/stalk.l"}, {"digest", "0"}};
     CHECK(refusal("a.l", Json::array({good, other})).starts_with("the link needs models/stalk.l of the library"));
     const Json secret = {{"path", "b.l"}, {"library", "../../etc/hostname"}, {"digest", "0"}};
-    CHECK(refusal("a.l", Json::array({good, secret})) == "the link names the file '../../etc/hostname'");
+    CHECK(refusal("a.l", Json::array({good, secret})) ==
+          "'../../etc/hostname' cannot be written: it leads out of the folder");
+    const Json elsewhere = {{"path", "b.l"}, {"library", "docs/b.l"}, {"digest", "0"}};
+    CHECK(refusal("a.l", Json::array({good, elsewhere})).starts_with("the link needs docs/b.l of the library"));
     CHECK_FALSE(fs::exists(studio.folder.path() / "a.l"));
-    CHECK_FALSE(fs::exists(studio.folder.path() / "a"));
+    CHECK_FALSE(fs::exists(studio.folder.path() / "shared"));
 }

@@ -9,7 +9,13 @@
 
 namespace espalier {
 
-/// The whole file as text. Throws UserError naming the file if it cannot be read.
+/// Throws UserError naming the file unless it is a regular file (no device, pipe or socket, which may never end) of at
+/// most 4 GiB that this thread has the permission to read (ReadPermission).
+void require_readable(const std::filesystem::path& path);
+/// Whether `require_readable` finds nothing wrong.
+bool is_readable(const std::filesystem::path& path);
+
+/// The whole file as text. Throws UserError naming the file if it cannot be read, as `require_readable` does.
 std::string read_text(const std::filesystem::path& path);
 
 /// Writes beside `path` and renames, so that `path` is either the old file or the whole new one.
@@ -17,6 +23,9 @@ std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, std::string_view text);
 /// The same for a text that lies in memory piece by piece.
 void write_text(const std::filesystem::path& path, std::span<const std::string_view> parts);
+
+/// The same as a file that nobody but its owner may read.
+void write_private_text(const std::filesystem::path& path, std::string_view text);
 
 /// For writers that want a file name of their own: calls `write(temporary)` and renames the result to `path`.
 /// The temporary name keeps the extension. `write` returns false or throws on failure. Throws RunError.

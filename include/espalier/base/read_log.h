@@ -1,4 +1,4 @@
-// Which files a piece of work has read: what must be kept to repeat it.
+// Which files a piece of work has read, which must be kept to repeat it, and which it may read.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace espalier {
 
@@ -17,6 +18,12 @@ std::uint64_t digest(std::string_view bytes, std::uint64_t before = 0xCBF29CE484
 
 /// Texts that stand for files while somebody edits them, by the files' absolute paths without `.` and `..`.
 using UnsavedTexts = std::map<std::filesystem::path, std::string>;
+
+/// What a piece of work may read, if that is not everything.
+struct ReadPermission {
+    std::vector<std::filesystem::path> folders;  ///< files below one of them, whatever links lead there or out
+    std::size_t most_bytes = 0;                  ///< of one file
+};
 
 /// While it lives, it notes every file that read_text() reads on its own thread, and on others within a Scope of it. A
 /// world notes what its plants read in the log of the thread that made it. A second log of a thread takes over from the
@@ -32,7 +39,9 @@ public:
 
     /// Files are kept in full until they are `most_kept` bytes together; of others only size and digest are.
     /// Where `unsaved` has a text, read_text() gives that instead of the file's, which must exist.
-    explicit ReadLog(std::size_t most_kept = std::size_t(16) << 20, UnsavedTexts unsaved = {});
+    /// Without a permission of its own, that of the log before it on this thread holds; without one, it may read all.
+    explicit ReadLog(std::size_t most_kept = std::size_t(16) << 20, UnsavedTexts unsaved = {},
+                     std::optional<ReadPermission> permission = {});
     ~ReadLog();
     ReadLog(const ReadLog&) = delete;
     ReadLog& operator=(const ReadLog&) = delete;
@@ -59,12 +68,15 @@ public:
     static void note(const std::filesystem::path& path, std::string_view bytes);
     /// What stands for the file on this thread; none: the file itself.
     static std::optional<std::string> unsaved(const std::filesystem::path& path);
+    /// What this thread may read; null if that is everything.
+    static const ReadPermission* permission();
 
 private:
     void add(const std::filesystem::path& path, std::string_view bytes);
 
     const std::size_t most_kept_;
     const UnsavedTexts unsaved_;
+    const std::optional<ReadPermission> permission_;
     std::size_t kept_ = 0;
     mutable std::mutex mutex_;
     std::map<std::filesystem::path, File> files_;

@@ -116,14 +116,20 @@ private:
         return scenes;
     }
 
-    // The files of the opened folder itself, without what lies deeper: that may be anything.
+    // The files of the opened folder itself, and what came by links, without what lies deeper: that may be anything.
     void add_own(const fs::path& data, std::vector<LibraryEntry>& entries) const {
         std::error_code ignored;
         for (const fs::path& folder : {folder_, folder_ / "output"}) add_runs(folder, entries);
-        for (const auto& file : fs::directory_iterator(folder_, ignored)) {
-            const bool is_scene = file.is_regular_file() && describes_scene(file.path());
-            if (!is_scene && !(file.is_regular_file() && describes_model(file.path()))) continue;
-            if (file.path().parent_path() == data) continue;
+        if (folder_ != data) add_files(folder_, entries);
+        for (const auto& shared : fs::directory_iterator(folder_ / "shared", ignored)) add_files(shared.path(), entries);
+    }
+
+    static void add_files(const fs::path& folder, std::vector<LibraryEntry>& entries) {
+        std::error_code ignored;
+        for (const auto& file : fs::directory_iterator(folder, ignored)) {
+            if (!file.is_regular_file(ignored)) continue;
+            const bool is_scene = describes_scene(file.path());
+            if (!is_scene && !describes_model(file.path())) continue;
             entries.push_back(
                 {file.path(), file.path().stem().string(), describe_file(file.path()).summary, {}, is_scene, true});
         }

@@ -1,6 +1,7 @@
 #include "archive/meshes/texture_file.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/file.h"
 
 #include "archive/meshes/bark.h"
 #include "base/picture_file.h"
@@ -54,6 +55,7 @@ vtkSmartPointer<vtkImageData> read_by(const fs::path& path) {
 
 // Not by vtkImageReader2Factory, whose reader of Targas takes anything for its own, loudly.
 vtkSmartPointer<vtkImageData> read_by_vtk(const fs::path& path) {
+    if (!is_readable(path)) return nullptr;
     for (const auto read : {read_by<vtkPNGReader>, read_by<vtkJPEGReader>, read_by<vtkTIFFReader>,
                             read_by<vtkBMPReader>, read_by<vtkPNMReader>}) {
         if (const auto image = read(path)) return image;
@@ -67,9 +69,8 @@ vtkSmartPointer<vtkImageData> read_image(const fs::path& path) {
 
 /// Where a texture's file may be, of these where one is.
 std::vector<fs::path> places_of(const fs::path& run, const std::string& file) {
-    std::error_code ignored;
     std::vector<fs::path> places{file, run / file};
-    std::erase_if(places, [&](const fs::path& path) { return !fs::is_regular_file(path, ignored); });
+    std::erase_if(places, [](const fs::path& path) { return !is_readable(path); });
     return places;
 }
 
