@@ -52,7 +52,7 @@ bool is_below(const fs::path& file, const fs::path& folder) {
 
 bool is_permitted(const fs::path& path, const ReadPermission& permission) {
     std::error_code error;
-    const fs::path file = fs::weakly_canonical(fs::absolute(path), error);
+    const fs::path file = fs::weakly_canonical(fs::absolute(path, error), error);
     return !error && std::any_of(permission.folders.begin(), permission.folders.end(), [&](const fs::path& folder) {
         const fs::path root = fs::weakly_canonical(folder, error);
         return !error && is_below(file, root);
@@ -67,6 +67,7 @@ std::string folders_text(const ReadPermission& permission) {
 
 /// Why the file must not be read; empty if it may be. That of a missing file is the system's.
 std::string reason_not_to_read(const fs::path& path) {
+    if (path.empty()) return reason(ENOENT);
     if (path.native().find('\0') != std::string::npos) return "its name holds a zero byte";
     const ReadPermission* const permission = ReadLog::permission();
     if (permission && !is_permitted(path, *permission)) {

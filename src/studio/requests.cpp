@@ -231,7 +231,7 @@ Json Session::stop(Viewer&, const Json&) {
 }
 
 Json Session::look(Viewer& viewer, const Json& request) {
-    viewer.step = has_number(request, "step") ? std::optional(whole<int>(request, "step")) : std::nullopt;
+    viewer.step = request.at("step").is_number() ? std::optional(whole<int>(request, "step")) : std::nullopt;
     const bool is_held = growth_ && request.value("held", Json()) == Json(growth_->number());
     if (!is_held) show(viewer);
     return {{"step", newest_.step}};
