@@ -11,7 +11,7 @@
 
 namespace espalier::geometry {
 
-/// Holds an OpenVDB grid; defined in espalier/environment/openvdb_grid.h, the one public header that includes OpenVDB.
+/// Holds an OpenVDB grid; defined in espalier/geometry/openvdb_grid.h, the one public header that includes OpenVDB.
 struct FieldGrid;
 
 struct Field {
