@@ -108,16 +108,15 @@ private:
     }
 
     void write_checkpoint() {
-        constexpr int part_of_the_time = 50;
         const StopRequest::Scope nobody(nullptr);
-        const auto begin = std::chrono::steady_clock::now();
+        const double begin = seconds();
         std::ostringstream timeline;
         timeline_->save(timeline);
         write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
             return save(temporary, timeline.str()) && seal(temporary);
         });
-        const auto end = std::chrono::steady_clock::now();
-        next_checkpoint_ = end + part_of_the_time * (end - begin);
+        checkpoint_end_ = seconds();
+        checkpoint_seconds_ = checkpoint_end_ - begin;
     }
 
     bool save(const std::filesystem::path& path, const std::string& timeline) const {
@@ -169,11 +168,21 @@ private:
         check_disk();
     }
 
-    // Who asks a run of such steps to end need not lose more than one of them.
+    // Who asks a run of long steps to end need not lose many of them. The checkpoints take a small part of the time.
     bool may_be_dropped_next() const {
+        constexpr double part_of_the_time = 20;
         const StageTimes& last = world_.times();
-        const std::chrono::duration<double> seconds(last.derive + last.interpret + last.exchange + last.record);
-        return seconds > patience_with_steps / 2 && std::chrono::steady_clock::now() >= next_checkpoint_;
+        const std::chrono::duration<double> step(last.derive + last.interpret + last.exchange + last.record);
+        if (step < patience_with_steps / 2) return false;
+        return seconds() - checkpoint_end_ >= part_of_the_time * checkpoint_seconds_.value_or(estimated_checkpoint());
+    }
+
+    // Seconds that writing the strings takes at least.
+    double estimated_checkpoint() const {
+        constexpr double bytes_per_second = 2e8;
+        std::size_t bytes = 0;
+        for (std::size_t plant = 0; plant < world_.size(); ++plant) bytes += world_.string(plant).content();
+        return static_cast<double>(bytes) / bytes_per_second;
     }
 
     void check_disk() {
@@ -234,8 +243,9 @@ private:
     RunRecord record_;
     std::optional<Timeline> timeline_;
     std::optional<DiskBudget> disk_;
-    std::size_t warned_ = 0;  ///< of the world's warnings
-    std::chrono::steady_clock::time_point next_checkpoint_{};
+    std::size_t warned_ = 0;     ///< of the world's warnings
+    double checkpoint_end_ = 0;  ///< seconds since the run began
+    std::optional<double> checkpoint_seconds_;
 };
 
 }  // namespace
