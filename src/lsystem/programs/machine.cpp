@@ -119,8 +119,8 @@ void Machine::run(const Program& program) {
                 if (r[i.a] != 0) at = code + i.b - 1;
                 break;
             case Opcode::repeat:
-                if (turns % turns_between_looks == 0) end_if_asked();
-                if (++turns > most_turns) refuse_loop(place());
+                if (++turns % turns_between_looks == 0) end_if_asked();
+                if (turns > most_turns) refuse_loop(place());
                 break;
             case Opcode::print:
                 r[i.target] = print(program.prints[i.a], place());
