@@ -80,6 +80,9 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     settings.input_folder = folder_with(source_of(*plant.model));
     settings.output_folder = arguments.files;
     Derivation derivation(plant.model, settings);
+    const auto limit = [&](const ModuleString& string) {
+        derivation.set_memory(settings.memory - std::min(settings.memory, derivation.working_memory(string)));
+    };
     derivation.set_length(scene.steps.value_or(derivation.length()));
 
     TurtleAnswers answers(plant);
@@ -87,10 +90,12 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     const simulation::Insertions insertions(plant);
     grow({[&] { return derivation.stopped() || derivation.steps_done() >= derivation.length(); },
           [&] {
+              limit({});
               derivation.start(string);
               insertions.apply(0, string);
           },
           [&] {
+              limit(string);
               derivation.step(string, next);
               std::swap(string, next);
               insertions.apply(derivation.steps_done(), string);

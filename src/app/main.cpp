@@ -1,5 +1,6 @@
 // The command line, and the one place that catches.
 #include "espalier/base/error.h"
+#include "espalier/base/stop.h"
 
 #include "base/platform.h"
 #include "base/text.h"
@@ -143,6 +144,8 @@ int parse_and_run(int argc, char** argv) {
     const bool json = command.wants_json();
     try {
         return run_whole(command);
+    } catch (const Stopped&) {
+        return fail("interrupted before anything was grown", exit_code::interrupted, json);
     } catch (const UserError& error) {
         return fail(error.what(), exit_code::user_error, json);
     } catch (const std::filesystem::filesystem_error& error) {
@@ -164,7 +167,8 @@ int fail(const std::string& message, int code, bool json) {
     // Nobody is left to be told of an output that cannot be written; the exit code still says it.
     std::fputs((message + "\n").c_str(), stderr);
     if (json) {
-        const nlohmann::ordered_json result = {{"exit", "failed"}, {"code", code}, {"message", message}};
+        const char* const exit = code == exit_code::interrupted ? "interrupted" : "failed";
+        const nlohmann::ordered_json result = {{"exit", exit}, {"code", code}, {"message", message}};
         std::fputs((result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n").c_str(), stdout);
     }
     return code;

@@ -19,13 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::atomic<bool> interrupt{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+StopRequest interrupt;
 
 std::atomic<bool> silent{false};
 
 void request_interrupt(int) {
-    interrupt = true;
+    interrupt.ask(patience_with_steps);
     if (silent) return;
     platform::write_error("\nfinishing this step (press Ctrl-C again to stop at once)\n");
 }
@@ -126,13 +125,13 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
     return words;
 }
 
-InterruptibleRun::InterruptibleRun(bool quiet) : signals_(request_interrupt, /*only_once=*/true) {
+InterruptibleRun::InterruptibleRun(bool quiet) : scope_(&interrupt), signals_(request_interrupt, /*only_once=*/true) {
     silent = quiet;
     platform::report_closed_outputs();  // progress that nobody reads any more must not end a run
 }
 
-const std::atomic<bool>& InterruptibleRun::interrupted() {
-    return interrupt;
+bool InterruptibleRun::interrupted() {
+    return interrupt.is_asked();
 }
 
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output) {
@@ -150,7 +149,6 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.disk = arguments.disk;
     options.arguments = words_of(arguments);
     options.inputs = &inputs;
-    options.interrupt = &interrupt;
     options.patience = arguments.timeout;
     options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
     if (!arguments.quiet) options.warn = print_warnings;
@@ -194,8 +192,10 @@ public:
             .add_option("--every", every_, "record a frame every N steps; default: as the scene says, or 1")
             ->check(CLI::Range(1, 1000000000));
         app()
-            .add_option("--checkpoint-every", arguments_.checkpoint_every,
-                        "write a checkpoint every N steps for `espalier resume`; default: only when interrupted")
+            .add_option(
+                "--checkpoint-every", arguments_.checkpoint_every,
+                "write a checkpoint every N steps for `espalier resume`; default: before steps that take long, and "
+                "when interrupted")
             ->check(CLI::Range(1, 1000000000));
         app()
             .add_option("--timeout", arguments_.timeout,
@@ -211,7 +211,8 @@ public:
   espalier run models/course/02-branching.l --steps 5
   espalier run models/organs/shoot.l --view models/organs/shoot.v
   espalier run models/language/shoot          a folder; its file 'specifications' names the files
-Ctrl-C ends the run after the current step and keeps all recorded frames. A second Ctrl-C stops at once.)");
+Ctrl-C ends the run after the current step, or within half a second of it, and keeps all recorded frames. A second
+Ctrl-C stops at once.)");
     }
 
     int run() override {

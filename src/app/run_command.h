@@ -1,12 +1,12 @@
 // What the command line asks of a run: commands that start runs share it.
 #pragma once
 
+#include "espalier/base/stop.h"
 #include "espalier/simulation/simulation.h"
 
 #include "base/platform.h"
 #include "model_arguments.h"
 
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -52,14 +52,16 @@ private:
 /// The scene that the arguments name. Throws UserError.
 Scene scene_of(const RunArguments& arguments);
 
-/// While it lives, the first Ctrl-C asks for an end after the step at hand, and the second ends the program.
+/// While it lives, the first Ctrl-C asks the work of this thread to end after the step at hand, or in its midst if that
+/// lasts, and the second ends the program.
 class InterruptibleRun {
 public:
     explicit InterruptibleRun(bool quiet);
 
-    static const std::atomic<bool>& interrupted();
+    static bool interrupted();
 
 private:
+    StopRequest::Scope scope_;
     platform::EndSignals signals_;
 };
 

@@ -1,5 +1,7 @@
 #include "espalier/base/random.h"
 
+#include "espalier/base/stop.h"
+
 #include <Random123/philox.h>
 
 #include <cmath>
@@ -113,7 +115,11 @@ double RandomSamples::beta(double a, double b) {
 
 double RandomSamples::binomial(double n, double p) {
     double successes = 0;
-    for (double toss = 0; toss < n; ++toss) successes += uniform() < p ? 1 : 0;
+    StopCheck<4096> check_stop;
+    for (double toss = 0; toss < n; ++toss) {
+        check_stop();
+        successes += uniform() < p ? 1 : 0;
+    }
     return successes;
 }
 

@@ -88,4 +88,20 @@ std::vector<std::string> code_points(std::string_view text) {
     return points;
 }
 
+std::string escaped(std::string_view text) {
+    std::string shown;
+    for (const std::string& point : code_points(text)) {
+        const auto first = static_cast<unsigned char>(point[0]);
+        const bool is_control = (first < 0x20 && first != '\n' && first != '\t') || first == 0x7F;
+        const bool is_late_control = first == 0xC2 && point.size() == 2 && static_cast<unsigned char>(point[1]) < 0xA0;
+        const bool is_stray = first >= 0x80 && point.size() == 1;
+        if (!is_control && !is_late_control && !is_stray) {
+            shown += point;
+            continue;
+        }
+        for (const char byte : point) shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+    }
+    return shown;
+}
+
 }  // namespace espalier

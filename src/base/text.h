@@ -20,6 +20,9 @@ std::string format_general(double value);
 /// The shortest text that reads back as the same double.
 std::string format_exact(double value);
 
+/// The same text to be shown: control characters other than newline and tab, and bytes that are no UTF-8, as `\x1b`.
+std::string escaped(std::string_view text);
+
 /// The words between any of the separators; none of them is empty.
 std::vector<std::string> words_of(std::string_view text, std::string_view separators);
 

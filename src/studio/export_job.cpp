@@ -20,16 +20,18 @@ ExportRun::ExportRun(ExportOrder order, Progressed progressed, Done done)
       thread_([this] { work(); }) {}
 
 ExportRun::~ExportRun() {
-    cancelled_ = true;
+    stop_.ask();
     thread_.join();
 }
 
 void ExportRun::work() {
+    const StopRequest::Scope scope(&stop_);
     try {
         std::vector<fs::path> files = write();
-        if (!cancelled_) done_(std::move(files), "");
+        if (!stop_.is_asked()) done_(std::move(files), "");
+    } catch (const Stopped&) {
     } catch (const std::exception& error) {
-        if (!cancelled_) done_({}, error.what());
+        if (!stop_.is_asked()) done_({}, error.what());
     }
     ended_ = true;
 }
@@ -45,7 +47,6 @@ fs::path ExportRun::grow() {
     RunOptions options;
     options.output = order_.scratch / "run";
     options.overwrite = true;
-    options.interrupt = &cancelled_;
     options.inputs = &reads;
     options.progress = [this](const Progress& progress) {
         if (progress.steps > 0) progressed_(double(progress.step) / progress.steps);
@@ -56,14 +57,17 @@ fs::path ExportRun::grow() {
 
 std::vector<fs::path> ExportRun::write() {
     const RecordedRun recorded(is_run(order_.opened.path) ? order_.opened.path : grow());
-    if (cancelled_) return {};
+    if (stop_.is_asked()) return {};
     std::vector<const RecordedFrame*> frames;
     for (const RecordedFrame& frame : recorded.frames()) {
         if (order_.step < 0 || frame.step <= order_.step) frames.push_back(&frame);
     }
     if (!order_.is_film && !frames.empty()) frames.erase(frames.begin(), frames.end() - 1);
     std::vector<fs::path> files;
-    const auto report = [&](const ExportedFile& file) { files.push_back(file.path); };
+    const auto report = [&](const ExportedFile& file) {
+        end_if_asked();
+        files.push_back(file.path);
+    };
     const ExportJob job{recorded, frames, {}, order_.scratch / "export", report};
     export_run(job, std::vector{order_.format});
     return files;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "espalier/base/read_log.h"
+#include "espalier/base/stop.h"
 #include "espalier/studio/studio.h"
 
 #include <atomic>
@@ -31,7 +32,7 @@ public:
     using Done = std::function<void(std::vector<std::filesystem::path> files, std::string why)>;
 
     ExportRun(ExportOrder order, Progressed progressed, Done done);
-    /// Ends it after the step at hand.
+    /// Ends it at once.
     ~ExportRun();
     ExportRun(const ExportRun&) = delete;
     ExportRun& operator=(const ExportRun&) = delete;
@@ -46,7 +47,8 @@ private:
     const ExportOrder order_;
     const Progressed progressed_;
     const Done done_;
-    std::atomic<bool> cancelled_ = false, ended_ = false;
+    StopRequest stop_;
+    std::atomic<bool> ended_ = false;
     std::thread thread_;  ///< the last: it uses all others
 };
 

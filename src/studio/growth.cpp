@@ -50,8 +50,11 @@ constexpr double most_unseen = 0.3;
 
 /// What the growth is at; of its own thread.
 struct Growth::Work {
-    Work(const Scene& scene, const fs::path& folder)
-        : world(scene, default_memory(), folder),
+    Work(const Scene& grown, const fs::path& folder, std::shared_ptr<Printout> prints)
+        : scene(grown),
+          files(folder),
+          printout(std::move(prints)),
+          world(grown, default_memory(), folder, printout),
           statistics(statistics_of(world, folder)),
           statistics_file(folder / "statistics.csv") {}
 
@@ -63,6 +66,15 @@ struct Growth::Work {
         return rows;
     }
 
+    /// Instead of one that was left in the midst of a step.
+    void renew_world() {
+        world = World(scene, default_memory(), files, printout);
+        at = -1;
+    }
+
+    const Scene& scene;
+    const fs::path files;
+    const std::shared_ptr<Printout> printout;
     World world;
     std::unique_ptr<Recorder> statistics;
     fs::path statistics_file;
@@ -75,11 +87,17 @@ struct Growth::Work {
     int told = -1;                         ///< the last step that the listener knows
     bool is_ended = false;                 ///< the model has stopped
     bool told_stop = false;
+    bool is_deriving = false;
+    bool is_whole = true;        ///< the world is not in the midst of a step
+    bool draws_in_order = true;  ///< until it was told to stop while it did
 };
 
 Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
     : order_(std::move(order)),
       listener_(listener),
+      printed_([this](std::string text) {
+          if (!cancelled_) listener_.printed(number(), std::move(text));
+      }),
       steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
       version_(order_.version),
       wanted_(order_.looked_at),
@@ -103,6 +121,7 @@ double Growth::seconds() const {
 
 void Growth::cancel() {
     cancelled_ = true;
+    request_.ask();
     const std::lock_guard lock(mutex_);
     changed_.notify_all();
 }
@@ -113,8 +132,14 @@ bool Growth::extend(int last_step, std::uint64_t version) {
     version_ = version;
     last_step_ = last_step;
     stopped_ = false;
+    request_.withdraw();
     changed_.notify_all();
     return true;
+}
+
+void Growth::stop() {
+    stopped_ = true;
+    request_.ask(patience_with_steps);
 }
 
 std::vector<std::string> Growth::column_names() const {
@@ -152,6 +177,7 @@ void Growth::draw(int step) {
 }
 
 void Growth::live() {
+    const StopRequest::Scope scope(&request_);
     try {
         const ReadLog reads(std::size_t(64) << 20, order_.unsaved, order_.permission);
         const Scene scene = order_.read(order_.opened);
@@ -162,12 +188,16 @@ void Growth::live() {
         if (cancelled_) return;
         const fs::path folder = order_.scratch / fmt::format("files-{}", number());
         fs::create_directories(folder);
-        Work work(scene, folder);
+        Work work(scene, folder, printed_.printout());
         begin(work, std::move(start));
         grow(work);
+    } catch (const Stopped&) {
+        printed_.tell();
+        if (!cancelled_) listener_.failed(number(), said("it was stopped before the first step"));
     } catch (const std::bad_alloc&) {
         if (!cancelled_) listener_.failed(number(), said("the machine has no memory left"));
     } catch (const std::exception& error) {
+        printed_.tell();
         if (!cancelled_) listener_.failed(number(), diagnostics_of(error));
     }
 }
@@ -199,12 +229,39 @@ void Growth::begin(Work& work, GrowthStart start) {
 
 void Growth::grow(Work& work) {
     while (!cancelled_) {
-        answer(work.world);
-        if (advance(work)) continue;
+        answer(work);
+        printed_.tell();
+        try {
+            if (advance(work)) continue;
+        } catch (const Stopped&) {
+            drop(work);
+            continue;
+        }
         const bool is_over = work.is_ended || work.derived >= last_step_;
         if (!is_over && !std::exchange(work.told_stop, true)) listener_.stopped(number());
         wait_for_more(work);
     }
+}
+
+// It was meant for other work than what follows; not so a request by cancel().
+void Growth::forget_stop() {
+    request_.withdraw();
+    if (cancelled_) request_.ask();
+}
+
+// The step at hand, or its picture. Of a world with processes nothing remains to go on from.
+void Growth::drop(Work& work) {
+    if (cancelled_) return;
+    forget_stop();
+    if (!std::exchange(work.is_deriving, false)) work.draws_in_order = false;
+    if (work.origin) {
+        work.renew_world();
+        if (may_extend_) work.world.set_steps(most_steps);
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    may_extend_ = work.is_whole = false;
+    stopped_ = true;
 }
 
 bool Growth::may_grow(const Work& work) const {
@@ -214,6 +271,7 @@ bool Growth::may_grow(const Work& work) const {
 // One piece of work; false if there is none.
 bool Growth::advance(Work& work) {
     const bool grows = may_grow(work);
+    if (!grows && stopped_) forget_stop();  // what was derived is still drawn
     if (!work.origin) {
         forget_wanted();
         if (grows) step(work);
@@ -235,6 +293,7 @@ void Growth::note_derived(Work& work) {
     ++work.own_steps;
     work.is_ended = work.world.stopped();
     work.told_stop = false;
+    work.draws_in_order = true;
     if (!may_extend_) last_step_ = work.world.last_step();  // models may change it
 }
 
@@ -251,12 +310,14 @@ void Growth::step(Work& work) {
 }
 
 void Growth::derive(Work& work) {
+    work.is_deriving = true;
     go_to(work, work.derived);
     if (work.derived < 0) {
         work.world.write_axioms();
     } else {
         work.world.derive();
     }
+    work.is_deriving = false;
     note_derived(work);
     steps_->add_derived(work.world.derived(), work.origin);
 }
@@ -275,7 +336,7 @@ bool Growth::draw_wanted(Work& work) {
         }
         return true;
     }
-    if (work.told == work.derived || work.drawn + 1 == work.derived) return false;
+    if (!work.draws_in_order || work.told == work.derived || work.drawn + 1 == work.derived) return false;
     note_grown(work, steps_->add(frame_at(work, work.derived)), "");
     return true;
 }
@@ -294,7 +355,7 @@ std::optional<int> Growth::next_wanted(const Work& work) {
 }
 
 bool Growth::may_draw_in_order(const Work& work) const {
-    return work.drawn < work.derived && (!rests_ || work.told < work.derived);
+    return work.draws_in_order && work.drawn < work.derived && (!rests_ || work.told < work.derived);
 }
 
 void Growth::draw_in_order(Work& work) {
@@ -332,13 +393,14 @@ void Growth::note_grown(Work& work, std::size_t internodes, std::string statisti
     if (!cancelled_) listener_.grown(number(), std::move(step));
 }
 
-void Growth::answer(const World& world) {
+void Growth::answer(const Work& work) {
     std::deque<std::function<void(const World&)>> questions;
     {
         const std::lock_guard lock(mutex_);
         questions.swap(questions_);
     }
-    for (const auto& question : questions) question(world);
+    if (!work.is_whole) return;
+    for (const auto& question : questions) question(work.world);
 }
 
 // A question, an end, or steps to grow or to draw.

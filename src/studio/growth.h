@@ -2,10 +2,12 @@
 #pragma once
 
 #include "espalier/base/read_log.h"
+#include "espalier/base/stop.h"
 #include "espalier/simulation/world.h"
 #include "espalier/studio/studio.h"
 
 #include "studio/kept_steps.h"
+#include "studio/printed_text.h"
 #include "studio/shown.h"
 #include "studio/workers.h"
 
@@ -45,7 +47,7 @@ class Growth final : public Shown {
 public:
     /// The workers and the listener outlive it.
     Growth(GrowthOrder order, GrowthListener& listener, Workers& workers);
-    /// Waits for the step at hand.
+    /// Drops the step at hand.
     ~Growth() override;
     Growth(const Growth&) = delete;
     Growth& operator=(const Growth&) = delete;
@@ -71,7 +73,7 @@ public:
 
     void cancel() override;
     bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
-    void stop() override { stopped_ = true; }
+    void stop() override;
     /// False if what grows depends on how far it is to grow: then it must grow anew.
     bool extend(int last_step, std::uint64_t version) override;
     void rest(bool rests) override;
@@ -82,6 +84,8 @@ private:
     void live();
     void begin(Work& work, GrowthStart start);
     void grow(Work& work);
+    void drop(Work& work);
+    void forget_stop();
     bool advance(Work& work);
     bool may_grow(const Work& work) const;
     void note_derived(Work& work);
@@ -95,17 +99,19 @@ private:
     void draw_in_order(Work& work);
     Frame frame_at(Work& work, int step);
     void note_grown(Work& work, std::size_t internodes, std::string statistics);
-    void answer(const World& world);
+    void answer(const Work& work);
     void wait_for_more(const Work& work);
 
     const GrowthOrder order_;
     GrowthListener& listener_;
+    PrintedText printed_;
     const std::shared_ptr<KeptSteps> steps_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;
     std::atomic<bool> may_extend_ = false;
     std::atomic<bool> cancelled_ = false, stopped_ = false, rests_ = false;
+    StopRequest request_;  ///< to what its thread does at this moment
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;

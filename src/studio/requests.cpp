@@ -227,6 +227,7 @@ Json Session::grow(Viewer&, const Json& request) {
 
 Json Session::stop(Viewer&, const Json&) {
     if (growth_) growth_->stop();
+    if (next_) next_->stop();
     return Json::object();
 }
 

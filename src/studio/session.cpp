@@ -235,6 +235,10 @@ void Session::drawn(std::uint32_t growth, int step, std::string statistics) {
     post_([this, growth, step, statistics = std::move(statistics)] { note_drawn(growth, step, statistics); });
 }
 
+void Session::printed(std::uint32_t growth, std::string text) {
+    post_([this, growth, text = std::move(text)] { note_printed(growth, text); });
+}
+
 void Session::stopped(std::uint32_t growth) {
     post_([this, growth] { note_stopped(growth); });
 }
@@ -267,6 +271,7 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     own_seed_ = seed;
     own_steps_ = steps;
     problems_ = start_.warnings;
+    printed_.clear();
     newest_ = {};
     newest_.step = -1;
     newest_.last_step = start_.last_step;
@@ -321,6 +326,18 @@ void Session::note_drawn(std::uint32_t growth, int step, const std::string& stat
     for (const auto& viewer : viewers_) {
         if (viewer->awaits.contains(step)) send_packet(*viewer, step);
     }
+}
+
+// All that the models of a growth print is one message, as long as it can be read.
+void Session::note_printed(std::uint32_t growth, const std::string& text) {
+    constexpr std::size_t most_shown = 4000;
+    if (!growth_ || growth_->number() != growth || printed_.size() > most_shown) return;
+    printed_ += text;
+    const bool is_cut = printed_.size() > most_shown;
+    if (printed_message_ == 0) printed_message_ = ++last_message_;
+    say_as(printed_message_, "note",
+           "Printed by the model:\n" + printed_.substr(0, most_shown) +
+               (is_cut ? "\nMore is left out here; `espalier derive` prints it." : ""));
 }
 
 // Pages that wait for a later step get the last there is.
@@ -400,8 +417,13 @@ void Session::tell(const Json& message) {
 }
 
 void Session::say(const std::string& severity, const std::string& text) {
-    Json& message = messages_[++last_message_];
-    message = {{"say", "message"}, {"number", last_message_}, {"severity", severity}, {"text", text}};
+    say_as(++last_message_, severity, text);
+}
+
+// Instead of what this message said before.
+void Session::say_as(std::uint32_t number, const std::string& severity, const std::string& text) {
+    Json& message = messages_[number];
+    message = {{"say", "message"}, {"number", number}, {"severity", severity}, {"text", text}};
     tell(message);
 }
 

@@ -115,11 +115,13 @@ private:
     void started(std::uint32_t growth, GrowthStart start) override;
     void grown(std::uint32_t growth, GrownStep step) override;
     void drawn(std::uint32_t growth, int step, std::string statistics) override;
+    void printed(std::uint32_t growth, std::string text) override;
     void stopped(std::uint32_t growth) override;
     void failed(std::uint32_t growth, std::vector<Diagnostic> why) override;
     void note_started(std::uint32_t growth, GrowthStart start);
     void note_grown(std::uint32_t growth, const GrownStep& step);
     void note_drawn(std::uint32_t growth, int step, const std::string& statistics);
+    void note_printed(std::uint32_t growth, const std::string& text);
     void note_stopped(std::uint32_t growth);
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why);
     void add_statistics(const std::string& rows);
@@ -148,6 +150,7 @@ private:
     // Pages.
     void tell(const Json& message);
     void say(const std::string& severity, const std::string& text);
+    void say_as(std::uint32_t number, const std::string& severity, const std::string& text);
     void tell_all_to(Viewer& viewer);
 
     const StudioOptions& options_;
@@ -157,6 +160,8 @@ private:
     HandedFiles files_;
     std::map<std::uint32_t, Json> messages_;
     std::uint32_t last_message_ = 0;
+    std::string printed_;                ///< by the models of the growth
+    std::uint32_t printed_message_ = 0;  ///< that tells it; 0: none so far
 
     Document document_;
     std::map<std::filesystem::path, ReadLog::File> read_;  ///< what the last growth that started has read

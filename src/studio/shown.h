@@ -56,6 +56,8 @@ public:
     virtual void grown(std::uint32_t growth, GrownStep step) = 0;
     /// An earlier step can be shown; `statistics` as in GrownStep.
     virtual void drawn(std::uint32_t growth, int step, std::string statistics) = 0;
+    /// Models have printed more; also in the midst of a step, and on any thread.
+    virtual void printed(std::uint32_t growth, std::string text) = 0;
     /// It was told to stop before its end, and no more steps come.
     virtual void stopped(std::uint32_t growth) = 0;
     /// It could not be read, or did not go on. A growth that is told to end says nothing.

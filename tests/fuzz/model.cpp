@@ -59,7 +59,7 @@ void grow(const std::shared_ptr<const Model>& model) {
     settings.lineage = true;
     settings.memory = memory;
     settings.input_folder = "/nonexistent";
-    settings.print = [](const std::string&) {};
+    settings.printout = std::make_shared<Printout>([](const std::string&) {});
     const auto compiled = compile(model);
     Derivation derivation(compiled, settings);
     settings.one_by_one = true;

@@ -33,7 +33,7 @@ std::optional<std::string> translation(const NotationType& notation, const std::
 void grow(const std::shared_ptr<const CompiledModel>& model) {
     DerivationSettings settings;
     settings.memory = memory;
-    settings.print = [](const std::string&) {};
+    settings.printout = std::make_shared<Printout>([](const std::string&) {});
     Derivation derivation(model, settings);
     ModuleString string, next;
     derivation.start(string);

@@ -35,7 +35,7 @@ inline void quote(const std::string& sentence) {
 /// The string of a model after its derivation length, in cpfg's notation.
 inline std::string derived(const std::string& text, const ReadOptions& options = {}, DerivationSettings settings = {}) {
     const std::shared_ptr<const Model> model = read(text, options);
-    if (!settings.print) settings.print = [](const std::string&) {};
+    if (!settings.printout) settings.printout = std::make_shared<Printout>([](const std::string&) {});
     Derivation derivation(compile(model), settings);
     ModuleString string, next;
     derivation.start(string);

@@ -42,7 +42,7 @@ TEST_CASE("8 the order of events in a step", "[conformance]") {
     quote("After the last step, `End` runs.");
     std::string printed;
     DerivationSettings settings;
-    settings.print = [&](const std::string& text) { printed += text; };
+    settings.printout = std::make_shared<Printout>([&](const std::string& text) { printed += text; });
     const std::string model = lsystem_of(
         "derivation length: 2\nEnd: { printf(\"end%g\", Q); }\n"
         "Start: { n = 1; printf(\"start%g \", Q); }\n"
@@ -66,7 +66,7 @@ TEST_CASE("9 decomposition", "[conformance]") {
           "C(3)C(2)B(1)");
     std::string printed;
     DerivationSettings settings;
-    settings.print = [&](const std::string& text) { printed += text; };
+    settings.printout = std::make_shared<Printout>([&](const std::string& text) { printed += text; });
     derived(
         lsystem_of("derivation length: 1\n", "BD",
                    "X --> X\ndecomposition\nmaximum depth: 2\nB : {printf(\"B\");} --> CC\nC : {printf(\"C\");} --> E\n"

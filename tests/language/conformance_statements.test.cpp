@@ -114,7 +114,7 @@ TEST_CASE("7 printf, stop, the derivation length", "[conformance]") {
     quote("writes to standard error");
     std::string printed;
     DerivationSettings settings;
-    settings.print = [&](const std::string& text) { printed += text; };
+    settings.printout = std::make_shared<Printout>([&](const std::string& text) { printed += text; });
     derived(lsystem_of("derivation length: 1\n", "A(2)", "A(x) : {printf(\"%g of %d%s\\n\", x, 3, \"!\");} --> A(x)\n"),
             {}, settings);
     CHECK(printed == "2 of 3!\n");

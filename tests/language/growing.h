@@ -57,7 +57,7 @@ struct Grown {
 
 private:
     DerivationSettings with_print(DerivationSettings settings) {
-        settings.print = [this](const std::string& text) { said += text; };
+        settings.printout = std::make_shared<Printout>([this](const std::string& text) { said += text; });
         return settings;
     }
 };

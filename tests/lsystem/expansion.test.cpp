@@ -59,7 +59,7 @@ TEST_CASE("recursive decomposition stops at its depth and says so once", "[lsyst
     rules.maximum_depth = number(4);
     int warnings = 0;
     DerivationSettings settings;
-    settings.print = [&](const std::string&) { ++warnings; };
+    settings.printout = std::make_shared<Printout>([&](const std::string&) { ++warnings; });
     CHECK(text_after(model, 2, settings) == "xxxxxxxxA");
     CHECK(warnings == 1);
     rules.warnings = false;

@@ -26,7 +26,7 @@ std::string printed(std::vector<Expression> arguments) {
     model.system().start = {run(call(Function::print, std::move(arguments)))};
     std::string text;
     DerivationSettings settings;
-    settings.print = [&](const std::string& piece) { text += piece; };
+    settings.printout = std::make_shared<Printout>([&](const std::string& piece) { text += piece; });
     text_after(model, 0, settings);
     return text;
 }

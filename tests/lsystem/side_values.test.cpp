@@ -43,7 +43,7 @@ Answer answer(const Expression& expression, std::shared_ptr<const Resources> res
     model.rule({{"A", 0}}, {model.module("B", {expression})});
     Answer found;
     DerivationSettings settings;
-    settings.print = [&](const std::string& text) { found.said += text; };
+    settings.printout = std::make_shared<Printout>([&](const std::string& text) { found.said += text; });
     Derivation derivation(model.compiled(), settings);
     found.value = grow(derivation, 1).parameters[0];
     return found;

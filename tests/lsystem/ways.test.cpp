@@ -171,7 +171,7 @@ void compare(RandomModel& random, std::size_t threads, std::map<std::string, int
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const auto compiled = random.builder.compiled();
     DerivationSettings settings = with_lineage(3);
-    settings.print = [](const std::string&) {};
+    settings.printout = std::make_shared<Printout>([](const std::string&) {});
     Derivation derivation(compiled, settings);
     settings.one_by_one = true;
     Derivation reference(compiled, settings);

@@ -27,7 +27,7 @@ Derivation derivation_of(const std::shared_ptr<const CompiledModel>& model, bool
     DerivationSettings settings;
     settings.lineage = true;
     settings.one_by_one = one_by_one;
-    settings.print = [](const std::string&) {};
+    settings.printout = std::make_shared<Printout>([](const std::string&) {});
     settings.input_folder = source_of(*model).path.parent_path();
     return Derivation(model, std::move(settings));
 }

@@ -1,12 +1,16 @@
 #include "espalier/simulation/simulation.h"
 
+#include "espalier/base/stop.h"
+
 #include "catch.h"
 #include "temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
+#include <chrono>
 #include <map>
+#include <thread>
 
 using namespace espalier;
 using Catch::Matchers::Contains;
@@ -150,11 +154,13 @@ TEST_CASE_METHOD(Runs, "a run that has recorded nothing yet has done no steps, a
 }
 
 TEST_CASE_METHOD(Runs, "an interrupted run keeps every frame so far and says so", "[simulation]") {
-    std::atomic<bool> interrupt{false};
+    StopRequest interrupt;
+    const StopRequest::Scope scope(&interrupt);
     RunOptions options;
     options.output = output("run");
-    options.interrupt = &interrupt;
-    options.progress = [&](const Progress& progress) { interrupt = progress.step == 3; };
+    options.progress = [&](const Progress& progress) {
+        if (progress.step == 3) interrupt.ask();
+    };
     const RunResult result = run(scene(), options);
     CHECK(result.interrupted);
     CHECK(result.steps == 3);
@@ -165,11 +171,37 @@ TEST_CASE_METHOD(Runs, "an interrupted run keeps every frame so far and says so"
 }
 
 TEST_CASE_METHOD(Runs, "an interrupt during the last step interrupts nothing", "[simulation]") {
-    std::atomic<bool> interrupt{false};
+    StopRequest interrupt;
+    const StopRequest::Scope scope(&interrupt);
     RunOptions options;
-    options.interrupt = &interrupt;
-    options.progress = [&](const Progress& progress) { interrupt = progress.step == 6; };
+    options.progress = [&](const Progress& progress) {
+        if (progress.step == 6) interrupt.ask();
+    };
     CHECK_FALSE(run(scene(), options).interrupted);
+}
+
+TEST_CASE_METHOD(Runs, "a run that is asked to end in the midst of a step drops it", "[simulation][stop]") {
+    const Scene endless =
+        scene_with_model("lsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F') +
+                         "\nF : {i = 0; while (Q > 2 && i < 9e7) i = i + 1;} 1 --> F F\nendlsystem\n");
+    StopRequest interrupt;
+    const StopRequest::Scope scope(&interrupt);
+    std::jthread asking;
+    RunOptions options{.output = output("run")};
+    options.progress = [&](const Progress& progress) {
+        if (progress.step != 2) return;
+        asking = std::jthread([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            interrupt.ask(std::chrono::milliseconds(1));
+        });
+    };
+    const RunResult result = run(endless, options);
+    CHECK(result.interrupted);
+    CHECK(result.steps == 2);
+    CHECK(result.seconds < 10);
+    CHECK(record_of(output("run"))["exit"] == "interrupted");
+    CHECK(record_of(output("run"))["steps_done"] == 2);
+    CHECK(frames_in(output("run")) == 3);
 }
 
 TEST_CASE_METHOD(Runs, "a failure in step k leaves frames 0 to k-1 whole, and the reason", "[simulation]") {

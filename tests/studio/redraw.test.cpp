@@ -36,6 +36,7 @@ public:
     void drawn(std::uint32_t, int, std::string rows) override {
         note([&] { add(rows); });
     }
+    void printed(std::uint32_t, std::string) override {}
     void stopped(std::uint32_t) override {
         note([&] { failed_ = true; });
     }

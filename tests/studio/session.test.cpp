@@ -2,6 +2,9 @@
 #include "base/base64.h"
 #include "session_fixture.h"
 
+#include <chrono>
+#include <thread>
+
 using namespace studio_test;
 
 namespace {
@@ -234,6 +237,61 @@ TEST_CASE("growth can be stopped", "[studio]") {
     studio.wait([&] { return page.last("growth")["state"] == "stopped"; });
     CHECK(page.last("growth")["step"] < 1000000);
     CHECK(page.last("document")["undo"] == "grow to step 1000000");
+}
+
+TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is asked to", "[studio][stop]") {
+    const std::string loop = "F : {i = 0; while (Q == 3 && i < 9e7) i = i + LENGTH;} 1 --> F F\nendlsystem\n";
+    const std::string begin = "#define LENGTH 1\nlsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F');
+    const std::string light = "environment p;\n" + begin + "?p(1)\n" + loop;
+    for (const bool is_lit : {false, true}) {
+        OpenStudio studio(is_lit ? light : begin + "\n" + loop);
+        if (is_lit) {
+            studio.options.opened.path = studio.folder.write(
+                "lit.toml", "[[plant]]\nmodel = \"plant.l\"\n[environment.p]\nprocess = \"voxel-shade\"\n");
+        }
+        ListeningPage& page = studio.begin();
+        studio.wait([&] { return page.last("growth")["step"] == 2; });
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        const auto asked = std::chrono::steady_clock::now();
+        studio.ask({{"do", "stop"}});
+        studio.wait([&] { return page.last("growth")["state"] == "stopped"; });
+        CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(5));
+        CHECK(page.last("growth")["step"] == 2);
+        // An earlier step can still be shown, and a change grows anew.
+        page.packets.clear();
+        studio.ask({{"do", "frame"}, {"growth", page.last("growth")["growth"]}, {"step", 1}});
+        studio.wait([&] { return !page.packets.empty(); });
+        studio.change({{"settings", {{"LENGTH", "100000000"}}}});
+        studio.wait_until_grown();
+        CHECK(page.last("growth")["step"] == 5);
+    }
+}
+
+TEST_CASE("a change ends the endless growth before it, and so does the end of the studio", "[studio][stop]") {
+    const auto begin = std::chrono::steady_clock::now();
+    {
+        OpenStudio studio("#define LENGTH 1\nlsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F') +
+                          "\nF : {i = 0; while (i < 9e7) i = i + LENGTH;} 1 --> F\nendlsystem\n");
+        ListeningPage& page = studio.begin();
+        studio.wait([&] { return page.last("growth")["step"] == 0; });
+        studio.change({{"settings", {{"LENGTH", "100000000"}}}});
+        studio.wait_until_grown();
+        studio.change({{"settings", {{"LENGTH", "1"}}}});
+    }
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(10));
+}
+
+TEST_CASE("what models print is one message of the page", "[studio][stop]") {
+    OpenStudio studio(
+        "#define LENGTH 1\nlsystem: 1\nStartEach: { for (i = 0; i < 300; i += 1) printf(\"step %g%c\\n\", Q, 27); }\n"
+        "derivation length: 3\naxiom: F(LENGTH)\nF --> F\nendlsystem\n");
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    studio.wait([&] { return !page.last("message").is_null(); });
+    const std::string text = page.last("message")["text"];
+    CHECK(text.starts_with("Printed by the model:\nstep 1\\x1b\nstep 1\\x1b\n"));
+    CHECK(text.size() < 5000);
+    CHECK(page.last("message")["severity"] == "note");
 }
 
 TEST_CASE("nothing is written outside the opened folder", "[studio]") {

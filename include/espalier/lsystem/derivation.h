@@ -5,6 +5,7 @@
 #include "espalier/base/random.h"
 #include "espalier/lsystem/lsystem.h"
 #include "espalier/lsystem/module_string.h"
+#include "espalier/lsystem/printout.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -25,14 +26,15 @@ struct DerivationSettings {
     /// Replace one module after the other and look for contexts step by step: slow, and what the faster ways are
     /// compared with.
     bool one_by_one = false;
-    /// Bytes this plant's strings may take; a step that would exceed them throws RunError before it allocates.
+    /// Bytes that this plant's strings, arrays and files may take; a step that would exceed them throws RunError before
+    /// it allocates.
     std::size_t memory = std::size_t(-1);
     /// Where fopen() looks for files to read, besides those the model itself wrote.
     std::filesystem::path input_folder;
     /// Where files the model writes go; if empty they are kept in memory and forgotten with the derivation.
     std::filesystem::path output_folder;
-    /// Where printf goes (default: standard error).
-    std::function<void(const std::string&)> print;
+    /// Where printf goes, and warnings about what the model does; null: standard error.
+    std::shared_ptr<Printout> printout;
 };
 
 class CompiledModel;
@@ -110,6 +112,7 @@ using lsystem::CompiledModel;
 using lsystem::Derivation;
 using lsystem::DerivationSettings;
 using lsystem::has_order;
+using lsystem::Printout;
 using lsystem::source_of;
 using lsystem::uses_random_numbers;
 

@@ -4,7 +4,6 @@
 #include "espalier/base/read_log.h"
 #include "espalier/simulation/world.h"
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,12 +20,12 @@ struct Progress {
 struct RunOptions {
     std::filesystem::path output;  ///< empty: no timeline
     bool overwrite = false;
-    /// A checkpoint is written after every so many steps, and when the run is interrupted; 0: only then.
+    /// A checkpoint is written after every so many steps, before steps that last, and when the run is interrupted; 0:
+    /// only then.
     int checkpoint_every = 0;
-    bool resume = false;                           ///< goes on from the checkpoint in `output`
-    std::size_t memory = 0;                        ///< bytes; 0: half of the machine
-    std::size_t disk = 0;                          ///< bytes that may be written; 0: default_disk
-    const std::atomic<bool>* interrupt = nullptr;  ///< checked between steps and frames
+    bool resume = false;     ///< goes on from the checkpoint in `output`
+    std::size_t memory = 0;  ///< bytes; 0: half of the machine
+    std::size_t disk = 0;    ///< bytes that may be written; 0: default_disk
     /// Seconds that a process may take to answer the queries of one step; 0: any time. A process cannot be stopped:
     /// `expired` is called on another thread, with what to tell the user, after run.json says how the run ended. It is
     /// to end the program; if it returns, the run goes on waiting.
@@ -61,9 +60,10 @@ std::size_t peak_memory();
 /// The file in a run's folder that a later run goes on from; gone once the run has ended.
 std::filesystem::path checkpoint_of(const std::filesystem::path& output);
 
-/// Runs a scene to its end. A run that is interrupted or fails leaves its timeline whole up to the last step, with
-/// run.json saying how it ended. One that has written as much as it may leaves a checkpoint, too. Throws UserError,
-/// RunError.
+/// Runs a scene to its end, or until the StopRequest in whose scope it works asks it to end: a step that is then not
+/// done in time is dropped. A run that is interrupted or fails leaves its timeline whole up to the last step, with
+/// run.json saying how it ended. One that has written as much as it may leaves a checkpoint, too. Throws UserError and
+/// RunError; Stopped if it is asked to end before it has begun to write.
 RunResult run(const Scene& scene, const RunOptions& options = {});
 
 }  // namespace espalier::simulation

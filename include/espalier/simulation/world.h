@@ -35,7 +35,9 @@ class World {
 public:
     /// `memory` in bytes. Throws UserError for processes that cannot be made or queries without a process. What models
     /// write goes into `files`, below a folder of the plant's name if there are several; without it nothing is kept.
-    explicit World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {});
+    /// What they print goes to `printout`; null: standard error.
+    explicit World(const Scene& scene, std::size_t memory = std::size_t(-1), const std::filesystem::path& files = {},
+                   std::shared_ptr<Printout> printout = nullptr);
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;

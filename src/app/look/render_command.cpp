@@ -1,5 +1,6 @@
 // render: pictures, films and contact sheets of a run, or of a scene that is grown first.
 #include "espalier/base/error.h"
+#include "espalier/base/stop.h"
 #include "espalier/picture/author_view.h"
 #include "espalier/picture/render.h"
 #include "espalier/simulation/scene.h"
@@ -30,9 +31,6 @@ constexpr std::size_t pictures_of_a_turn = 72;
 
 std::atomic<bool> interrupt{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
-
-/// Thrown between two pictures, so that what was begun is removed.
-struct Interrupted {};
 
 /// One living line on a terminal, nothing in a pipe.
 class PictureProgress {
@@ -116,13 +114,13 @@ a run. docs/render.md shows examples.)");
         PictureProgress progress(run_.quiet || wants_json());
         job.progress = [&](std::size_t done, std::size_t all) {
             progress(done, all);
-            if (interrupt) throw Interrupted();
+            if (interrupt) throw Stopped();  // so that what was begun is removed
         };
         const fs::path output = output_.empty() ? recorded.folder() / "render.png" : output_;
         const platform::EndSignals signals([](int) { interrupt = true; }, true);
         try {
             print_files(draw(job, output));
-        } catch (const Interrupted&) {
+        } catch (const Stopped&) {
             return exit_code::interrupted;
         }
         return exit_code::done;

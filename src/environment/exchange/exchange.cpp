@@ -2,11 +2,11 @@
 #include "espalier/base/error.h"
 #include "espalier/environment/environment.h"
 
+#include "base/parallel.h"
 #include "environment/exchange/answering.h"
 #include "environment/exchange/communication.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -27,8 +27,8 @@ template <class Work>
 void for_blocks(std::size_t queries, const Work& work) {
     if (queries == 0) return;
     if (queries <= block) return work(std::size_t{0}, queries);
-    tbb::parallel_for(std::size_t{0}, blocks(queries),
-                      [&](std::size_t i) { work(i * block, std::min(queries, (i + 1) * block)); });
+    for_in_parallel(std::size_t{0}, blocks(queries),
+                    [&](std::size_t i) { work(i * block, std::min(queries, (i + 1) * block)); });
 }
 
 std::string described(const PlantView& plant, int step) {

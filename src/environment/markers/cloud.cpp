@@ -2,9 +2,10 @@
 
 #include "espalier/environment/shape.h"
 
+#include "base/parallel.h"
+
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -63,7 +64,7 @@ std::vector<glm::dvec3> fill(const Box& box, std::size_t count, const Filling& f
                              const Place& place) {
     std::vector<glm::dvec3> points(count);
     std::atomic<bool> failed = false;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end() && !failed; ++i) {
             RandomSamples samples = filling.samples(i);
             std::uint32_t tries = 0;
@@ -113,7 +114,7 @@ Box bounds_of(const Shape& shape, const Settings& table, const EnvironmentContex
 double filled_share(const Shape& shape, const Box& box, const Filling& filling, const Place& place) {
     constexpr std::size_t tries = 1000000;
     std::atomic<std::size_t> hits = 0;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tries, 10000), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, tries, 10000), [&](const auto& range) {
         std::size_t here = 0;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             RandomSamples samples = filling.samples(i);

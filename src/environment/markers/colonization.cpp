@@ -1,12 +1,12 @@
 #include "environment/markers/colonization.h"
 
 #include "base/bytes.h"
+#include "base/parallel.h"
 #include "environment/neighbours/point_grid.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ void Colonization::set_nodes(std::vector<ColonizingNode> nodes) {
     std::vector<char> known(nodes.size(), 0);
     if (renumbered) {
         for (const std::uint32_t number : *renumbered) known[number] = 1;
-        tbb::parallel_for(std::size_t{0}, winner_.size(), [&](std::size_t point) {
+        for_in_parallel(std::size_t{0}, winner_.size(), [&](std::size_t point) {
             if (winner_[point] != none) winner_[point] = (*renumbered)[winner_[point]];
         });
     } else {
@@ -112,7 +112,7 @@ void Colonization::add(std::span<const std::uint32_t> nodes) {
     places.reserve(nodes_.size());
     for (const ColonizingNode& node : nodes_) places.push_back(node.position);
     const PointGrid grid(places, nodes, std::min(rules_.influence, std::max(widest_, 1e-6)));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells_.size(), 8), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, cells_.size(), 8), [&](const auto& range) {
         std::vector<std::uint32_t> near;
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             const Cell& cell = cells_[i];
@@ -155,7 +155,7 @@ void Colonization::offer(const Cell& cell, std::span<const std::uint32_t> nodes)
 
 std::size_t Colonization::remove_within(double distance) {
     const double square = distance * distance;
-    tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
+    for_in_parallel(std::size_t{0}, cells_.size(), [&](std::size_t i) {
         Cell& cell = cells_[i];
         if (cell.left == 0) return;
         for (std::uint32_t point = cell.first; point < cell.end; ++point) {

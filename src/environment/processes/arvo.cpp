@@ -7,12 +7,12 @@
 #include "espalier/lsystem/lsystem.h"
 
 #include "base/bytes.h"
+#include "base/parallel.h"
 #include "environment/parameter_file.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -162,7 +162,7 @@ public:
     }
 
     void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             if (answers[i].size() >= 7) {
                 answer_climber(queries[i], world.step, answers[i]);
             } else if (!answers[i].empty()) {

@@ -3,9 +3,8 @@
 // Self-organizing tree models for image synthesis, section 5.1; shedding: section 5.3.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/changing_settings.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <vector>
@@ -27,7 +26,7 @@ public:
 
     void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         totals_.assign(std::max(totals_.size(), world.plants.size()), {});
-        tbb::parallel_for(std::size_t{0}, world.plants.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, world.plants.size(), [&](std::size_t i) {
             const auto of_plant = [&](const Query& query) { return query.plant < i; };
             const auto first = std::partition_point(queries.begin(), queries.end(), of_plant);
             const auto end = std::partition_point(first, queries.end(), [&](const Query& q) { return q.plant == i; });

@@ -3,6 +3,7 @@
 // and dormancy break.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/changing_settings.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
@@ -12,7 +13,6 @@
 
 #include <glm/geometric.hpp>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +106,7 @@ private:
         tbb::enumerable_thread_specific<BallsMet> met_by_thread;
         for (const SkyDirection& direction : sky_) {
             balls.turn_to(direction.towards);
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, clusters.size(), 64), [&](const auto& some) {
+            for_in_parallel(tbb::blocked_range<std::size_t>(0, clusters.size(), 64), [&](const auto& some) {
                 BallsMet& met = met_by_thread.local();
                 for (std::size_t i = some.begin(); i < some.end(); ++i) {
                     const double margin = (by_area_ ? 1 : beam_) * clusters[i].radius;

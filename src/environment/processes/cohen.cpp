@@ -4,11 +4,11 @@
 // distance from the last fork and the density. The paper gives the rules; the functions below are ours.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/changing_settings.h"
 #include "environment/exchange/answer_statistics.h"
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ public:
             return std::tie(a.place.x, a.place.y, a.place.z, a.weight) <
                    std::tie(b.place.x, b.place.y, b.place.z, b.weight);
         });
-        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             if (is_tip(queries[i])) answer_tip(queries[i].pose, answers[i]);
         });
         statistics_.clear();

@@ -2,12 +2,12 @@
 // Cohen 1967, Computer simulation of biological pattern generation processes.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ public:
             return std::tie(a.place.x, a.place.y, a.is_source, a.strength) <
                    std::tie(b.place.x, b.place.y, b.is_source, b.strength);
         });
-        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             if (queries[i].parameters.size() == 3) answer_one(place(queries[i]), answers[i]);
         });
         statistics_.clear();

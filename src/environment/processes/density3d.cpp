@@ -1,5 +1,6 @@
 // density3d: sums everything that was ever added to each voxel of a box.
 // After Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space.
+#include "espalier/base/stop.h"
 #include "espalier/environment/environment_process.h"
 
 #include "environment/exchange/answer_statistics.h"
@@ -39,7 +40,9 @@ public:
 
     // One after the other, in string order: each finds what those before it left.
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        StopCheck<4096> check_stop;
         for (std::size_t i = 0; i < queries.size(); ++i) {
+            check_stop();
             const std::optional<std::uint64_t> voxel = voxel_of(queries[i].pose.position);
             answers[i][0] = voxel ? add(*voxel, queries[i].parameters[0]) : 0;
         }

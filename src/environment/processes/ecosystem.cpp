@@ -3,11 +3,10 @@
 // of plant ecosystems, section 4.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/disc_overlap.h"
 #include "environment/parameter_file.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
@@ -60,7 +59,7 @@ public:
 private:
     // Without vigour: of two that overlap in one group the smaller loses, and two of one size both do.
     void compare_sizes(const DiscOverlap& discs) {
-        tbb::parallel_for(std::size_t{0}, centres_.size(), [&](std::size_t k) {
+        for_in_parallel(std::size_t{0}, centres_.size(), [&](std::size_t k) {
             const auto i = static_cast<std::uint32_t>(k);
             wins_[i] = discs.visit_overlapping(i, radii_[i], [&](std::uint32_t other) {
                 return second_[other] != second_[i] || radii_[other] < radii_[i];

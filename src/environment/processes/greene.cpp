@@ -7,6 +7,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "base/bytes.h"
+#include "base/parallel.h"
 #include "environment/shade/exposure.h"
 #include "environment/shade/leaf_area.h"
 #include "environment/shade/sky_directions.h"
@@ -14,7 +15,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +117,7 @@ public:
         nodes_.clear();
         for (const Query& query : queries) ++nodes_[room_.voxel_of(query.pose.position)];
         tried_.assign(queries.size(), {});
-        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             if (seeks(queries[i])) tried_[i] = allowed_trials(queries[i], world.step);
         });
         look_at_voxels(queries);
@@ -201,7 +201,7 @@ private:
         std::vector<VoxelView*> views;
         for (const openvdb::Coord& voxel : asked) views.push_back(&views_[voxel]);
         std::vector<VoxelLight> seen(asked.size());
-        tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, asked.size(), [&](std::size_t i) {
             const glm::dvec3 centre = room_.centre_of(asked[i]);
             VoxelView& view = *views[i];
             if (view.sky.empty()) {

@@ -3,12 +3,12 @@
 // botanical trees.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/point_grid.h"
 #include "environment/parameter_file.h"
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ private:
     void answer_group(std::span<const Query> queries, std::span<const std::uint32_t> group, std::span<Answer> answers) {
         PointGrid grid(points_, group, 2 * radius_);
         grid.sort_cells([&](std::uint32_t a, std::uint32_t b) { return vigour(queries[a]) > vigour(queries[b]); });
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.size(), 256), [&](const auto& cells) {
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.size(), 256), [&](const auto& cells) {
             std::vector<std::uint32_t> apart;
             for (std::size_t cell = cells.begin(); cell < cells.end(); ++cell) {
                 apart.clear();

@@ -1,6 +1,7 @@
 // reaction-diffusion: substances that make organs around a growing stem, or veins in a sheet.
 // Gierer & Meinhardt 1972; Meinhardt 1982, Models of Biological Pattern Formation (organs); Bernasconi 1994 (a second
 // inhibitor in time); Meinhardt 1976, Morphogenesis of lines and nets. Lattice, rates and noise are ours.
+#include "espalier/base/stop.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 
@@ -88,7 +89,10 @@ public:
     }
 
     void run() override {
-        for (std::int64_t round = 0; round < rounds_; ++round) react();
+        for (std::int64_t round = 0; round < rounds_; ++round) {
+            end_if_asked();
+            react();
+        }
         grow();
         find_maxima();
     }
@@ -241,7 +245,10 @@ public:
     }
 
     void run() override {
-        for (std::int64_t round = 0; round < rounds_; ++round) react();
+        for (std::int64_t round = 0; round < rounds_; ++round) {
+            end_if_asked();
+            react();
+        }
     }
 
     /// How much of a vein the cell at the query's place is.

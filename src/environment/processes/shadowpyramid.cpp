@@ -4,13 +4,13 @@
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <openvdb/tools/Interpolation.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ public:
     }
 
     void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), [&](const auto& some) {
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 256), [&](const auto& some) {
             const auto accessor = light_->getConstAccessor();
             for (std::size_t i = some.begin(); i < some.end(); ++i) {
                 answer_one(accessor, queries[i], static_cast<std::uint32_t>(world.step), answers[i]);

@@ -15,11 +15,11 @@
 
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/shapes/field.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,8 +102,8 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        tbb::parallel_for(std::size_t{0}, queries.size(),
-                          [&](std::size_t i) { answer_one(queries[i].pose.position, answers[i]); });
+        for_in_parallel(std::size_t{0}, queries.size(),
+                        [&](std::size_t i) { answer_one(queries[i].pose.position, answers[i]); });
         std::fill(inside_.begin(), inside_.end(), 0);
         std::fill(outside_.begin(), outside_.end(), 0);
         for (std::size_t i = 0; i < queries.size(); ++i) {

@@ -2,6 +2,7 @@
 // Its parameters and queries are described in water_parameters.cpp, the numbers behind it in docs/water.md.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "base/text.h"
 #include "environment/changing_settings.h"
 #include "environment/water/diffusion.h"
@@ -15,7 +16,6 @@
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +75,7 @@ public:
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         require_finite(queries);
         std::vector<WaterWish> wishes(queries.size());
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
             for (std::size_t q = range.begin(); q != range.end(); ++q) wishes[q] = sense(queries[q], answers[q]);
         });
         warn_of_wishes_beyond_voxels(queries);

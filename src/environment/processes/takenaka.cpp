@@ -3,12 +3,11 @@
 // environment.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/changing_settings.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/parameter_file.h"
 #include "environment/shade/sphere_tree.h"
-
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <numbers>
@@ -78,7 +77,7 @@ public:
             clusters.push_back({queries[i].pose.position, s_ / 2 * std::sqrt(area / std::numbers::pi), i});
         }
         const SphereTree tree(clusters);
-        tbb::parallel_for(std::size_t{0}, clusters.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, clusters.size(), [&](std::size_t i) {
             if (answers[i].size() > 1) answers[i][1] = product(tree, clusters[i], queries[i].parameters);
         });
         statistics_.sum_up(queries, answers, 1);

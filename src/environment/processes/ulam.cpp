@@ -2,11 +2,11 @@
 // Ulam 1962, On some mathematical problems connected with patterns of growth of figures; Schrandt & Ulam 1967.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/exchange/answer_statistics.h"
 #include "environment/neighbours/point_grid.h"
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,8 +37,8 @@ public:
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         find_cells(queries);
         const PointGrid grid(places_, numbers_up_to(places_.size()), edge_);
-        tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) { count_living(grid, cells_[i]); });
-        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, cells_.size(), [&](std::size_t i) { count_living(grid, cells_[i]); });
+        for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             const Cell& cell = cells_[cell_of_[i]];
             const int corners = cell.corners + rivals(grid, cell);
             const bool born = cell.edges == 1 && !cell.alive && (rule_ == "simple" || corners == 0);

@@ -4,12 +4,12 @@
 #include "espalier/geometry/field_values.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/parallel.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openvdb/io/Stream.h>
-#include <tbb/parallel_for.h>
 
 #include <sstream>
 
@@ -97,7 +97,7 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+        for_in_parallel(std::size_t{0}, queries.size(), [&](std::size_t i) {
             const glm::dvec3& place = queries[i].pose.position;
             for (std::size_t k = 0; k < names_.size(); ++k) answers[i][k] = values_.value(names_[k], place);
             if (answers[i].size() < 4) return;

@@ -2,13 +2,13 @@
 // Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3.
 #include "espalier/environment/environment_process.h"
 
+#include "base/parallel.h"
 #include "environment/changing_settings.h"
 #include "environment/shade/grids.h"
 #include "environment/shade/light.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,7 +153,7 @@ public:
                 answer_one(light, queries[i], own(i), answers[i]);
             }
         };
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), 256), answer_some);
+        for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 256), answer_some);
         sum_up(queries, answers);
     }
 

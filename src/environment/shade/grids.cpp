@@ -2,7 +2,7 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
-#include <tbb/parallel_for.h>
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -150,14 +150,14 @@ void ShadeGrids::Grids::Version::add_new(const ShadeBricks& bricks) {
         if (bricks.exists(number) && leaves[number].values == nullptr) numbers.push_back(number);
     }
     const float background = field->grid->background();
-    std::vector<Leaf*> fresh(numbers.size());
-    tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t i) {
+    std::vector<std::unique_ptr<Leaf>> fresh(numbers.size());
+    for_in_parallel(std::size_t{0}, numbers.size(), [&](std::size_t i) {
         places[numbers[i]] = bricks.brick(numbers[i]);
-        fresh[i] = new Leaf(origin_of(places[numbers[i]]), background);
+        fresh[i] = std::make_unique<Leaf>(origin_of(places[numbers[i]]), background);
         place_leaf(numbers[i], *fresh[i]);
     });
     openvdb::FloatGrid::Accessor tree = field->grid->getAccessor();
-    for (Leaf* leaf : fresh) tree.addLeaf(leaf);
+    for (std::unique_ptr<Leaf>& leaf : fresh) tree.addLeaf(leaf.release());
 }
 
 // Leaves that stay are written over. False if nothing has changed.
@@ -176,7 +176,7 @@ bool ShadeGrids::Grids::One::prepare(const ShadeBricks& bricks, const VoxelBox& 
 template <class Write>
 void ShadeGrids::Grids::One::bring_up_to_date(const ShadeBricks& bricks, const VoxelBox& shown, const Write& write) {
     if (!prepare(bricks, shown)) return;
-    tbb::parallel_for(std::size_t{0}, now.changed.size(), [&](std::size_t i) {
+    for_in_parallel(std::size_t{0}, now.changed.size(), [&](std::size_t i) {
         const std::uint32_t number = now.changed[i];
         if (bricks.exists(number)) write(bricks.sums(number), now.leaves[number]);
     });

@@ -1,8 +1,8 @@
 #include "environment/shade/sweep.h"
 
+#include "base/parallel.h"
 #include "base/vector_clones.h"
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <array>
@@ -216,7 +216,7 @@ void ShadeSweep::run(const ShadeCasts& casts, const VoxelBox& box, ShadeBricks& 
     bricks.set_reach(counts_);
     list_stretches(bricks);
     leaves_ = leaves ? leaves() : std::span<const ShadeLeaf>();
-    tbb::parallel_for(std::size_t{0}, stretches_.size(), [&](std::size_t i) { sweep(casts, stretches_[i], bricks); });
+    for_in_parallel(std::size_t{0}, stretches_.size(), [&](std::size_t i) { sweep(casts, stretches_[i], bricks); });
 }
 
 std::size_t ShadeSweep::bytes(const ShadeCasts& casts) {
@@ -278,7 +278,7 @@ std::span<const ShadeSweep::Layer> ShadeSweep::layers_over(int slice, int lower,
 void ShadeSweep::count(const ShadeCasts& casts, const ShadeBricks& bricks) {
     counts_.resize(bricks.places());
     const int first = bricks.first().y;
-    tbb::parallel_for(first, first + static_cast<int>(bricks.size().y), [&](int y) { count_layer(casts, bricks, y); });
+    for_in_parallel(first, first + static_cast<int>(bricks.size().y), [&](int y) { count_layer(casts, bricks, y); });
 }
 
 // Squares of bricks are added up from their corners, as pyramids are from their edges.

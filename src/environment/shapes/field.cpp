@@ -1,10 +1,13 @@
 #include "environment/shapes/field.h"
 
+#include "base/parallel.h"
+
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 namespace espalier::environment {
 namespace {
@@ -26,6 +29,7 @@ public:
     bool collect(const openvdb::Coord& origin, int edge, const openvdb::CoordBBox& within) {
         const openvdb::CoordBBox block(origin, origin.offsetBy(edge - 1));
         if (!block.hasOverlap(within)) return true;
+        check_stop_();
         const double half = 0.5 * (edge - 1);
         const openvdb::Vec3d at = transform_.indexToWorld(origin.asVec3d() + openvdb::Vec3d(half));
         const double distance = shape_.distance({at.x(), at.y(), at.z()});
@@ -54,6 +58,7 @@ private:
     const openvdb::math::Transform& transform_;
     double voxel_;
     std::size_t most_;
+    StopCheck<1024> check_stop_;
 };
 
 void sample_leaf(Leaf& leaf, const Shape& shape, const openvdb::math::Transform& transform, float background) {
@@ -102,12 +107,12 @@ std::shared_ptr<const FieldGrid> sample_level_set(const Shape& shape, const Box&
                                            static_cast<double>(memory) / 1e9, voxel));
     }
     for (const openvdb::CoordBBox& block : band.inside) grid->tree().fill(block, -background, false);
-    std::vector<Leaf*> leaves(band.leaves.size());
-    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-        leaves[i] = new Leaf(band.leaves[i], background);
+    std::vector<std::unique_ptr<Leaf>> leaves(band.leaves.size());
+    for_in_parallel(std::size_t{0}, leaves.size(), [&](std::size_t i) {
+        leaves[i] = std::make_unique<Leaf>(band.leaves[i], background);
         sample_leaf(*leaves[i], shape, *transform, background);
     });
-    for (Leaf* leaf : leaves) grid->tree().addLeaf(leaf);
+    for (std::unique_ptr<Leaf>& leaf : leaves) grid->tree().addLeaf(leaf.release());
     return std::make_shared<const FieldGrid>(FieldGrid{grid, voxels});
 }
 

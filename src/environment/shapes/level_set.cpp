@@ -1,5 +1,6 @@
 #include "environment/shapes/level_set.h"
 
+#include "espalier/base/stop.h"
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "base/platform.h"
@@ -44,6 +45,13 @@ void require_room(const TriangleMesh& mesh, double voxel, const std::string& fil
     }
 }
 
+/// What OpenVDB asks on any thread.
+struct Interrupter final : openvdb::util::NullInterrupter {
+    const StopRequest* request = StopRequest::current();
+
+    bool wasInterrupted(int) override { return request && request->is_due(); }
+};
+
 openvdb::FloatGrid::Ptr to_level_set(const TriangleMesh& mesh, double voxel) {
     initialize_openvdb();
     std::vector<openvdb::Vec3s> points;
@@ -55,7 +63,11 @@ openvdb::FloatGrid::Ptr to_level_set(const TriangleMesh& mesh, double voxel) {
     }
     for (const auto& [a, b, c] : mesh.triangles) triangles.emplace_back(a, b, c);
     const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-    return openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, points, triangles, half_band);
+    Interrupter interrupter;
+    openvdb::util::NullInterrupter& asked = interrupter;
+    auto grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(asked, *transform, points, triangles, half_band);
+    end_if_asked();
+    return grid;
 }
 
 bool has_inside(const openvdb::FloatGrid& grid) {

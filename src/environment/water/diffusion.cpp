@@ -1,10 +1,10 @@
 #include "environment/water/diffusion.h"
 
+#include "base/parallel.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ double sum_along(int n, double k, const WaterSide& lower, const WaterSide& upper
 template <class RowWork>
 void for_rows(const WaterGrid& grid, RowWork work) {
     const std::size_t grain = std::max<std::size_t>(1, 16384 / grid.stride());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows(), grain), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.rows(), grain), [&](const auto& range) {
         for (std::size_t row = range.begin(); row != range.end(); ++row) work(row);
     });
 }

@@ -1,6 +1,6 @@
 #include "environment/water/grid.h"
 
-#include <tbb/parallel_for.h>
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,7 +98,7 @@ WaterFaces::WaterFaces(const WaterGrid& grid, const std::vector<std::uint8_t>& i
         return is_free[(std::size_t(z) * size.y + y) * size.x + x] != 0;
     };
     std::vector<std::size_t> free_in_row(grid.rows(), 0);
-    tbb::parallel_for(std::size_t{0}, grid.rows(), [&](std::size_t row) {
+    for_in_parallel(std::size_t{0}, grid.rows(), [&](std::size_t row) {
         const int y = grid.y_of(row), z = grid.z_of(row);
         std::uint8_t all = 127;
         for (int x = 0; x < size.x; ++x) {

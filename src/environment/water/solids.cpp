@@ -2,9 +2,10 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/parallel.h"
+
 #include <openvdb/tools/Interpolation.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
@@ -59,7 +60,7 @@ std::vector<std::uint8_t> WaterSolids::free_voxels(const WaterGrid& grid) const 
     std::vector<std::uint8_t> free(grid.voxels(), 1);
     if (!any()) return free;
     const glm::ivec3 size = grid.size();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
         for (std::size_t row = range.begin(); row != range.end(); ++row) {
             const int y = grid.y_of(row), z = grid.z_of(row);
             for (int x = 0; x < size.x; ++x) {

@@ -1,5 +1,7 @@
 #include "environment/water/steady.h"
 
+#include "espalier/base/stop.h"
+
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
@@ -9,6 +11,15 @@
 
 namespace espalier::environment {
 namespace {
+
+/// The diagonal, which the solver asks in each of its iterations.
+struct Preconditioner : Eigen::DiagonalPreconditioner<double> {
+    template <class Vector>
+    auto solve(const Eigen::MatrixBase<Vector>& residual) const {
+        end_if_asked();
+        return Eigen::DiagonalPreconditioner<double>::solve(residual);
+    }
+};
 
 constexpr std::size_t not_numbered = std::numeric_limits<std::size_t>::max();
 
@@ -117,7 +128,9 @@ void SteadyState::solve() {
     Eigen::SparseMatrix<double, Eigen::RowMajor> system(n, n);
     system.reserve(Eigen::VectorXi::Constant(n, 7));
     Eigen::VectorXd right(n), start(n);
+    StopCheck<4096> check_stop;
     for (Eigen::Index row = 0; row < n; ++row) {
+        check_stop();
         const glm::ivec3 voxel = unknowns_[static_cast<std::size_t>(row)];
         const std::size_t own = grid_.cell(voxel);
         const WaterDiffusion::AcrossSides sides = diffusion_.across_sides(voxel);
@@ -136,7 +149,8 @@ void SteadyState::solve() {
     }
     system.makeCompressed();
 
-    Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper> solver;
+    Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>, Eigen::Lower | Eigen::Upper, Preconditioner>
+        solver;
     solver.setTolerance(1e-12);
     solver.compute(system);
     const Eigen::VectorXd solution = solver.solveWithGuess(right, start);

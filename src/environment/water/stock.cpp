@@ -1,9 +1,11 @@
 #include "environment/water/stock.h"
 
+#include "espalier/base/stop.h"
+
+#include "base/parallel.h"
 #include "environment/water/steady.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +20,7 @@ namespace {
 template <class Visit>
 void for_voxels(const WaterGrid& grid, Visit visit) {
     const glm::ivec3 size = grid.size();
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid.rows()), [&](const auto& range) {
         for (std::size_t row = range.begin(); row != range.end(); ++row) {
             const int y = grid.y_of(row), z = grid.z_of(row);
             for (int x = 0; x < size.x; ++x) visit(grid.row_begin(row) + x, glm::ivec3(x, y, z));
@@ -164,6 +166,7 @@ void WaterStock::diffuse(WaterDiffusion& diffusion, double dt) {
     const double part = dt / substeps;
     hold();
     for (int substep = 0; substep < substeps; ++substep) {
+        end_if_asked();
         gain(part);
         balance_.boundary += diffusion.sweep(faces_, contents_, spare_, part);
         contents_.swap(spare_);
@@ -175,6 +178,7 @@ void WaterStock::relax(double dt) {
     hold();
     gain(dt);
     for (int sweep = 0; sweep < parameters_.sweeps; ++sweep) {
+        end_if_asked();
         const double change = relaxation_sweep(grid_, faces_, parameters_.relaxation, contents_, spare_);
         contents_.swap(spare_);
         hold();
@@ -202,7 +206,7 @@ void WaterStock::measure() {
         double maximum = -std::numeric_limits<double>::infinity();
     };
     std::vector<Figures> rows(grid_.rows());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid_.rows(), 64), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, grid_.rows(), 64), [&](const auto& range) {
         for (std::size_t row = range.begin(); row != range.end(); ++row) {
             const std::size_t begin = grid_.row_begin(row);
             Figures figures;

@@ -9,6 +9,7 @@
 namespace espalier::language {
 
 void Scanner::skip() {
+    check_stop_();
     while (position_ < text_.size()) {
         const char c = text_[position_];
         if (c != '\n' && !is_blank(c)) return;

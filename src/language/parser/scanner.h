@@ -1,6 +1,8 @@
 // Walks over preprocessed text: where statements end, which token comes next, what to say when it is the wrong one.
 #pragma once
 
+#include "espalier/base/stop.h"
+
 #include "base/characters.h"
 #include "language/source.h"
 
@@ -109,6 +111,7 @@ private:
     bool decision_ = false;
     std::size_t joined_from_ = 0;  // newlines of a statement that goes on behind blank lines
     std::size_t joined_to_ = 0;
+    StopCheck<4096> check_stop_;
 };
 
 }  // namespace espalier::language

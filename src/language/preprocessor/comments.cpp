@@ -1,5 +1,7 @@
 #include "language/preprocessor/comments.h"
 
+#include "espalier/base/stop.h"
+
 #include "base/characters.h"
 
 #include <fmt/format.h>
@@ -16,7 +18,11 @@ public:
 
     MappedText run() {
         if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
-        while (next_line_joined() || position_ < text_.size()) step();
+        StopCheck<4096> check_stop;
+        while (next_line_joined() || position_ < text_.size()) {
+            check_stop();
+            step();
+        }
         return std::move(out_);
     }
 

@@ -98,7 +98,8 @@ void Macros::require_value(std::string_view name, const Macro& macro) {
                                                  name, body, trimmed(body.substr(1)))};
 }
 
-void Macros::limit(std::size_t size) const {
+void Macros::limit(std::size_t size) {
+    check_stop_();
     if (size > longest_expansion) throw SyntaxError{use_, "this macro expands to more than 64 MiB"};
     if (expansions_ > most_expansions) {
         throw SyntaxError{use_, "this macro expands without end: more than 1,000,000 macros inside one use"};

@@ -1,6 +1,8 @@
 // Macros of the preprocessor and their expansion.
 #pragma once
 
+#include "espalier/base/stop.h"
+
 #include "language/source.h"
 
 #include <optional>
@@ -47,11 +49,12 @@ private:
     std::string substitute(const Macro& macro, const std::vector<std::string>& arguments, Active& active);
     std::string_view name_that_waits(std::string_view expansion, std::string_view text, std::size_t position) const;
     static void require_value(std::string_view name, const Macro& macro);
-    void limit(std::size_t size) const;
+    void limit(std::size_t size);
 
     std::unordered_map<std::string, Macro> macros_;
     Location use_;
     std::size_t expansions_ = 0;
+    StopCheck<256> check_stop_;
 };
 
 /// Appends `piece`, with a blank before it where the two would otherwise grow together into one token.

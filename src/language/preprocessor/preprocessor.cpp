@@ -1,6 +1,7 @@
 #include "language/preprocessor/preprocessor.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/stop.h"
 
 #include "base/characters.h"
 #include "base/text.h"
@@ -18,6 +19,7 @@ constexpr std::array<std::string_view, 12> directive_words{"define", "undef", "i
                                                            "elif",   "else",  "endif",   "error", "line",  "pragma"};
 constexpr std::size_t deepest_inclusion = 64;
 constexpr std::size_t most_inclusions = 10'000;
+constexpr std::size_t longest_text = std::size_t{256} << 20, longest_expansions = std::size_t{64} << 20;
 
 /// One #if and what follows it.
 struct Conditional {
@@ -65,6 +67,8 @@ private:
         const std::size_t outer_conditionals = conditionals_.size();
         files_.push_back(sources_.name(file));
         for (std::size_t position = 0; position < clean.size();) {
+            end_if_asked();
+            limit_text(clean.location(position));
             const std::size_t end = std::min(clean.text().find('\n', position), clean.size());
             if (directive(clean, position, end, folder, outer_conditionals)) {
                 result_.text.append_at("\n", clean.location(end == clean.size() ? position : end));
@@ -83,6 +87,15 @@ private:
         if (result_.text.size() > 0 && result_.text.text().back() != '\n') {
             result_.text.append('\n', clean.location(clean.size()));
         }
+    }
+
+    void limit_text(Location at) {
+        if (result_.text.size() <= longest_text && expanded_ <= longest_expansions) return;
+        mistakes_.error(
+            at, fmt::format("up to here the text takes {} MiB, {} MiB of them by macros; there is room for "
+                            "{} MiB and {} MiB",
+                            result_.text.size() >> 20, expanded_ >> 20, longest_text >> 20, longest_expansions >> 20));
+        throw TooManyMistakes();
     }
 
     bool active() const { return conditionals_.empty() || conditionals_.back().active; }
@@ -133,6 +146,8 @@ private:
     void append_expansion(const std::string& expansion, Location use, char next) {
         const std::string& so_far = result_.text.text();
         if (expansion.empty()) return;
+        expanded_ += expansion.size();
+        limit_text(use);
         if (!so_far.empty() && grow_together(so_far.back(), expansion.front())) result_.text.append_at(" ", use);
         result_.text.append_at(expansion, use);
         if (grow_together(expansion.back(), next)) result_.text.append_at(" ", use);
@@ -335,7 +350,8 @@ private:
     std::vector<Conditional> conditionals_;
     std::vector<std::string> files_;  // being read, outermost first
     std::size_t inclusions_ = 0;
-    Location at_;  // of the directive at hand
+    std::size_t expanded_ = 0;  ///< bytes that macros stand for
+    Location at_;               // of the directive at hand
 };
 
 }  // namespace

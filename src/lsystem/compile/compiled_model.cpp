@@ -1,5 +1,8 @@
 #include "lsystem/compile/compiled_model.h"
 
+#include "espalier/base/stop.h"
+
+#include "base/excerpt.h"
 #include "lsystem/programs/limits.h"
 
 #include <fmt/format.h>
@@ -12,6 +15,7 @@ namespace espalier::lsystem {
 namespace {
 
 constexpr double deepest = 1e6;
+constexpr std::size_t filled_at_once = std::size_t{1} << 20;
 
 /// True if a `%` may come to stand in the string.
 bool writes_cut(const Model& model) {
@@ -493,8 +497,13 @@ Variables CompiledSystem::variables() const {
     Variables fresh;
     fresh.globals.assign(std::max<std::size_t>(2, system->globals.size()), 0);
     for (const CompiledArray& array : arrays) {
-        fresh.arrays.push_back(array.values);
-        fresh.arrays.back().resize(array.size);
+        std::vector<double>& values = fresh.arrays.emplace_back();
+        values.reserve(array.size);
+        values = array.values;
+        while (values.size() < array.size) {
+            end_if_asked();
+            values.resize(std::min(array.size, values.size() + filled_at_once));
+        }
     }
     return fresh;
 }
@@ -505,10 +514,23 @@ bool CompiledSystem::uses_files() const {
     return orders;
 }
 
-std::size_t CompiledSystem::bytes_of_variables() const {
-    std::size_t values = system->globals.size();
+std::size_t CompiledSystem::bytes_of_arrays() const {
+    std::size_t values = 0;
     for (const CompiledArray& array : arrays) values += array.size;
     return values * sizeof(double);
+}
+
+void require_arrays(const CompiledSystem& system, std::size_t instances, std::size_t memory) {
+    const std::size_t bytes = system.bytes_of_arrays();
+    if (bytes == 0 || bytes <= memory / instances) return;
+    const auto smaller = [](const CompiledArray& a, const CompiledArray& b) { return a.size < b.size; };
+    const auto largest = std::max_element(system.arrays.begin(), system.arrays.end(), smaller);
+    const Place& place = system.system->arrays[static_cast<std::size_t>(largest - system.arrays.begin())].place;
+    std::string message = fmt::format("{}{}array '{}' takes {} MiB", to_string(place), place.known() ? ": " : "",
+                                      largest->name, largest->size * sizeof(double) >> 20);
+    if (system.arrays.size() > 1) message += fmt::format(", all arrays {} MiB", bytes >> 20);
+    if (instances > 1) message += fmt::format(" in each of {} sub-L-systems", instances);
+    throw RunError(message + fmt::format("; {} MiB of memory are left{}", memory >> 20, excerpt(place)));
 }
 
 std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model) {
@@ -521,6 +543,7 @@ std::shared_ptr<const CompiledModel> compile(std::shared_ptr<const Model> model)
     compiled->uses_context = compiled->any(&CompiledSystem::uses_context);
     compiled->binds_context = compiled->any(&CompiledSystem::binds_context);
     compiled->uses_files = compiled->any(&CompiledSystem::uses_files);
+    compiled->has_memory = compiled->uses_files || compiled->any(&CompiledSystem::has_arrays);
     compiled->samples = compiled->any(&CompiledSystem::samples);
     compiled->source = std::move(model);
     require_lenders(*compiled);

@@ -153,7 +153,7 @@ public:
     Machine machine() const { return Machine(constants, registers, arrays, source->arithmetic); }
     /// Globals and arrays as declared, external ones not yet lent.
     Variables variables() const;
-    std::size_t bytes_of_variables() const;
+    std::size_t bytes_of_arrays() const;
     bool ordered() const {
         return rules.effects.assigns || rules.effects.ordered || decomposition.effects.assigns ||
                decomposition.effects.ordered;
@@ -169,12 +169,18 @@ public:
     bool samples() const {
         return rules.effects.samples || rules.stochastic || decomposition.effects.samples || decomposition.stochastic;
     }
+    /// Pictures assign variables: their own copies of them.
+    bool picture_changes() const { return homomorphism.effects.assigns || homomorphism.effects.ordered; }
     /// Pictures take random numbers, which are those of the module they are of.
     bool picture_samples() const { return homomorphism.effects.samples || homomorphism.stochastic; }
     bool uses_context() const { return rules.uses_context || decomposition.uses_context; }
     bool uses_files() const;
+    bool has_arrays() const { return !arrays.empty(); }
     bool binds_context() const { return rules.binds_context || decomposition.binds_context; }
 };
+
+/// Throws RunError, with the place of the largest array, if those of so many instances take more than the memory.
+void require_arrays(const CompiledSystem& system, std::size_t instances, std::size_t memory);
 
 /// Lends `own`, the variables of `system`, what it takes from the L-system around it. Throws RunError if that has it
 /// not.
@@ -200,6 +206,7 @@ public:
     bool nested = false;
     // One of the L-systems does.
     bool uses_context = false, binds_context = false, samples = false, uses_files = false;
+    bool has_memory = false;  ///< besides the string: arrays or files
     mutable tbb::enumerable_thread_specific<std::shared_ptr<PictureWriter>>
         picture_writers;  ///< of all plants that grow from it
 

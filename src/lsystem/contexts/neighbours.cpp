@@ -1,7 +1,8 @@
 #include "lsystem/contexts/neighbours.h"
 
+#include "base/parallel.h"
+
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <iterator>
@@ -13,7 +14,7 @@ namespace {
 template <class Work>
 void for_each_part(std::size_t parts, const Work& work) {
     if (parts == 1) return work(0);
-    tbb::parallel_for(std::size_t{0}, parts, work);
+    for_in_parallel(std::size_t{0}, parts, work);
 }
 
 std::size_t parts_of(std::size_t modules, std::size_t grain) {

@@ -1,5 +1,7 @@
 #include "lsystem/derive/appending.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -106,6 +108,7 @@ std::size_t Appending::run(std::size_t begin, std::size_t end, std::size_t param
 /// Replaces the modules at a site; returns how many they were. Where no production applies, the decomposition takes
 /// modules from the old string, even those behind that productions would replace.
 std::size_t Appending::rewrite(const Site& site) {
+    check_stop_();
     const CompiledProduction* production = matcher_.choose(system_.rules, site);
     const std::uint32_t depth = production ? 0 : 1;
     if (!production) production = decomposition_of(site);
@@ -224,8 +227,8 @@ void join(const StepInput& input, const std::vector<ModuleString>& pieces, const
         all += {pieces[k].size(), pieces[k].parameters.size(), parts[k].siblings.rows().size()};
     }
     make_room(input, all, held, to, [] { return std::vector<std::uint64_t>(); });
-    tbb::parallel_for(std::size_t{0}, parts.size(),
-                      [&](std::size_t k) { copy_part(input, pieces[k], parts[k], at[k], to); });
+    for_in_parallel(std::size_t{0}, parts.size(),
+                    [&](std::size_t k) { copy_part(input, pieces[k], parts[k], at[k], to); });
     if (input.lineage) drop_unused_siblings(to);
 }
 

@@ -74,6 +74,7 @@ private:
     std::vector<double> values_;
     const Enclosure* enclosure_ = nullptr;
     bool decomposing_ = false;
+    StopCheck<64> check_stop_;
 };
 
 /// Makes `to` of parts, in their order, while `held` bytes are held besides.

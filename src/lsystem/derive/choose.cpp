@@ -1,5 +1,7 @@
 #include "lsystem/derive/choose.h"
 
+#include "espalier/base/stop.h"
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -116,6 +118,7 @@ private:
     Replacement *begin_, *end_;
     Extent becomes_;            ///< sums of differences: wraps around while it is added up
     std::size_t replaced_ = 0;  ///< modules before this one are replaced together with others before them
+    StopCheck<64> check_stop_;
 
     // Replacements that wait for their random numbers.
     static constexpr std::size_t sampled_at_once = 256;
@@ -216,6 +219,7 @@ const CompiledProduction* Chooser::spell(const Candidates& trial, const Replacem
 
 const CompiledProduction* Chooser::match(const Candidates& trial, const Replacement& replacement) {
     const std::span<const std::uint32_t> tried(choosing_.candidates.data() + trial.begin, trial.end - trial.begin);
+    check_stop_();
     const std::size_t module = replacement.module;
     const Site site{module, replacement.parameters_at, letters_[module], values_of(replacement),
                     input_.identity(module)};

@@ -17,6 +17,7 @@ namespace espalier::lsystem {
 void Derivation::start(ModuleString& string) {
     State& state = *state_;
     state.reset();
+    state.begin_memory();
     const double length = state.variables.globals[1];
     state.run_block(state.main.start, "the Start block");
     if (state.main.seed.reads_variables()) state.evaluate_seed();
@@ -66,6 +67,7 @@ void Derivation::step(const ModuleString& from, ModuleString& to) {
     State& state = *state_;
     state.variables.globals[0] = ++state.step;
     ++state.generation;
+    if (state.model->has_memory) state.begin_memory();
     state.run_block(state.main.start_each, "the StartEach block");
     state.rewrite(from, to);
     state.run_block(state.main.end_each, "the EndEach block");
@@ -176,11 +178,12 @@ void Derivation::prefetch() const {
     espalier::prefetch(&state.settings.memory, sizeof(std::size_t));
 }
 
-// What small strings need is their thread's.
+// What lasts, and what a step needs besides; what small strings need is their thread's.
 std::size_t Derivation::working_memory(const ModuleString& string) const {
     const State& state = *state_;
     const CompiledSystem& main = state.main;
-    if (string.size() <= grain) return 0;
+    const std::size_t lasting = state.model->has_memory ? state.lasting_memory() : 0;
+    if (string.size() <= grain) return lasting;
     std::size_t of_module = 0;
     const bool chooses = !state.in_order && main.decomposition.empty() && !main.plans.all_known;
     if (chooses) of_module += sizeof(LetterId) + sizeof(Replacement);
@@ -188,7 +191,7 @@ std::size_t Derivation::working_memory(const ModuleString& string) const {
     if (state.model->uses_context && main.choosing.needs_partners) of_module += sizeof(std::uint32_t);
     if (state.model->binds_context) of_module += sizeof(std::uint32_t);
     const std::size_t pieces = state.in_order || main.decomposition.empty() ? 0 : string.content();
-    return pieces + of_module * string.size();
+    return lasting + pieces + of_module * string.size();
 }
 
 void Derivation::set_memory(std::size_t bytes) {

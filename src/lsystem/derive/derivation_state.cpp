@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cstdio>
 
 namespace espalier::lsystem {
 namespace {
@@ -30,19 +29,15 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
       files(settings.input_folder, settings.output_folder),
       block_machine(main.machine()),
       serial(next_serial()) {
-    if (!settings.print) settings.print = [](const std::string& text) { std::fputs(text.c_str(), stderr); };
-    services.print = settings.print;
+    if (!settings.printout) settings.printout = std::make_shared<Printout>();
+    services.print = [this](const std::string& text) { settings.printout->print(text); };
     services.warn = [this](const Place& place, const std::string& message) { warn_once(place, message); };
     services.resources = model->source->resources.get();
     services.files = &files;
     services.seed = settings.seed;
     services.plant = settings.plant;
     block_machine.attach(&variables, &services, Stream::blocks);
-    const std::size_t bytes = main.bytes_of_variables();
-    if (bytes > settings.memory) {
-        throw RunError(fmt::format("{}: the arrays take {} MiB, more than the memory of {} MiB", model->source->name,
-                                   bytes >> 20, settings.memory >> 20));
-    }
+    require_arrays(main, 1, settings.memory);
     reset();
     if (!main.length.reads_variables()) {
         evaluate_length();
@@ -89,6 +84,7 @@ void Derivation::State::evaluate_seed() {
 }
 
 void Derivation::State::reset() {
+    variables = {};  // first, so that there are never two
     variables = main.variables();
     variables.globals[1] = length;
     sub_systems.clear();
@@ -121,7 +117,7 @@ void Derivation::State::run_block(const Program& block, const char* name) {
 void Derivation::State::warn_once(const Place& place, const std::string& message) {
     const std::lock_guard lock(warning);
     if (!warned.insert({place.file, {place.line, place.column}}).second) return;
-    settings.print(fmt::format("{}{}warning: {}\n", to_string(place), place.known() ? ": " : "", message));
+    settings.printout->say(fmt::format("{}{}warning: {}\n", to_string(place), place.known() ? ": " : "", message));
 }
 
 // A model may assign Z itself, and anything.
@@ -134,14 +130,25 @@ void Derivation::State::follow_length() {
     length = static_cast<int>(steps);
 }
 
+std::size_t Derivation::State::lasting_memory() const {
+    const std::size_t arrays = main.bytes_of_arrays() + sub_systems.bytes();
+    const std::size_t copies = model->any(&CompiledSystem::picture_changes) ? 2 : 1;
+    return copies * arrays + files.bytes();
+}
+
+void Derivation::State::begin_memory() {
+    sub_systems.begin_step();
+    files.leave(settings.memory);
+}
+
 void Derivation::State::warn_of_depth() {
     if (!depth_limit || warned_of_depth) return;
     for (const auto& system : model->systems) {
         const CompiledRules& rules = system->decomposition;
         if (rules.empty() || !rules.warnings || !rules.explicit_depth) continue;
         warned_of_depth = true;
-        settings.print(fmt::format("{}: warning: decomposition stopped at its maximum depth of {} in step {}\n",
-                                   model->source->name, rules.maximum_depth, step));
+        settings.printout->say(fmt::format("{}: warning: decomposition stopped at its maximum depth of {} in step {}\n",
+                                           model->source->name, rules.maximum_depth, step));
         return;
     }
 }

@@ -39,6 +39,10 @@ struct Derivation::State {
     /// One module after the other, each by the rules of the L-system it belongs to.
     void rewrite_in_order(const StepInput& input, ModuleString& to);
     void warn_of_depth();
+    /// Bytes that are held from step to step besides the string.
+    std::size_t lasting_memory() const;
+    /// What is left of the memory is left to the step that begins.
+    void begin_memory();
     void warn_once(const Place& place, const std::string& message);
 
     // What every step touches stands together: of ten thousand small plants each line of memory counts.

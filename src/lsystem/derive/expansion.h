@@ -1,6 +1,8 @@
 // Replaces one module at a time, decomposing what comes of it depth first.
 #pragma once
 
+#include "espalier/base/stop.h"
+
 #include "lsystem/contexts/matching.h"
 #include "lsystem/derive/step.h"
 
@@ -139,9 +141,11 @@ private:
     std::vector<Lineage> strict_;
     LetterId letter_ = no_letter;
     bool reached_limit_ = false;
+    StopCheck<1024> check_stop_;
 };
 
 inline const ModuleStack::Entry* Expansion::replace(ModuleStack& stack, const Site& origin, std::uint32_t step) {
+    check_stop_();
     entry_ = stack.pop(values_);
     letter_ = entry_.letter;
     if (!rules_.has(entry_.letter)) return &entry_;

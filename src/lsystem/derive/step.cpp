@@ -1,5 +1,7 @@
 #include "lsystem/derive/step.h"
 
+#include "base/parallel.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -91,7 +93,7 @@ void make_chunks(const StepInput& input, Scratch& scratch) {
     if (chunks.size() == 1)
         count(input, chunks[0]);
     else
-        tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
+        for_in_parallel(std::size_t{0}, chunks.size(), [&](std::size_t k) { count(input, chunks[k]); });
     std::size_t parameters = 0;
     for (Chunk& chunk : chunks) {
         chunk.parameters_begin = parameters;

@@ -1,11 +1,10 @@
 // One derivation step of a string: what the ways of doing it share.
 #pragma once
 
+#include "base/parallel.h"
 #include "lsystem/compile/compiled_model.h"
 #include "lsystem/contexts/matching.h"
 #include "lsystem/derive/scratch_lease.h"
-
-#include <tbb/parallel_for.h>
 
 #include <atomic>
 #include <cstdint>
@@ -73,7 +72,7 @@ template <class Work>
 void for_each_chunk(std::vector<Chunk>& chunks, Machines& machines, Work&& work) {
     if (chunks.size() == 1) return work(chunks[0], machines.local());
     std::atomic<std::size_t> failed = chunks.size();
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t k) {
+    for_in_parallel(std::size_t{0}, chunks.size(), [&](std::size_t k) {
         if (k > failed.load()) return;  // an earlier chunk's error will be reported
         try {
             work(chunks[k], machines.local());

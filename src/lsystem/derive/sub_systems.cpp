@@ -27,21 +27,20 @@ const Variables* SubSystems::find(const Scope& scope) const {
 }
 
 Variables& SubSystems::make(const Scope& scope, std::size_t memory) {
-    bytes_ += scope.system->bytes_of_variables();
-    if (bytes_ > memory) {
-        throw RunError(fmt::format("the variables of {} sub-L-systems take {} MiB, more than the memory of {} MiB",
-                                   instances_.size() + 1, bytes_ >> 20, memory >> 20));
-    }
+    const std::size_t bytes = scope.system->bytes_of_arrays();
+    made_ += bytes;
+    if (made_ > memory) require_arrays(*scope.system, bytes == 0 ? 1 : made_ / bytes, memory);
+    bytes_ += bytes;
     return instances_[key(scope)] = scope.system->variables();
 }
 
 void SubSystems::erase(const Scope& scope) {
-    if (instances_.erase(key(scope)) > 0) bytes_ -= scope.system->bytes_of_variables();
+    if (instances_.erase(key(scope)) > 0) bytes_ -= scope.system->bytes_of_arrays();
 }
 
 void SubSystems::clear() {
     instances_.clear();
-    bytes_ = 0;
+    bytes_ = made_ = 0;
 }
 
 Variables* SubSystems::lend(const std::vector<Scope>& scopes, std::uint32_t scope, Variables& main) {
@@ -70,7 +69,7 @@ void SubSystems::restore(std::istream& in, const CompiledModel& model) {
         const auto system = get<std::uint64_t>(in);
         if (system >= model.systems.size()) throw RunError("the checkpoint belongs to another model");
         Variables variables = model.systems[system]->variables();
-        bytes_ += model.systems[system]->bytes_of_variables();
+        bytes_ += model.systems[system]->bytes_of_arrays();
         get_variables(in, variables);
         instances_[{identity, system}] = std::move(variables);
     }

@@ -20,12 +20,14 @@ public:
     /// Null if the scope has none yet.
     Variables* find(const Scope& scope);
     const Variables* find(const Scope& scope) const;
-    /// Throws RunError if all instances together take more than the memory.
+    /// Throws RunError if the arrays of those made in this step take more than the memory.
     Variables& make(const Scope& scope, std::size_t memory);
     /// The variables of a scope, with what it borrows from those around it; null if it or one of them has none.
     Variables* lend(const std::vector<Scope>& scopes, std::uint32_t scope, Variables& main);
     void erase(const Scope& scope);
     void clear();
+    void begin_step() { made_ = 0; }
+    std::size_t bytes() const { return bytes_; }  ///< of arrays
 
     void save(std::ostream& out) const;
     void restore(std::istream& in, const CompiledModel& model);
@@ -35,7 +37,7 @@ private:
     static Key key(const Scope& scope) { return {scope.identity, scope.system->index}; }
 
     std::map<Key, Variables> instances_;
-    std::size_t bytes_ = 0;
+    std::size_t bytes_ = 0, made_ = 0;
 };
 
 }  // namespace espalier::lsystem

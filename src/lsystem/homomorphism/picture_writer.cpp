@@ -11,10 +11,6 @@ namespace {
 constexpr std::size_t most_modules = 100'000'000;  // of one picture, whatever memory there is
 constexpr std::size_t modules_between_looks = 4096;
 
-bool changes(const CompiledRules& rules) {
-    return rules.effects.assigns || rules.effects.ordered;
-}
-
 }  // namespace
 
 SystemPictures::SystemPictures(const CompiledSystem& system)
@@ -30,7 +26,7 @@ SystemPictures::SystemPictures(const CompiledSystem& system)
 PictureWriter::PictureWriter(const CompiledModel& model) : model_(model) {
     for (const auto& system : model_.systems) {
         systems_.push_back(std::make_unique<SystemPictures>(*system));
-        changes_ |= changes(system->homomorphism);
+        changes_ |= system->picture_changes();
     }
 }
 

@@ -87,9 +87,30 @@ std::shared_ptr<ModelFiles::Contents> ModelFiles::find(const std::string& name, 
         contents->on_disk = folder == &output_;
         contents->clean = contents->on_disk ? text->size() : 0;
         contents->text = std::move(*text);
+        take_room(contents->text.size(), "fopen", place);
         return contents;
     }
     return nullptr;
+}
+
+void ModelFiles::take_room(std::size_t bytes, const char* function, const Place& place) {
+    if (bytes > room_) {
+        throw EvaluationError(place,
+                              fmt::format("{}: {} bytes more take more than the memory that is left", function, bytes));
+    }
+    room_ -= bytes;
+}
+
+void ModelFiles::leave(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    room_ = bytes;
+}
+
+std::size_t ModelFiles::bytes() const {
+    const std::lock_guard lock(mutex_);
+    std::size_t bytes = bytes_;
+    for (const auto& [handle, file] : open_) bytes += file.contents->written ? 0 : file.contents->text.size();
+    return bytes;
 }
 
 double ModelFiles::open(const std::string& name, const std::string& mode, const Place& place) {
@@ -138,6 +159,7 @@ bool ModelFiles::close(double handle) {
     Open* const file = opened(handle);
     if (!file) return false;
     if (file->writes) write_out(file->name, *file->contents);
+    if (!file->contents->written) room_ += file->contents->text.size();
     open_.erase(static_cast<int>(handle));
     return true;
 }
@@ -156,6 +178,7 @@ bool ModelFiles::print(double handle, const std::string& text, const Place& plac
     if (bytes_ + text.size() > most_file_bytes) {
         throw EvaluationError(place, fmt::format("fprintf: the model has written more than {} bytes", most_file_bytes));
     }
+    take_room(text.size(), "fprintf", place);
     Contents& contents = *file->contents;
     if (file->appends) file->position = contents.text.size();
     const std::size_t before = contents.text.size();

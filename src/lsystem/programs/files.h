@@ -34,6 +34,10 @@ public:
     /// fscanf: how many values were read, -1 at the end of the file; -2 if the file is not open for reading.
     int scan(double handle, const ScanFormat& format, double* values);
 
+    /// How many bytes the files may take besides what they take now, those that are only read among them.
+    void leave(std::size_t bytes);
+    std::size_t bytes() const;
+
     void flush_all();
     /// Closes everything and forgets what was written in memory.
     void reset();
@@ -58,6 +62,7 @@ private:
 
     static std::string checked_name(const std::string& name, const Place& place);
     std::shared_ptr<Contents> find(const std::string& name, const Place& place);
+    void take_room(std::size_t bytes, const char* function, const Place& place);
     Open* opened(double handle);
     void write_out(const std::string& name, Contents& contents);
 
@@ -65,6 +70,7 @@ private:
     std::map<int, Open> open_;
     std::map<std::string, std::shared_ptr<Contents>> written_;  ///< by the model, open or closed
     std::size_t bytes_ = 0;                                     ///< of all that was written
+    std::size_t room_ = std::size_t(-1);                        ///< bytes that are left of the memory
     mutable std::mutex mutex_;
 };
 

@@ -1,5 +1,7 @@
 #include "lsystem/programs/machine.h"
 
+#include "espalier/base/stop.h"
+
 #include "lsystem/programs/limits.h"
 #include "lsystem/programs/side_values.h"
 
@@ -10,6 +12,8 @@
 
 namespace espalier::lsystem {
 namespace {
+
+constexpr std::uint64_t turns_between_looks = 1024;
 
 [[noreturn]] void refuse_loop(const Place& place) {
     throw EvaluationError(place, fmt::format("the loop does not end: it was stopped after {} turns", most_turns));
@@ -115,7 +119,8 @@ void Machine::run(const Program& program) {
                 if (r[i.a] != 0) at = code + i.b - 1;
                 break;
             case Opcode::repeat:
-                if (++turns > most_turns) refuse_loop(place());
+                if (++turns % turns_between_looks == 0) end_if_asked();
+                if (turns > most_turns) refuse_loop(place());
                 break;
             case Opcode::print:
                 r[i.target] = print(program.prints[i.a], place());

@@ -134,7 +134,7 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
     json["overrides"] = overrides_json(scene);
     json["seed"] = scene.seed;
     json["steps"] = planned_steps_;
-    json["steps_done"] = std::max(steps_ - 1, 0);
+    json["steps_done"] = steps_done();
     json["dt"] = scene.dt;
     json["time_unit"] = scene.time_unit;
     json["threads"] = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -6,6 +6,7 @@
 
 #include "base/csv_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
@@ -26,6 +27,8 @@ public:
     void resume(const Timeline& timeline, std::istream& in);
     void save(std::ostream& out) const;
     void add_step(const StageTimes& times);
+    /// Without those that were dropped.
+    int steps_done() const { return std::max(steps_ - 1, 0); }
     /// `exit`: "running", "done", "interrupted", "failed: why".
     void write(const Timeline& timeline, const std::string& exit, double seconds) const;
 
@@ -44,7 +47,7 @@ private:
     std::set<std::filesystem::path> files_before_;
     StageTimes total_;
     std::optional<CsvFile> timings_;
-    int steps_ = 0;  ///< recorded so far
+    int steps_ = 0;  ///< recorded so far, the axiom among them
 };
 
 }  // namespace espalier::simulation

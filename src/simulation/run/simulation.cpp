@@ -1,6 +1,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "espalier/base/file.h"
+#include "espalier/base/stop.h"
 #include "espalier/timeline/timeline.h"
 
 #include "base/bytes.h"
@@ -38,19 +39,18 @@ public:
     }
 
     RunResult walk() {
+        bool cut_short = false;
         try {
-            grow();
-            if (timeline_ && !world_.at_end()) write_checkpoint();
+            cut_short = !grow();
             if (timeline_) timeline_->finish();
         } catch (const std::exception& error) {
             end_failed(error.what());
             throw;
         }
-        const bool cut_short = !world_.at_end();
         write_record(cut_short ? "interrupted" : "done");
         if (timeline_ && !cut_short) remove_checkpoint();
-        return {world_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
-                world_.modules(),    seconds(),          peak_memory()};
+        return {record_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
+                world_.modules(),     seconds(),          peak_memory()};
     }
 
 private:
@@ -108,11 +108,15 @@ private:
     }
 
     void write_checkpoint() {
+        const StopRequest::Scope nobody(nullptr);
+        const double begin = seconds();
         std::ostringstream timeline;
         timeline_->save(timeline);
         write_file(checkpoint_of(options_.output), [&](const std::filesystem::path& temporary) {
             return save(temporary, timeline.str()) && seal(temporary);
         });
+        checkpoint_end_ = seconds();
+        checkpoint_seconds_ = checkpoint_end_ - begin;
     }
 
     bool save(const std::filesystem::path& path, const std::string& timeline) const {
@@ -135,23 +139,50 @@ private:
         std::filesystem::remove(folder, ignored);  // does nothing unless empty
     }
 
-    void grow() {
+    // False if it was asked to end before the last step.
+    bool grow() {
         std::optional<AnswerWatch> watch;
         if (options_.patience > 0 && options_.expired && world_.environment().size() > 0) {
             watch.emplace(world_.environment(), options_.patience,
                           [this](const std::string& process) { give_up(process); });
         }
-        if (!options_.resume) {
-            world_.start();
-            note_step();
+        try {
+            if (!options_.resume) {
+                world_.start();
+                note_step();
+            }
+            while (!world_.at_end() && !is_asked_to_end()) advance();
+        } catch (const Stopped&) {
+            return false;  // the step at hand is dropped, and with it the state of the world
         }
-        while (!world_.at_end() && !interrupted()) {
-            world_.step();
-            note_step();
-            const bool due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
-            if (timeline_ && due && !world_.at_end()) write_checkpoint();
-            if (disk_ && !world_.at_end()) check_disk();
-        }
+        if (timeline_ && !world_.at_end()) write_checkpoint();
+        return world_.at_end();
+    }
+
+    void advance() {
+        world_.step();
+        note_step();
+        if (!timeline_ || world_.at_end()) return;
+        const bool is_due = options_.checkpoint_every > 0 && world_.steps_done() % options_.checkpoint_every == 0;
+        if (is_due || may_be_dropped_next()) write_checkpoint();
+        check_disk();
+    }
+
+    // Who asks a run of long steps to end need not lose many of them. The checkpoints take a small part of the time.
+    bool may_be_dropped_next() const {
+        constexpr double part_of_the_time = 20;
+        const StageTimes& last = world_.times();
+        const std::chrono::duration<double> step(last.derive + last.interpret + last.exchange + last.record);
+        if (step < patience_with_steps / 2) return false;
+        return seconds() - checkpoint_end_ >= part_of_the_time * checkpoint_seconds_.value_or(estimated_checkpoint());
+    }
+
+    // Seconds that writing the strings takes at least.
+    double estimated_checkpoint() const {
+        constexpr double bytes_per_second = 2e8;
+        std::size_t bytes = 0;
+        for (std::size_t plant = 0; plant < world_.size(); ++plant) bytes += world_.string(plant).content();
+        return static_cast<double>(bytes) / bytes_per_second;
     }
 
     void check_disk() {
@@ -199,7 +230,10 @@ private:
         if (timeline_) record_.write(*timeline_, exit, seconds());
     }
 
-    bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
+    static bool is_asked_to_end() {
+        const StopRequest* const request = StopRequest::current();
+        return request && request->is_asked();
+    }
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -209,7 +243,9 @@ private:
     RunRecord record_;
     std::optional<Timeline> timeline_;
     std::optional<DiskBudget> disk_;
-    std::size_t warned_ = 0;  ///< of the world's warnings
+    std::size_t warned_ = 0;     ///< of the world's warnings
+    double checkpoint_end_ = 0;  ///< seconds since the run began
+    std::optional<double> checkpoint_seconds_;
 };
 
 }  // namespace

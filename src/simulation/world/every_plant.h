@@ -4,12 +4,12 @@
 #include "espalier/base/error.h"
 #include "espalier/base/read_log.h"
 
+#include "base/parallel.h"
 #include "base/prefetch.h"
 #include "simulation/world/growing_plant.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <cstddef>
 #include <exception>
@@ -62,7 +62,7 @@ template <class Stage>
 void for_every_plant(std::span<GrowingPlant> plants, ReadLog* reads, PrefetchPlant prefetch_columns,
                      const Stage& stage) {
     FirstFailure failure(plants.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, plants.size()), [&](const auto& range) {
+    for_in_parallel(tbb::blocked_range<std::size_t>(0, plants.size()), [&](const auto& range) {
         const ReadLog::Scope scope(reads);
         ModuleString spare;
         for (std::size_t i = range.begin(); i != range.end(); ++i) {

@@ -1,6 +1,7 @@
 #include "espalier/simulation/world.h"
 
 #include "espalier/base/read_log.h"
+#include "espalier/base/stop.h"
 
 #include "base/bytes.h"
 #include "simulation/scene/expressions.h"
@@ -68,7 +69,8 @@ Scene decided(Scene scene) {
 }  // namespace
 
 struct World::State {
-    State(const Scene& described, std::size_t budget, const std::filesystem::path& files);
+    State(const Scene& described, std::size_t budget, const std::filesystem::path& files,
+          std::shared_ptr<Printout> prints);
 
     void make_environment();
     void make_plants(const std::filesystem::path& files);
@@ -80,6 +82,7 @@ struct World::State {
     void find_fields_read();
     void take_fields();
 
+    std::shared_ptr<Printout> printout;
     Scene scene;
     MemoryShares shares;
     MemoryBudget memory;
@@ -195,6 +198,7 @@ void World::record() {
     state_->times.record = 0;
     if (state_->recorders.empty()) return;
     const Stopwatch stopwatch(state_->times.record);
+    const StopRequest::Scope nobody(nullptr);  // a frame is recorded whole
     const Frame now = frame();
     for (Recorder* recorder : state_->recorders) recorder->record(now);
 }
@@ -213,8 +217,10 @@ std::filesystem::path folder_with(const Model& model) {
     return folder.empty() ? "." : folder;
 }
 
-World::State::State(const Scene& described, std::size_t budget, const std::filesystem::path& files)
-    : scene(decided(described)),
+World::State::State(const Scene& described, std::size_t budget, const std::filesystem::path& files,
+                    std::shared_ptr<Printout> prints)
+    : printout(prints ? std::move(prints) : std::make_shared<Printout>()),
+      scene(decided(described)),
       shares(share_memory(budget, scene.environment.processes.size())),
       memory(shares.plants) {
     make_environment();
@@ -242,13 +248,17 @@ void World::State::make_environment() {
 void World::State::make_plants(const std::filesystem::path& files) {
     std::map<const CompiledModel*, std::shared_ptr<const SymbolTable>> symbols;
     plants.reserve(scene.plants.size());
+    std::size_t held = 0;  // by arrays of the plants so far
     for (const Plant& plant : scene.plants) {
         const Model& model = source_of(*plant.model);
         environment->require_answers(model, plant.name);
         std::shared_ptr<const SymbolTable>& table = symbols[plant.model.get()];
         if (!table) table = symbol_table(model);
         const auto number = static_cast<std::uint32_t>(plants.size());
-        plants.emplace_back(number, plant, table, derivation_settings(plant, files));
+        DerivationSettings settings = derivation_settings(plant, files);
+        settings.memory -= held;
+        const GrowingPlant& made = plants.emplace_back(number, plant, table, settings);
+        held = std::min(held + made.derivation.working_memory({}), memory.bytes());
     }
 }
 
@@ -258,6 +268,7 @@ DerivationSettings World::State::derivation_settings(const Plant& plant, const s
     settings.plant = *plant.stream;
     settings.lineage = true;
     settings.memory = memory.bytes();
+    settings.printout = printout;
     settings.input_folder = folder_with(source_of(*plant.model));
     if (!files.empty()) settings.output_folder = scene.plants.size() == 1 ? files : files / folder_of(plant.name);
     return settings;
@@ -276,8 +287,9 @@ void World::State::set_lengths() {
     }
 }
 
-World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files)
-    : state_(std::make_unique<State>(scene, memory, files)) {}
+World::World(const Scene& scene, std::size_t memory, const std::filesystem::path& files,
+             std::shared_ptr<Printout> printout)
+    : state_(std::make_unique<State>(scene, memory, files, std::move(printout))) {}
 
 World::~World() = default;
 World::World(World&&) noexcept = default;

@@ -60,8 +60,10 @@ public:
 
     void save(std::ostream& out) const override {
         collection_.save(out);
-        put(out, static_cast<std::uint64_t>(written_.size()));
-        for (const Written& last : written_) {
+        // A run that goes on may be saved again before its first frame.
+        const std::vector<Written>& files = written_.empty() ? restored_ : written_;
+        put(out, static_cast<std::uint64_t>(files.size()));
+        for (const Written& last : files) {
             put_text(out, last.name);
             put(out, last.grid ? grid_operations().digest(*last.grid) : last.digest);
         }

@@ -5,10 +5,10 @@
 
 #include "espalier/base/error.h"
 
+#include "base/parallel.h"
 #include "turtle/walk/plan.h"
 
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -193,7 +193,7 @@ bool walk_in_parallel(const WalkInput& input, std::size_t chunk, Interpretation&
     std::deque<Stretch> stretches = cut(input, chunk);
     if (stretches.size() < 2) return false;
     const auto for_all = [&](const auto& action) {
-        tbb::parallel_for(
+        for_in_parallel(
             std::size_t(0), stretches.size(),
             [&](std::size_t k) { action(stretches[k], k > 0 ? &stretches[k - 1] : nullptr); }, tbb::auto_partitioner());
     };

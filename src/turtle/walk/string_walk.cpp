@@ -1,6 +1,9 @@
 // The loop of every walk. A function of its own, so that what it counts stays in registers.
 #include "turtle/walk/string_walk.h"
 
+#include "espalier/base/stop.h"
+
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -52,21 +55,22 @@ void StringWalk::end() {
 }
 
 void StringWalk::run(std::size_t begin, std::size_t end, std::size_t at) {
-    if (derivation_) {
-        run_along<true>(begin, end, at);
-    } else {
-        run_along<false>(begin, end, at);
+    constexpr std::size_t between_looks = 8192;
+    for (std::size_t here = begin; here < end && !walk_.stopped;) {
+        end_if_asked();
+        const std::size_t next = here + std::min(end - here, between_looks);
+        here = derivation_ ? run_along<true>(here, next, at) : run_along<false>(here, next, at);
     }
 }
 
 template <bool with_pictures>
-void StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t at) {
+std::size_t StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t& parameters_at) {
     const LetterId* const letters = string_->letters.data();
     const LetterMeaning* const meanings = symbols_->levels[0].data();
     const char* const pictured = symbols_->pictured.data();
-    if (begin == end) return;
     const LetterMeaning* next = &meanings[letters[begin]];
-    for (std::size_t i = begin; i < end && !walk_.stopped; ++i) {
+    std::size_t i = begin, at = parameters_at;
+    for (; i < end && !walk_.stopped; ++i) {
         assert(letters[i] < symbols_->levels[0].size());
         const LetterMeaning& meaning = *next;
         // Known before this one acts: then the processor need not wait to know where it goes on.
@@ -92,6 +96,8 @@ void StringWalk::run_along(std::size_t begin, std::size_t end, std::size_t at) {
         if (meaning.action) act(i, letters[i], meaning, at);
         at += meaning.arity;
     }
+    parameters_at = at;
+    return i;
 }
 
 std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
@@ -110,7 +116,9 @@ std::size_t StringWalk::draw_picture(std::size_t module, std::size_t at) {
     walk_.parameters_at_ = at;
     walk_.in_picture_ = true;
     const double* values = picture_.parameters.data();
+    constexpr std::size_t between_looks = 8192;
     for (std::size_t i = 0; i < picture_.size() && !walk_.stopped; ++i) {
+        if (i % between_looks == between_looks - 1) end_if_asked();
         const SymbolMatch match = symbols_->match(picture_, i);
         i = match.module;
         walk_.letter_ = picture_.letters[i];

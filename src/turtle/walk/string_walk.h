@@ -36,8 +36,9 @@ public:
     bool filled_room() const { return walk_.internodes_.full() && walk_.queries_.full() && walk_.answers_.full(); }
 
 private:
+    /// Returns where it stands, at or behind `end`: letters that form one symbol are not parted.
     template <bool with_pictures>
-    void run_along(std::size_t begin, std::size_t end, std::size_t at);
+    std::size_t run_along(std::size_t begin, std::size_t end, std::size_t& at);
     void act(std::size_t module, LetterId letter, const LetterMeaning& meaning, std::size_t at) {
         walk_.module_ = std::uint32_t(module);
         walk_.parameters_at_ = at;

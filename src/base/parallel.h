@@ -1,0 +1,40 @@
+// Loops over several threads.
+#pragma once
+
+#include "espalier/base/stop.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <type_traits>
+
+namespace espalier {
+
+/// tbb::parallel_for whose parts belong to the work around it: they end when it is asked to.
+template <class Range, class Body, class... Partitioner>
+void for_in_parallel(const Range& range, const Body& body, const Partitioner&... partitioner) {
+    const StopRequest* const request = StopRequest::current();
+    tbb::parallel_for(
+        range,
+        [&](const Range& part) {
+            const StopRequest::Scope scope(request);
+            end_if_asked();
+            body(part);
+        },
+        partitioner...);
+}
+
+/// The same with body(i) for each i from `first` to before `end`.
+template <class Index, class Body, class... Partitioner>
+requires std::is_integral_v<Index>
+void for_in_parallel(Index first, Index end, const Body& body, const Partitioner&... partitioner) {
+    const auto each = [&](const tbb::blocked_range<Index>& part) {
+        for (Index i = part.begin(); i != part.end(); ++i) {
+            end_if_asked();
+            body(i);
+        }
+    };
+    for_in_parallel(tbb::blocked_range<Index>(first, end), each, partitioner...);
+}
+
+}  // namespace espalier

@@ -1,0 +1,36 @@
+// What models print while they grow, on its way to pages.
+#pragma once
+
+#include "espalier/lsystem/printout.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace espalier::studio {
+
+/// Gathers what is printed, so that many small pieces are told as few.
+class PrintedText {
+public:
+    using Tell = std::function<void(std::string text)>;
+
+    explicit PrintedText(Tell tell) : tell_(std::move(tell)) {}
+
+    /// Where models print. It must not outlive this.
+    std::shared_ptr<lsystem::Printout> printout();
+    /// Tells what has not been told.
+    void tell();
+
+private:
+    void add(const std::string& text);
+    void tell_locked();
+
+    const Tell tell_;
+    std::mutex mutex_;
+    std::string untold_;
+    std::chrono::steady_clock::time_point told_{};
+};
+
+}  // namespace espalier::studio
