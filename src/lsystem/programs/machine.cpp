@@ -1,5 +1,7 @@
 #include "lsystem/programs/machine.h"
 
+#include "espalier/base/math.h"
+
 #include "lsystem/programs/limits.h"
 #include "lsystem/programs/side_values.h"
 
@@ -43,7 +45,7 @@ void Machine::run(const Program& program) {
                 r[i.target] = r[i.a] == 0;
                 break;
             case Opcode::power:
-                r[i.target] = std::pow(r[i.a], r[i.b]);
+                r[i.target] = math::pow(r[i.a], r[i.b]);
                 break;
             case Opcode::multiply:
                 r[i.target] = r[i.a] * r[i.b];
