@@ -1,6 +1,7 @@
 // leaves: leaves, blossoms or fruit along internodes.
 // Brzoska 2019, sections 3.5 and 5.1: a fractional number for each node, sizes of a normal distribution with a
 // deviation of a fifth, on thin internodes alone. Random turns are those of Shoemake 1992.
+#include "espalier/base/file.h"
 #include "espalier/base/math.h"
 #include "espalier/geometry/geometry_stage.h"
 
@@ -137,9 +138,11 @@ private:
 
 fs::path read_texture(const Settings& settings) {
     const fs::path file = settings.path_if_any("texture").value_or(fs::path());
-    if (!file.empty() && !fs::is_regular_file(file)) {
+    if (file.empty()) return file;
+    if (!fs::is_regular_file(file)) {
         throw UserError(settings.place("texture"), fmt::format("there is no picture {}", file.string()));
     }
+    read_text(file);  // so that run.json keeps it
     return file;
 }
 
