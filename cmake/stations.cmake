@@ -3,6 +3,10 @@
 set(geometry_GRIDS grids)
 set(environment_GRIDS markers neighbours processes shade shapes water)
 
+# Eigen adds in the order of the source: vectors of another processor would add in another, and fuse.
+set_source_files_properties(src/environment/water/steady.cpp src/analysis/least_squares.cpp PROPERTIES
+  COMPILE_DEFINITIONS EIGEN_DONT_VECTORIZE)
+
 function(add_objects name)
   add_library(${name} OBJECT ${ARGN})
   target_include_directories(${name} PRIVATE src)

@@ -1,5 +1,6 @@
 #include "espalier/base/random.h"
 
+#include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 
 #include <Random123/philox.h>
@@ -86,31 +87,31 @@ void first_samples(RandomKey key, std::uint32_t step, std::span<const std::uint6
 }
 
 double RandomSamples::normal() {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
+    const double radius = std::sqrt(-2 * math::log(1 - uniform()));
+    return radius * math::cos(2 * std::numbers::pi * uniform());
 }
 
 // Marsaglia & Tsang (2000), "A simple method for generating gamma variables". Small shapes give numbers that only
 // their logarithms can hold.
 double RandomSamples::log_gamma(double shape) {
     if (shape < 1) {
-        const double boost = std::log(1 - uniform()) / shape;
+        const double boost = math::log(1 - uniform()) / shape;
         return log_gamma(shape + 1) + boost;
     }
     const double d = shape - 1.0 / 3;
     const double c = 1 / std::sqrt(9 * d);
     while (true) {
         const double x = normal();
-        const double v = std::pow(1 + c * x, 3);
+        const double v = math::pow(1 + c * x, 3);
         if (v <= 0) continue;
-        if (std::log(1 - uniform()) < 0.5 * x * x + d - d * v + d * std::log(v)) return std::log(d) + std::log(v);
+        if (math::log(1 - uniform()) < 0.5 * x * x + d - d * v + d * math::log(v)) return math::log(d) + math::log(v);
     }
 }
 
 double RandomSamples::beta(double a, double b) {
     const double x = log_gamma(a);
     const double y = log_gamma(b);
-    return 1 / (1 + std::exp(y - x));
+    return 1 / (1 + math::exp(y - x));
 }
 
 double RandomSamples::binomial(double n, double p) {

@@ -1,6 +1,7 @@
 #include "espalier/geometry/contour.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/math.h"
 
 #include "geometry/magnetic_cut.h"
 
@@ -9,7 +10,6 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -70,7 +70,7 @@ struct LengthTable {
 
 /// Turns the contour about the origin so that its first vertex lies on the +x axis.
 void turn_to_x_axis(std::vector<Contour::Vertex>& vertices) {
-    const double radius = std::hypot(vertices[0].position.x, vertices[0].position.y);
+    const double radius = math::hypot(vertices[0].position.x, vertices[0].position.y);
     if (radius == 0) return;
     const double cosine = vertices[0].position.x / radius, sine = vertices[0].position.y / radius;
     const auto turned = [&](const glm::dvec3& v) {
@@ -92,7 +92,7 @@ std::vector<Contour::Vertex> circle(int sides) {
     std::vector<Contour::Vertex> vertices;
     for (int k = 0; k < sides; ++k) {
         const double angle = 2 * std::numbers::pi * k / sides;
-        const glm::dvec3 point(std::cos(angle), std::sin(angle), 0);
+        const glm::dvec3 point(math::cos(angle), math::sin(angle), 0);
         vertices.push_back({point, point});
     }
     vertices.push_back(vertices.front());

@@ -1,9 +1,10 @@
 #include "geometry/cylinder_curve.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace espalier::geometry {
 namespace {
@@ -68,7 +69,7 @@ double CylinderCurve::width_slope(std::size_t point, std::size_t stretch) const 
         const RadiusTangents& radius = *here.radius;
         const double angle = at_start ? radius.angle_after : radius.angle_before;
         const double length = at_start ? radius.length_after : radius.length_before;
-        return 2 * std::sin(angle) * length * (radius.scaled ? distance(stretch) : 1);
+        return 2 * math::sin(angle) * length * (radius.scaled ? distance(stretch) : 1);
     }
     const std::size_t size = cylinder_.points.size();
     const auto secant = [&](std::size_t i) {

@@ -1,6 +1,7 @@
 #include "espalier/geometry/generalized_cylinder.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/math.h"
 
 #include "geometry/cylinder_curve.h"
 
@@ -44,12 +45,12 @@ glm::dvec3 carried(const Pose& from, const Pose& to) {
 
 /// The angle about the frame's heading from its up to `up`, in (-pi, pi].
 double angle_to(const Pose& frame, const glm::dvec3& up) {
-    return std::atan2(glm::dot(glm::cross(frame.up, up), frame.heading), glm::dot(frame.up, up));
+    return math::atan2(glm::dot(glm::cross(frame.up, up), frame.heading), glm::dot(frame.up, up));
 }
 
 void turn_up(Pose& frame, double angle) {
     const glm::dvec3 aside = glm::cross(frame.heading, frame.up);
-    set_up(frame, frame.up * std::cos(angle) + aside * std::sin(angle));
+    set_up(frame, frame.up * math::cos(angle) + aside * math::sin(angle));
 }
 
 class Sweep {

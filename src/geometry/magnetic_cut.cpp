@@ -1,11 +1,12 @@
 #include "geometry/magnetic_cut.h"
 
+#include "espalier/base/math.h"
+
 #include "base/monotone_curve.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace espalier::geometry {
@@ -16,12 +17,12 @@ constexpr double pi = std::numbers::pi;
 glm::dvec3 outline(const MagneticCut& cut, double angle) {
     const double place = angle / (2 * pi) * double(cut.strengths.size());
     const double radius = std::max(0.0, 1 + monotone_curve(cut.strengths, place, true));
-    return {cut.thickness * radius * std::cos(angle), radius * std::sin(angle), 0};
+    return {cut.thickness * radius * math::cos(angle), radius * math::sin(angle), 0};
 }
 
 glm::dvec3 position(const MagneticCut& cut, int k, int sides) {
     if (!cut.flat) return outline(cut, 2 * pi * k / sides);
-    const double angle = std::asin(std::clamp(2.0 * k / sides - 1, -1.0, 1.0));
+    const double angle = math::asin(std::clamp(2.0 * k / sides - 1, -1.0, 1.0));
     return (outline(cut, angle) + outline(cut, pi - angle)) / 2.0;
 }
 

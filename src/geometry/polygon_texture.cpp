@@ -1,5 +1,7 @@
 #include "geometry/polygon_texture.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -50,14 +52,14 @@ Flat flattened(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
 /// The direction of v, a unit vector.
 glm::dvec2 upward(const Flat& flat) {
     constexpr double about_equal = 0.01;  // of squares and circles, but for rounding
-    const double spread = std::hypot(flat.xx - flat.yy, 2 * flat.xy), sum = std::abs(flat.xx + flat.yy);
+    const double spread = math::hypot(flat.xx - flat.yy, 2 * flat.xy), sum = std::abs(flat.xx + flat.yy);
     if (spread <= about_equal * sum) {
         for (const glm::dvec2& corner : flat.corners) {
             if (const double length = glm::length(corner); length > 0) return corner / length;
         }
     }
-    const double angle = std::atan2(2 * flat.xy, flat.xx - flat.yy) / 2 + (flat.area < 0 ? std::acos(0.0) : 0.0);
-    const glm::dvec2 axis(std::cos(angle), std::sin(angle));
+    const double angle = math::atan2(2 * flat.xy, flat.xx - flat.yy) / 2 + (flat.area < 0 ? math::acos(0.0) : 0.0);
+    const glm::dvec2 axis(math::cos(angle), math::sin(angle));
     return glm::dot(flat.middle, axis) < 0 ? -axis : axis;
 }
 

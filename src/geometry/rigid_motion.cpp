@@ -1,5 +1,7 @@
 #include "geometry/rigid_motion.h"
 
+#include "espalier/base/math.h"
+
 namespace espalier::geometry {
 namespace {
 
@@ -34,6 +36,11 @@ void move_pose(Pose& pose, const RigidMotion& motion) {
 }
 
 }  // namespace
+
+glm::dquat turn_about(const glm::dvec3& axis, double angle) {
+    const math::SineAndCosine half = math::sine_and_cosine(angle / 2);
+    return {half.cosine, half.sine * axis};
+}
 
 void move_organs(PlantGeometry& geometry, const MotionOfModule& motion_of) {
     move_polygons(geometry, motion_of);

@@ -9,6 +9,9 @@
 
 namespace espalier::geometry {
 
+/// A turn by an angle in radians, counter-clockwise about an axis of length 1.
+glm::dquat turn_about(const glm::dvec3& axis, double angle);
+
 /// A turn about the point `from`, which comes to lie at `to`.
 struct RigidMotion {
     glm::dquat turn{1, 0, 0, 0};

@@ -1,5 +1,7 @@
 #include "espalier/turtle/turtle.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -34,13 +36,16 @@ glm::dvec3 pull(const Tropism& tropism, const glm::dvec3& heading) {
     if (tropism.angle == 0) return T;
     const glm::dvec3 across = glm::cross(heading, T);
     const double sine = glm::length(across);
-    if (sine == 0) return T * std::cos(tropism.angle);
-    return T * std::cos(tropism.angle) + glm::cross(T, across) * (std::sin(tropism.angle) / sine);
+    if (sine == 0) return T * math::cos(tropism.angle);
+    return T * math::cos(tropism.angle) + glm::cross(T, across) * (math::sin(tropism.angle) / sine);
 }
 
 }  // namespace
 
-Rotation::Rotation(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {
+Rotation::Rotation(double angle) {
+    const math::SineAndCosine of_angle = math::sine_and_cosine(angle);
+    cosine = of_angle.cosine;
+    sine = of_angle.sine;
     // pi/2 and its like cannot be written in binary; what is left of 0 is an artefact.
     constexpr double artefact = 4e-16;
     if (std::abs(cosine) < artefact) {

@@ -1,5 +1,7 @@
 #include "environment/markers/colonization.h"
 
+#include "espalier/base/math.h"
+
 #include "base/bytes.h"
 #include "base/parallel.h"
 #include "environment/neighbours/point_grid.h"
@@ -62,7 +64,7 @@ void Colonization::sort_into_cells() {
     // A cloud may be flat.
     const glm::dvec3 thick = glm::max(edges, glm::dvec3(1e-3 * widest_));
     const double share = points_per_cell / static_cast<double>(points_.size());
-    const PointGrid grid(points_, all_numbers(points_.size()), std::cbrt(thick.x * thick.y * thick.z * share));
+    const PointGrid grid(points_, all_numbers(points_.size()), math::cbrt(thick.x * thick.y * thick.z * share));
     std::vector<glm::dvec3> sorted;
     sorted.reserve(points_.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {

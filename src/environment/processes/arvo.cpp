@@ -1,6 +1,7 @@
 // arvo: climbers that creep over the surfaces of obstacles by shooting rays.
 // Arvo & Kirk 1988, Modeling plants with environment-sensitive automata: a tip looks for a place that it can reach
 // without a hit, and from there for the nearest surface, on which it goes on.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
 #include "espalier/geometry/background.h"
@@ -9,10 +10,10 @@
 #include "base/bytes.h"
 #include "base/parallel.h"
 #include "environment/parameter_file.h"
+#include "geometry/rigid_motion.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +144,7 @@ private:
 glm::dvec3 direction_on_sphere(RandomSamples& samples) {
     const double y = 2 * samples.uniform() - 1, turn = 2 * glm::pi<double>() * samples.uniform();
     const double across = std::sqrt(1 - y * y);
-    return {across * std::cos(turn), y, across * std::sin(turn)};
+    return {across * math::cos(turn), y, across * math::sin(turn)};
 }
 
 class Arvo final : public EnvironmentProcess {
@@ -250,7 +251,7 @@ private:
 
     /// The nearest surface around the place that lies `length` ahead, `turn` aside, if the way there is free.
     std::optional<ClimbHit> surface_ahead(const Pose& pose, double length, double turn, RandomSamples& samples) const {
-        const glm::dvec3 direction = glm::angleAxis(turn, pose.up) * pose.heading;
+        const glm::dvec3 direction = geometry::turn_about(pose.up, turn) * pose.heading;
         if (obstacles_.first({pose.position, direction, length})) return std::nullopt;
         const glm::dvec3 place = pose.position + length * direction;
         std::optional<ClimbHit> nearest = obstacles_.first({place, -pose.up, farthest_});

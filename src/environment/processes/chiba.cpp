@@ -1,6 +1,7 @@
 // chiba: leaf clusters as balls that let part of the light through; a branch learns its light and the brightest
 // direction. Chiba, Ohkawa, Muraoka & Miura 1994, Visual simulation of botanical trees based on virtual heliotropism
 // and dormancy break.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 
 #include "base/parallel.h"
@@ -15,7 +16,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace espalier::environment {
@@ -123,7 +123,7 @@ private:
     /// The part of the light from a direction that the balls in its way leave.
     double passed(BallsMet& met, double radius, double margin) const {
         if (by_area_) return passed_by_areas(met, radius, transmittance_);
-        return std::pow(transmittance_, sum_of_chords(met, margin, chords_));
+        return math::pow(transmittance_, sum_of_chords(met, margin, chords_));
     }
 
     static void write(const Light& light, Answer answer) {

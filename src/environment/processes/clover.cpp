@@ -1,5 +1,6 @@
 // clover: patches of light on the ground, dimmed under the leaves that stand there.
 // Bell 1986, The simulation of branching patterns in modular organisms; Mech & Prusinkiewicz 1996, section 4.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 
 #include "environment/exchange/answer_statistics.h"
@@ -85,7 +86,7 @@ private:
 
     double light(std::size_t cell) const {
         const double leaves = std::min(ground_.count(cell), 255u);
-        return ground_.colour(cell)[1] / 255.0 * std::pow(transmittance_, leaves);
+        return ground_.colour(cell)[1] / 255.0 * math::pow(transmittance_, leaves);
     }
 
     bool as_cpfg_;

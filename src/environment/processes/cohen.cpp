@@ -2,6 +2,7 @@
 // Cohen 1967, Computer simulation of biological pattern generation processes: growth at the tips, its direction from
 // the present one, a field of density, the gradient of that and the resistance to turning; branching at random, by the
 // distance from the last fork and the density. The paper gives the rules; the functions below are ours.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 
 #include "base/parallel.h"
@@ -11,7 +12,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace espalier::environment {
@@ -122,7 +122,7 @@ private:
     double probability_of_fork(double since_fork, double density) const {
         if (since_fork < fork_distance_) return 0;
         const double risen = fork_rise_ > 0 ? std::min(1.0, (since_fork - fork_distance_) / fork_rise_) : 1;
-        return branching_ * risen * std::exp(-std::max(density, 0.0) / crowding_);
+        return branching_ * risen * math::exp(-std::max(density, 0.0) / crowding_);
     }
 
     double reach_, resistance_;

@@ -1,5 +1,6 @@
 // density: density in the plane, and the direction in which it decreases.
 // Cohen 1967, Computer simulation of biological pattern generation processes.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 
 #include "base/parallel.h"
@@ -10,7 +11,6 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <tuple>
 
@@ -100,7 +100,7 @@ private:
     }
 
     double angle(const glm::dvec2& direction) const {
-        const double degrees = std::atan2(direction.y, direction.x) * 180 / std::numbers::pi;
+        const double degrees = math::atan2(direction.y, direction.x) * 180 / std::numbers::pi;
         return as_cpfg_ && degrees < 0 ? degrees + 360 : degrees;
     }
 

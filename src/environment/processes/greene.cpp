@@ -2,6 +2,7 @@
 // Greene 1989, Voxel space automata: modeling with stochastic growth processes in voxel space: segments are tried at
 // random in allowed voxels, collisions rejected and the best trial taken; the light of a voxel is the share of the
 // sun's path and of the sky that is seen from it, past the solid and through the leaves.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
 #include "espalier/geometry/openvdb_grid.h"
@@ -84,7 +85,7 @@ struct VineTrial {
 glm::dvec3 direction_about(const Pose& pose, double least_cosine, RandomSamples& samples) {
     const double cosine = 1 - samples.uniform() * (1 - least_cosine);
     const double turn = 2 * glm::pi<double>() * samples.uniform(), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
-    return glm::normalize(cosine * pose.heading + sine * (std::cos(turn) * pose.left + std::sin(turn) * pose.up));
+    return glm::normalize(cosine * pose.heading + sine * (math::cos(turn) * pose.left + math::sin(turn) * pose.up));
 }
 
 class Greene final : public EnvironmentProcess {
@@ -94,7 +95,7 @@ public:
           weights_(settings.table("weights")),
           key_(context.seed, 0, Stream::process, 0x677265656e65),
           trials_(settings.integer_or("trials", 12, Range::between(1, 10000))),
-          least_cosine_(std::cos(glm::radians(settings.number_or("spread", 60, Range::between(0, 180))))),
+          least_cosine_(math::cos(glm::radians(settings.number_or("spread", 60, Range::between(0, 180))))),
           most_nodes_(settings.number_or("most_nodes", 3, Range::positive())),
           sun_share_(settings.number_or("sun_share", 0.5, Range::between(0, 1))),
           extinction_(settings.number_or("extinction", 0, Range::not_negative())),
@@ -220,7 +221,7 @@ private:
         double sum = 0;
         for (std::size_t i = 0; i < directions.size(); ++i) {
             if (!free[i]) continue;
-            sum += extinction_ > 0 ? std::exp(-extinction_ * leaves_.crossed(place, directions[i])) : 1;
+            sum += extinction_ > 0 ? math::exp(-extinction_ * leaves_.crossed(place, directions[i])) : 1;
         }
         return directions.empty() ? 0 : sum / static_cast<double>(directions.size());
     }

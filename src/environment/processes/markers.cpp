@@ -2,6 +2,7 @@
 // Runions, Lane & Prusinkiewicz 2007, Modeling trees with a space colonization algorithm, section 2; angle of
 // perception: Palubicki et al. 2009, Self-organizing tree models for image synthesis, section 4.1; kill distance over
 // time: Brzoska 2019, Interaktive Pflanzenmodellierung, eq. 17.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 
@@ -36,7 +37,7 @@ public:
     double at(int step) const {
         if (begin_ == end_) return begin_;
         const double x = -8 + 16.0 / (steps_ - 1) * std::min(step, steps_ - 1);
-        return begin_ - (begin_ - end_) / (1 + std::exp(-x));
+        return begin_ - (begin_ - end_) / (1 + math::exp(-x));
     }
 
 private:
@@ -57,7 +58,7 @@ ColonizationRules read_rules(const Settings& settings) {
     ColonizationRules rules;
     if (settings.has("influence")) rules.influence = settings.number("influence", Range::positive());
     const double perception = settings.number_or("perception", 360, {0, 360, true});
-    rules.cosine = perception < 360 ? std::cos(glm::radians(perception / 2)) : -1;
+    rules.cosine = perception < 360 ? math::cos(glm::radians(perception / 2)) : -1;
     rules.perceived = settings.choice_or("contest", "nearest", {"nearest", "perceived"}) == "perceived";
     return rules;
 }

@@ -1,6 +1,7 @@
 // reaction-diffusion: substances that make organs around a growing stem, or veins in a sheet.
 // Gierer & Meinhardt 1972; Meinhardt 1982, Models of Biological Pattern Formation (organs); Bernasconi 1994 (a second
 // inhibitor in time); Meinhardt 1976, Morphogenesis of lines and nets. Lattice, rates and noise are ours.
+#include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
@@ -203,7 +204,7 @@ private:
                 const Maximum found = centre_at(column, row);
                 const auto known = std::find_if(maxima_.rbegin(), maxima_.rend(), [&](const Maximum& maximum) {
                     const double apart = std::remainder(maximum.column - found.column, sheet_.columns);
-                    return std::hypot(apart, maximum.height - found.height) < 2;
+                    return math::hypot(apart, maximum.height - found.height) < 2;
                 });
                 if (known == maxima_.rend()) {
                     maxima_.push_back(found);

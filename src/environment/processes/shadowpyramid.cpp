@@ -1,6 +1,7 @@
 // shadowpyramid: organs cast pyramids of shadow that multiply, their own among them.
 // Palubicki, Horel, Longay, Runions, Lane, Mech & Prusinkiewicz 2009, Self-organizing tree models, section 3, as the
 // environment program of that name does it; voxel-shade is this project's process.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 
@@ -112,7 +113,7 @@ private:
             for (int x = 0; x <= reach(layer); ++x) {
                 for (int z = 0; z <= reach(layer); ++z) {
                     const double away = std::sqrt(double(x) * x + double(layer) * layer + double(z) * z);
-                    left.push_back(static_cast<float>(1 - std::min(1.0, weight_ * std::pow(dissipation_, -away))));
+                    left.push_back(static_cast<float>(1 - std::min(1.0, weight_ * math::pow(dissipation_, -away))));
                 }
             }
         }

@@ -1,6 +1,7 @@
 // takenaka: leaf clusters between sources of light; a branch learns what its leaves produce.
 // Takenaka 1994, A simulation model of tree architecture development based on growth response to local light
 // environment.
+#include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 
 #include "base/parallel.h"
@@ -31,8 +32,8 @@ std::vector<Source> disk(const std::vector<double>& numbers) {
     for (int i = 0; i < points_of_disk; ++i) {
         const double from_middle = numbers[0] * std::sqrt((i + 0.5) / points_of_disk);
         const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
-        const glm::dvec3 place(numbers[1] + from_middle * std::cos(angle), numbers[2],
-                               numbers[3] + from_middle * std::sin(angle));
+        const glm::dvec3 place(numbers[1] + from_middle * math::cos(angle), numbers[2],
+                               numbers[3] + from_middle * math::sin(angle));
         sources.push_back({place, 1.0 / points_of_disk});
     }
     return sources;
@@ -102,7 +103,7 @@ private:
     double product(const SphereTree& tree, const SphereTree::Sphere& own, std::span<const double> asked) const {
         double light = 0;
         for (const Source& source : sources_)
-            light += source.intensity * std::pow(passed(), 2 * hits(tree, own, source));
+            light += source.intensity * math::pow(passed(), 2 * hits(tree, own, source));
         const double absorbed = 1 - passed() * passed();
         return efficiency_ * light * (std::max(asked[0], 0.0) * s_ * s_ / 4) * absorbed - asked[1];
     }

@@ -1,10 +1,11 @@
 #include "environment/shade/exposure.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace espalier::environment {
@@ -35,16 +36,16 @@ std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, 
     const glm::dvec3 up(0, 1, 0), east = glm::cross(north, up);
     std::vector<glm::dvec3> directions;
     for (const double day : days) {
-        const double declination = glm::radians(23.45 * std::sin(2 * std::numbers::pi * (284 + day) / 365));
-        const double sunset = std::acos(std::clamp(-std::tan(phi) * std::tan(declination), -1.0, 1.0));
+        const double declination = glm::radians(23.45 * math::sin(2 * std::numbers::pi * (284 + day) / 365));
+        const double sunset = math::acos(std::clamp(-math::tan(phi) * math::tan(declination), -1.0, 1.0));
         if (!(sunset > 0)) continue;
         for (std::int64_t i = 0; i < samples; ++i) {
             const double hour = sunset * ((2 * static_cast<double>(i) + 1) / static_cast<double>(samples) - 1);
             const double height =
-                std::sin(phi) * std::sin(declination) + std::cos(phi) * std::cos(declination) * std::cos(hour);
+                math::sin(phi) * math::sin(declination) + math::cos(phi) * math::cos(declination) * math::cos(hour);
             const double northward =
-                std::cos(phi) * std::sin(declination) - std::sin(phi) * std::cos(declination) * std::cos(hour);
-            directions.push_back(height * up + northward * north - std::cos(declination) * std::sin(hour) * east);
+                math::cos(phi) * math::sin(declination) - math::sin(phi) * math::cos(declination) * math::cos(hour);
+            directions.push_back(height * up + northward * north - math::cos(declination) * math::sin(hour) * east);
         }
     }
     return directions;

@@ -1,6 +1,7 @@
 #include "environment/shade/pyramid.h"
 
 #include "espalier/base/error.h"
+#include "espalier/base/math.h"
 #include "espalier/base/random.h"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ double VoxelBox::voxels() const {
 ShadeCasts::ShadeCasts(const ShadeRule& rule, const VoxelBox& clip) : rule_(rule), clip_(clip) {
     for (int q = 0; q <= rule.depth; ++q) {
         half_widths_.push_back(environment::half_width(rule, q));
-        fading_.push_back(std::pow(rule.dissipation, -q));
+        fading_.push_back(math::pow(rule.dissipation, -q));
     }
     grow_table();
 }
@@ -44,7 +45,7 @@ ShadeCasts::ShadeCasts(const ShadeRule& rule, const VoxelBox& clip) : rule_(rule
 double ShadeCasts::shade_of_layer(double s, int q) const {
     const double amount = s * rule_.strength * fading_[static_cast<std::size_t>(q)];
     if (!rule_.attenuate) return amount;
-    return amount >= 1 ? opaque_depth : std::min(opaque_depth, -std::log1p(-amount));
+    return amount >= 1 ? opaque_depth : std::min(opaque_depth, -math::log1p(-amount));
 }
 
 void ShadeCasts::begin_step() {

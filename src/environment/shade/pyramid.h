@@ -3,6 +3,7 @@
 #pragma once
 
 #include "espalier/base/column.h"
+#include "espalier/base/math.h"
 
 #include <glm/vec3.hpp>
 
@@ -43,7 +44,7 @@ inline double shade_value(Shade shade) {
 inline double light_under(const ShadeRule& rule, Shade shade) {
     const double amount = shade_value(shade);
     if (!rule.attenuate) return std::max(rule.full_light - amount, 0.0);
-    return amount >= opaque_depth ? 0 : rule.full_light * std::exp(-amount);
+    return amount >= opaque_depth ? 0 : rule.full_light * math::exp(-amount);
 }
 
 /// Voxels from `lower` to `upper`, both included.

@@ -1,5 +1,7 @@
 #include "environment/shade/sky_directions.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -66,14 +68,14 @@ std::vector<glm::dvec3> sky_hemisphere(std::int64_t samples) {
     for (std::int64_t i = 0; i < samples; ++i) {
         const double y = (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
         const double across = std::sqrt(1 - y * y), turn = golden_angle * static_cast<double>(i);
-        directions.emplace_back(across * std::cos(turn), y, across * std::sin(turn));
+        directions.emplace_back(across * math::cos(turn), y, across * math::sin(turn));
     }
     return directions;
 }
 
 std::vector<SkyDirection> chiba_overcast_sky(std::int64_t samples, double lower_to_upper) {
     return sky(samples, lower_to_upper, [](const glm::dvec3& towards) {
-        const double c = towards.y / std::hypot(towards.x, towards.y);
+        const double c = towards.y / math::hypot(towards.x, towards.y);
         return (1 + c) / 3 * (8.6 * c + 0.123) / 0.203;
     });
 }

@@ -1,5 +1,6 @@
 // Shapes made of shapes: union, intersection, difference; and shapes put elsewhere or grown.
 #include "environment/shapes/kinds.h"
+#include "geometry/rigid_motion.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -233,7 +234,7 @@ glm::dquat read_rotation(Settings& table) {
     const glm::dvec3 axis = rotate.vector("axis");
     const double length = glm::length(axis);
     if (!(length > 0)) throw UserError(rotate.place("axis"), "'axis' must not be [0, 0, 0]");
-    return glm::angleAxis(glm::radians(rotate.number("angle")), axis / length);
+    return geometry::turn_about(axis / length, glm::radians(rotate.number("angle")));
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include "environment/water/direction.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <numbers>
 
 namespace espalier::environment {
@@ -107,8 +108,8 @@ WaterHeading clear_heading(const WaterGrid& grid, const WaterSolids& solids, con
         for (const int azimuth : azimuths(grid.flat())) {
             const double around = azimuth * radians_per_degree;
             const glm::dvec3 away =
-                grid.flat() ? (azimuth == 0 ? side : -side) : std::cos(around) * side + std::sin(around) * other;
-            const glm::dvec3 heading = glm::normalize(std::cos(turn) * wanted + std::sin(turn) * away);
+                grid.flat() ? (azimuth == 0 ? side : -side) : math::cos(around) * side + math::sin(around) * other;
+            const glm::dvec3 heading = glm::normalize(math::cos(turn) * wanted + math::sin(turn) * away);
             if (is_clear(grid, solids, pose.position, heading, length)) return {heading, true};
         }
     }

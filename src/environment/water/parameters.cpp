@@ -1,10 +1,11 @@
 #include "environment/water/parameters.h"
 
+#include "espalier/base/math.h"
+
 #include "base/text.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 
 namespace espalier::environment {
@@ -65,7 +66,7 @@ std::array<WaterSide, 6> read_sides(Settings& settings, bool flat) {
 /// Straight down, turned about the z axis towards +x.
 glm::dvec3 gravity_at(double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
-    return {std::sin(angle), -std::cos(angle), 0};
+    return {math::sin(angle), -math::cos(angle), 0};
 }
 
 std::vector<WaterLayer> read_layers(Settings& settings, const WaterParameters& parameters, double diffusion,

@@ -2,6 +2,7 @@
 #include "espalier/geometry/background.h"
 
 #include "base/text_cursor.h"
+#include "geometry/rigid_motion.h"
 #include "geometry/side_files/background_solids.h"
 #include "language/preprocessor/preprocessed_text.h"
 
@@ -200,7 +201,7 @@ private:
     void rotate(Numbers numbers) {
         const glm::dvec3 axis = point_at(numbers, 1);
         if (!(glm::length(axis) > 0)) return complain(place_, "'rotate' needs an axis that is not 0 0 0");
-        apply(glm::rotate(glm::dmat4(1), numbers[0] * (std::numbers::pi / 180), axis));
+        apply(glm::mat4_cast(turn_about(glm::normalize(axis), numbers[0] * (std::numbers::pi / 180))));
     }
     // Rows of a matrix of row vectors are columns of one of column vectors.
     void multiply(Numbers numbers) {

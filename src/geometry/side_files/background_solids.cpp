@@ -1,8 +1,9 @@
 #include "geometry/side_files/background_solids.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <numbers>
 
 namespace espalier::geometry {
@@ -16,7 +17,7 @@ void add_quadrilateral(Solid& solid, std::uint32_t a, std::uint32_t b, std::uint
 
 glm::dvec3 around(std::uint32_t k) {
     const double angle = 2 * std::numbers::pi * (k % sides) / sides;
-    return {std::sin(angle), 0, std::cos(angle)};
+    return {math::sin(angle), 0, math::cos(angle)};
 }
 
 void add_disc(Solid& solid, double radius, double height, double side) {
@@ -73,7 +74,7 @@ Solid solid_sphere(double radius) {
     for (std::uint32_t i = 0; i <= stacks; ++i) {
         const double latitude = std::numbers::pi * (double(i) / stacks - 0.5);
         for (std::uint32_t k = 0; k <= sides; ++k) {
-            const glm::dvec3 normal = std::cos(latitude) * around(k) + glm::dvec3(0, std::sin(latitude), 0);
+            const glm::dvec3 normal = math::cos(latitude) * around(k) + glm::dvec3(0, math::sin(latitude), 0);
             sphere.vertices.push_back({radius * normal, normal, {}});
         }
     }

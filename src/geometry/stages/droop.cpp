@@ -1,5 +1,6 @@
 // droop: branches that hang, the more the nearer they are to hanging.
 // Brzoska 2019, section 3.4.5, equation 13: psi = lambda (1 - theta / 180) theta, from the base to the tips.
+#include "espalier/base/math.h"
 #include "espalier/geometry/geometry_stage.h"
 
 #include "geometry/internode_bearers.h"
@@ -7,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -19,9 +19,9 @@ constexpr glm::dvec3 down{0, -1, 0};
 /// Turns `heading` down by lambda (1 - theta / pi) theta, theta being its angle to `down`.
 glm::dquat turn_down(const glm::dvec3& heading, double lambda) {
     const glm::dvec3 across = glm::cross(heading, down);
-    const double sine = glm::length(across), theta = std::atan2(sine, glm::dot(heading, down));
+    const double sine = glm::length(across), theta = math::atan2(sine, glm::dot(heading, down));
     if (sine <= 1e-12 * glm::length(heading)) return {1, 0, 0, 0};
-    return glm::angleAxis(lambda * (1 - theta / std::numbers::pi) * theta, across / sine);
+    return turn_about(across / sine, lambda * (1 - theta / std::numbers::pi) * theta);
 }
 
 class Droop final : public GeometryStage {

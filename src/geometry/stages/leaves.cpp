@@ -2,6 +2,7 @@
 // Brzoska 2019, sections 3.5 and 5.1: a fractional number for each node, sizes of a normal distribution with a
 // deviation of a fifth, on thin internodes alone. Random turns are those of Shoemake 1992.
 #include "espalier/base/file.h"
+#include "espalier/base/math.h"
 #include "espalier/geometry/geometry_stage.h"
 
 #include "base/text.h"
@@ -32,7 +33,7 @@ glm::dquat random_turn(RandomSamples& samples) {
     const double share = samples.uniform(), a = 2 * std::numbers::pi * samples.uniform(),
                  b = 2 * std::numbers::pi * samples.uniform();
     const double s = std::sqrt(1 - share), c = std::sqrt(share);
-    return {c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b)};
+    return {c * math::cos(b), s * math::sin(a), s * math::cos(a), c * math::sin(b)};
 }
 
 /// Which nodes bear how many.
@@ -116,7 +117,7 @@ private:
     Pose facing_light(const glm::dvec3& position, double around) const {
         const glm::dvec3 other = std::abs(light_.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
         const glm::dvec3 a = glm::normalize(glm::cross(light_, other)), b = glm::cross(light_, a);
-        const glm::dvec3 heading = std::cos(around) * a + std::sin(around) * b;
+        const glm::dvec3 heading = math::cos(around) * a + math::sin(around) * b;
         return {position, heading, glm::cross(heading, light_), light_};
     }
 
@@ -124,9 +125,9 @@ private:
     Pose outward(const BearingPlace& place, const glm::dvec3& reference, double around) const {
         const glm::dvec3& along = place.direction;
         const glm::dvec3 a = glm::normalize(reference - along * glm::dot(reference, along)), b = glm::cross(along, a);
-        const glm::dvec3 away = std::cos(around) * a + std::sin(around) * b;
-        const glm::dvec3 heading = std::cos(angle_) * along + std::sin(angle_) * away;
-        const glm::dvec3 up = std::sin(angle_) * along - std::cos(angle_) * away;
+        const glm::dvec3 away = math::cos(around) * a + math::sin(around) * b;
+        const glm::dvec3 heading = math::cos(angle_) * along + math::sin(angle_) * away;
+        const glm::dvec3 up = math::sin(angle_) * along - math::cos(angle_) * away;
         return {place.position, heading, glm::cross(heading, up), up};
     }
 
@@ -137,9 +138,11 @@ private:
 
 fs::path read_texture(const Settings& settings) {
     const fs::path file = settings.path_if_any("texture").value_or(fs::path());
-    if (!file.empty() && !is_readable(file)) {
+    if (file.empty()) return file;
+    if (!is_readable(file)) {
         throw UserError(settings.place("texture"), fmt::format("there is no picture {}", file.string()));
     }
+    read_text(file);  // so that run.json keeps it
     return file;
 }
 

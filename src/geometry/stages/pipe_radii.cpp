@@ -1,11 +1,10 @@
 // pipe-radii: internodes as thick as what they bear asks for.
 // The pipe model of Shinozaki, Yoda, Hozumi & Kira 1964 with the exponent of MacDonald 1983; forks as in Brzoska 2019,
 // section 5.1: a branch much thinner than its bearer starts with its own radius.
+#include "espalier/base/math.h"
 #include "espalier/geometry/geometry_stage.h"
 
 #include "geometry/internode_bearers.h"
-
-#include <cmath>
 
 namespace espalier::geometry {
 namespace {
@@ -54,7 +53,7 @@ private:
             if (powers[i] == 0) powers[i] = 1;
             if (bearers[i] != no_bearer) powers[bearers[i]] += powers[i];
         }
-        for (double& value : powers) value = factor_ * tip_ * std::pow(value, 1 / exponent_);
+        for (double& value : powers) value = factor_ * tip_ * math::pow(value, 1 / exponent_);
         return powers;
     }
 

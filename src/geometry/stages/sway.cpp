@@ -2,6 +2,7 @@
 // Weber & Penn 1995, on wind: a stem of length L turns at the share z of its length, where it has the radius r(z), by
 //   a1 sin b + a2 sin 0.7 b,   a0 = 4 L (1 - z) / r(z) degrees,   a1 = speed / 50 a0,   a2 = gust / 50 a0 + a1 / 2,
 // about each of two axes across it, and b grows with the time as the stem's radius / L.
+#include "espalier/base/math.h"
 #include "espalier/geometry/geometry_stage.h"
 
 #include "geometry/internode_bearers.h"
@@ -124,7 +125,7 @@ private:
             }
             const glm::dvec3 turn = turns[rods.of[i]] * glm::radians(rods.bend(internodes, i));
             if (const double angle = glm::length(turn); angle > 0) {
-                motion.turn = glm::normalize(motion.turn * glm::angleAxis(angle, turn / angle));
+                motion.turn = glm::normalize(motion.turn * turn_about(turn / angle, angle));
             }
             motions.push_back(motion);
         }
@@ -145,7 +146,7 @@ private:
         for (const glm::dvec3& axis : axes_across(glm::length(along) > 0 ? glm::normalize(along) : plant.heading)) {
             const double offset = 2 * std::numbers::pi * samples.uniform();
             const double b = offset + pace_ * foot.base_radius / rod.length * plant.time;
-            turn += axis * limit * (first * std::sin(b) + second * std::sin(0.7 * b));
+            turn += axis * limit * (first * math::sin(b) + second * math::sin(0.7 * b));
         }
         return turn;
     }

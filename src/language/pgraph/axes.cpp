@@ -1,4 +1,6 @@
 // Components with an axis: the horn, and the tree, whose axis is cut where branches stand.
+#include "espalier/base/math.h"
+
 #include "base/text.h"
 #include "language/pgraph/curve.h"
 #include "language/pgraph/model_text.h"
@@ -8,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include <cmath>
 #include <utility>
 
 namespace espalier::language::pgraph {
@@ -84,12 +85,12 @@ std::string along_curve(ComponentText& text) {
     std::vector<std::string> turns, pitches, lengths;
     for (int k = 1; k <= pieces; ++k) {
         const glm::dvec3 point = curve.at(curve.length() * k / pieces), step = point - before;
-        const double turn = std::atan2(glm::dot(step, left), glm::dot(step, heading));
-        const glm::dvec3 ahead = heading * std::cos(turn) + left * std::sin(turn);
-        left = left * std::cos(turn) - heading * std::sin(turn);
-        const double pitch = std::atan2(glm::dot(step, up), glm::dot(step, ahead));
-        heading = ahead * std::cos(pitch) + up * std::sin(pitch);
-        up = up * std::cos(pitch) - ahead * std::sin(pitch);
+        const double turn = math::atan2(glm::dot(step, left), glm::dot(step, heading));
+        const glm::dvec3 ahead = heading * math::cos(turn) + left * math::sin(turn);
+        left = left * math::cos(turn) - heading * math::sin(turn);
+        const double pitch = math::atan2(glm::dot(step, up), glm::dot(step, ahead));
+        heading = ahead * math::cos(pitch) + up * math::sin(pitch);
+        up = up * math::cos(pitch) - ahead * math::sin(pitch);
         turns.push_back(format_exact(glm::degrees(turn)));
         pitches.push_back(format_exact(glm::degrees(pitch)));
         lengths.push_back(format_exact(glm::length(step)));

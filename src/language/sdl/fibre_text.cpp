@@ -1,5 +1,7 @@
 #include "language/sdl/fibre_text.h"
 
+#include "espalier/base/math.h"
+
 #include "base/monotone_curve.h"
 #include "base/text.h"
 #include "language/marks.h"
@@ -38,8 +40,8 @@ std::string magnet(const Fibre& fibre, double strength, double along, double ang
     if (!fibre.correction) return rounded(strength);
     const double reach = fibre.correction->bumps / 2;
     return fmt::format("{} + ROUGH({}, {}, {}, {})", rounded(strength),
-                       rounded(fibre.correction->amplitude * (1 + strength)), rounded(reach * std::cos(angle)),
-                       rounded(reach * std::sin(angle)), rounded(2 * reach * along));
+                       rounded(fibre.correction->amplitude * (1 + strength)), rounded(reach * math::cos(angle)),
+                       rounded(reach * math::sin(angle)), rounded(2 * reach * along));
 }
 
 /// "@Gm(ratio, 0.1, 0, 0.1, 0)"
@@ -64,7 +66,7 @@ std::string arc(double degrees, int pieces) {
     if (degrees == 0) return fmt::format("f(length * {})", format_exact(1.0 / pieces));
     const double half = degrees / 2 * pi / 180;
     const std::string turn = fmt::format("^({})", rounded(degrees / 2));
-    return fmt::format("{} f(length * {}) {}", turn, format_exact(std::sin(half) / half / pieces), turn);
+    return fmt::format("{} f(length * {}) {}", turn, format_exact(math::sin(half) / half / pieces), turn);
 }
 
 /// The part of the arc of part k of the contour that comes before `begin`.

@@ -1,5 +1,7 @@
 #include "language/sdl/formula.h"
 
+#include "espalier/base/math.h"
+
 #include "base/characters.h"
 #include "base/text.h"
 #include "language/marks.h"
@@ -23,7 +25,7 @@ constexpr std::array<Function, 9> functions{
 
 /// Only a root and a power of known numbers may have none.
 bool is_finite(std::string_view function, double argument) {
-    return function == "sqrt" ? argument >= 0 : function != "exp" || std::isfinite(std::exp(argument));
+    return function == "sqrt" ? argument >= 0 : function != "exp" || std::isfinite(math::exp(argument));
 }
 
 std::string written(double value) {

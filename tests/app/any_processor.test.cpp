@@ -1,0 +1,37 @@
+// Scenes grow to the same bytes whether or not the processor has fused multiply-add. GLIBC_TUNABLES makes the C library
+// take a processor for an older one; another C library does not read it, and then this compares 2 threads with 1.
+#include "catch.h"
+#include "program.h"
+
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const older_processor = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F";
+
+/// Scenes, not what scenes are made of.
+std::set<fs::path> scenes() {
+    std::set<fs::path> found;
+    for (const char* folder : {"environments", "environments/presets", "environments/species", "environments/landscapes"}) {
+        for (const auto& entry : fs::directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / folder)) {
+            if (entry.path().extension() == ".toml") found.insert(entry.path());
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Workplace, "every scene grows to the same bytes on a processor without fused multiply-add", "[app]") {
+    for (const fs::path& scene : scenes()) {
+        INFO(scene);
+        const Outcome first = run("run '" + scene.string() + "' --steps 12 --every 3 --quiet --threads 2 --output first --overwrite");
+        INFO(first.err);
+        REQUIRE(first.code == 0);
+        const Outcome again = run("rerun first --quiet --threads 1", older_processor);
+        CHECK(again.out == "");
+        CHECK(again.code == 0);
+    }
+}

@@ -1,0 +1,190 @@
+#include "espalier/base/math.h"
+
+#include "espalier/base/random.h"
+
+#include "catch.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+using namespace espalier;
+
+namespace {
+
+using Wide = long double;  ///< with more digits than double, on most machines
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Arguments that are the same on every machine: evenly from `low` to `high`.
+std::vector<double> arguments(double low, double high, std::size_t count = 20000) {
+    std::vector<double> values;
+    for (std::uint64_t k = 0; k < count; ++k) {
+        values.push_back(low + (high - low) * static_cast<double>(mix(k, 1) >> 11) * 0x1p-53);
+    }
+    return values;
+}
+
+/// The same number, sign of zero included, or both none.
+bool are_same(double a, double b) {
+    return std::isnan(a) ? std::isnan(b) : std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// How far `value` is from `exact`, in units of the last place.
+double units_apart(double value, double exact) {
+    if (are_same(value, exact)) return 0;
+    const double unit = std::nextafter(std::abs(exact), infinite) - std::abs(exact);
+    return std::abs(value - exact) / unit;
+}
+
+struct Case {
+    const char* name;
+    double (*ours)(double);
+    Wide (*exact)(Wide);
+    double low, high;
+    std::uint64_t bits;  ///< all values for arguments from low to high, mixed
+};
+
+double power_of(double exponent, double x) {
+    return math::pow(x, exponent);
+}
+
+const std::vector<Case>& cases() {
+    static const std::vector<Case> all{
+        {"sin", math::sin, [](Wide x) { return std::sin(x); }, -100, 100, 0xe53435841204fbc2},
+        {"cos", math::cos, [](Wide x) { return std::cos(x); }, -100, 100, 0x526ca5ca75a64f8b},
+        {"tan", math::tan, [](Wide x) { return std::tan(x); }, -100, 100, 0x312ab62b43740769},
+        {"asin", math::asin, [](Wide x) { return std::asin(x); }, -1, 1, 0xefb8aaa29928dbf4},
+        {"acos", math::acos, [](Wide x) { return std::acos(x); }, -1, 1, 0x00b9c42ed4e172cb},
+        {"atan", math::atan, [](Wide x) { return std::atan(x); }, -9, 9, 0xb5f719d3f0696433},
+        {"atan2", [](double y) { return math::atan2(y, -0.7); }, [](Wide y) { return std::atan2(y, Wide(-0.7)); }, -9,
+         9, 0x782605435f1afa2b},
+        {"sine", [](double x) { return math::sine_and_cosine(x).sine; }, [](Wide x) { return std::sin(x); }, -100, 100,
+         0x433823c83d30bb32},
+        {"cosine", [](double x) { return math::sine_and_cosine(x).cosine; }, [](Wide x) { return std::cos(x); }, -100,
+         100, 0x5ba58dede6a10498},
+        {"exp", math::exp, [](Wide x) { return std::exp(x); }, -700, 700, 0xa789ad28a87dd009},
+        {"log", math::log, [](Wide x) { return std::log(x); }, 0, 10, 0x6bbc13065eec16f5},
+        {"log1p", math::log1p, [](Wide x) { return std::log1p(x); }, -1, 1, 0xae93cd1c86e9e6a8},
+        {"cbrt", math::cbrt, [](Wide x) { return std::cbrt(x); }, -9, 9, 0xa9bc9ce2da798f2f},
+        {"hypot", [](double x) { return math::hypot(x, 0.7); }, [](Wide x) { return std::hypot(x, Wide(0.7)); }, -9, 9,
+         0x82969fb922f8a35b},
+        {"pow, 2.49", [](double x) { return power_of(2.49, x); }, [](Wide x) { return std::pow(x, Wide(2.49)); }, 0,
+         100, 0x6cb30bc6e55c7b30},
+        {"pow, -7", [](double x) { return power_of(-7, x); }, [](Wide x) { return std::pow(x, Wide(-7)); }, -9, 9,
+         0x2a569e1904d10aef},
+        {"pow, 2", [](double x) { return power_of(2, x); }, [](Wide x) { return std::pow(x, Wide(2)); }, -9, 9,
+         0x6cc78e57e27ca9d8},
+        {"pow, 0.5", [](double x) { return power_of(0.5, x); }, [](Wide x) { return std::pow(x, Wide(0.5)); }, 0, 9,
+         0x2cf25205c9248c8f},
+    };
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("functions have the bits that they have on other machines", "[base][math]") {
+    for (const Case& function : cases()) {
+        std::uint64_t bits = 0;
+        for (const double x : arguments(function.low, function.high)) {
+            bits = mix(bits, std::bit_cast<std::uint64_t>(function.ours(x)));
+        }
+        INFO(function.name << " has " << std::hex << bits);
+        CHECK(bits == function.bits);
+    }
+}
+
+TEST_CASE("functions are within a unit in the last place of the truth", "[base][math]") {
+    for (const Case& function : cases()) {
+        double most = 0;
+        for (const double x : arguments(function.low, function.high)) {
+            most = std::max(most, units_apart(function.ours(x), static_cast<double>(function.exact(x))));
+        }
+        INFO(function.name);
+        CHECK(most <= 1);
+    }
+}
+
+// With the arithmetic of cpfg a parameter is a 32-bit float: a model has the values that any good C library gave it
+// there.
+TEST_CASE("values are exact in 32-bit floats", "[base][math]") {
+    for (const Case& function : cases()) {
+        std::size_t others = 0;
+        for (const double x : arguments(function.low, function.high)) {
+            others += static_cast<float>(function.ours(x)) != static_cast<float>(function.exact(x));
+        }
+        INFO(function.name);
+        CHECK(others == 0);
+    }
+}
+
+TEST_CASE("powers by products and a root are those of the C library to 3.4e-16", "[base][math]") {
+    for (const double exponent : {0.0, 0.5, 1.0, 2.0, 3.0, 4.0}) {
+        for (const double x : arguments(0, 100)) {
+            const double exact = std::pow(x, exponent);
+            REQUIRE(std::abs(math::pow(x, exponent) - exact) <= 3.4e-16 * exact);
+        }
+    }
+    for (double base = -300; base <= 300; ++base) {
+        for (int exponent = 0; exponent <= 20; ++exponent) {
+            const double exact = std::pow(base, exponent);
+            if (std::abs(exact) > 0x1p53) break;
+            REQUIRE(math::pow(base, exponent) == exact);  // whole numbers have whole powers
+        }
+    }
+}
+
+TEST_CASE("zeros, infinities and what is no number go in and come out as in C", "[base][math]") {
+    const std::array<double, 24> ends{0.0,      -0.0,      1,
+                                      -1,       2,         -2,
+                                      3,        -3,        4,
+                                      0.5,      -0.5,      7,
+                                      1e10,     -5.5,      1e22,
+                                      smallest, -smallest, 2.3e-308,
+                                      infinite, -infinite, not_a_number,
+                                      1e300,    -1e300,    std::numbers::pi / 2};
+    for (const double x : ends) {
+        INFO(x);
+        CHECK(units_apart(math::sin(x), std::sin(x)) <= 1);
+        CHECK(units_apart(math::cos(x), std::cos(x)) <= 1);
+        CHECK(units_apart(math::sine_and_cosine(x).sine, std::sin(x)) <= 1);
+        CHECK(units_apart(math::asin(x), std::asin(x)) <= 1);
+        CHECK(units_apart(math::acos(x), std::acos(x)) <= 1);
+        CHECK(units_apart(math::atan(x), std::atan(x)) <= 1);
+        CHECK(units_apart(math::exp(x), std::exp(x)) <= 1);
+        CHECK(units_apart(math::log(x), std::log(x)) <= 1);
+        if (std::abs(x) != smallest) CHECK(units_apart(math::tan(x), std::tan(x)) <= 1);
+        if (std::abs(x) != smallest) CHECK(units_apart(math::log1p(x), std::log1p(x)) <= 1);
+        for (const double y : ends) {
+            INFO(y);
+            CHECK(units_apart(math::pow(x, y), std::pow(x, y)) <= 2);
+            CHECK(units_apart(math::atan2(x, y), std::atan2(x, y)) <= 1);
+            CHECK(units_apart(math::hypot(x, y), std::hypot(x, y)) <= 1);
+        }
+    }
+}
+
+TEST_CASE("the ends of the range", "[base][math]") {
+    CHECK(math::pow(0, 0) == 1);
+    CHECK(math::pow(not_a_number, 0) == 1);
+    CHECK(math::pow(1, not_a_number) == 1);
+    CHECK(std::isnan(math::pow(-2, 0.5)));
+    CHECK(are_same(math::pow(-0.0, 0.5), 0));
+    CHECK(math::pow(-infinite, 0.5) == infinite);
+    CHECK(math::pow(greatest, 1) == greatest);
+    CHECK(math::pow(2, -1074) == smallest);
+    CHECK(math::pow(2, 1023) == 0x1p1023);
+    CHECK(math::exp(709.78) == Approx(std::exp(709.78)).epsilon(1e-15));
+    CHECK(math::exp(709.79) == infinite);
+    CHECK(math::exp(-745.1) == smallest);
+    CHECK(math::exp(-746) == 0);
+    CHECK(math::log(smallest) == Approx(-744.4400719213812).epsilon(1e-15));
+    CHECK(math::hypot(1e300, 1e300) == Approx(std::numbers::sqrt2 * 1e300).epsilon(1e-15));
+    CHECK(math::sin(1e22) == Approx(-0.8522008497671888).epsilon(1e-15));
+}
