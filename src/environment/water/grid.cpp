@@ -1,5 +1,7 @@
 #include "environment/water/grid.h"
 
+#include "environment/covering.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -7,11 +9,6 @@
 
 namespace espalier::environment {
 namespace {
-
-/// Whole voxels that cover `extent`; a hair of rounding does not cost another one.
-double voxels_across(double extent, double voxel) {
-    return std::max(1.0, std::ceil(extent / voxel - 1e-6));
-}
 
 /// Two neighbouring voxels of one axis and the weight of each.
 struct Between {

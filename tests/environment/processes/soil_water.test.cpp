@@ -2,6 +2,7 @@
 #include "catch.h"
 #include "environment/water/soil.h"
 
+#include <fmt/format.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
@@ -176,9 +177,95 @@ TEST_CASE("the domain is the scene's unless the process has its own, and a thin 
     CHECK(own.fields.need("water").grid->box.dim() == openvdb::Coord(4, 8, 1));
 }
 
+TEST_CASE("the soil of a step is that of its time: erfc(x / sqrt(4 D t)) below a wet face", "[environment][water]") {
+    const double diffusion = GENERATE(1e-3, 2.7e-3), dt = GENERATE(0.25, 0.7);
+    INFO("D " << diffusion << ", dt " << dt);
+    Soil soil(fmt::format("domain = {{ lower = [0, 0, 0], upper = [1, 0.01, 0] }}\nvoxel = 0.01\ndiffusion = {}\n"
+                          "boundaries = {{ left = {{ fixed = 0.4 }} }}",
+                          diffusion));
+    soil.world.step = 0;
+    for (int step = 0; step * dt <= 8; ++step) {
+        soil.step({}, dt);
+        const double t = step * dt;
+        if (step == 0) CHECK(soil.quantity("maximum") == 0);
+        if (t < 1) continue;
+        for (const double x : {0.033, 0.055, 0.087}) {
+            const double expected = 0.4 * std::erfc(x / std::sqrt(4 * diffusion * t));
+            INFO("x " << x << ", t " << t);
+            CHECK(soil.ask({{{x, 0.005, 0}, {0, 0}}})[0][1] == Approx(expected).epsilon(0.003));
+        }
+    }
+}
+
+TEST_CASE("n steps have n pulses of rain, and step 0 is the beginning", "[environment][water]") {
+    const std::string mode = GENERATE("diffusion = 0.001", "mode = \"relaxation\"");
+    Soil soil("domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\ninitial = 0.1\n" + mode +
+              "\nsources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 1], rate = 0.002 },"
+              "{ shape = \"sphere\", center = [0.5, 0.2, 0.5], radius = 0.1, hold = 0.3 }]");
+    soil.world.step = 0;
+    soil.step({}, 0.5);
+    const double held = soil.quantity("added");
+    CHECK(soil.quantity("total") == Approx(100 + held));
+    CHECK(soil.ask({{{0.55, 0.25, 0.55}, {0, 0}}})[0][1] == Approx(0.3));
+    CHECK(soil.ask({{{0.55, 0.95, 0.55}, {0, 0}}})[0][1] == Approx(0.1));
+    Soil rain("domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\ninitial = 0.1\n" + mode +
+              "\nsources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 1], rate = 0.002 }]");
+    rain.world.step = 0;
+    for (int step = 0; step <= 40; ++step) {
+        rain.step({}, 0.5);
+        CHECK(rain.quantity("added") == Approx(step * 0.5 * 0.002 * 100));
+    }
+}
+
+TEST_CASE("rain that finds no room runs off, and the balance knows it", "[environment][water]") {
+    const std::string mode = GENERATE("diffusion = 0.0004", "mode = \"relaxation\"", "diffusion = 0");
+    Soil soil("domain = { lower = [0, 0, 0], upper = [1, 1, 0.1] }\nvoxel = 0.1\ninitial = 0.1\nporosity = 0.43\n" + mode +
+              "\nsources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 0.1], rate = 0.07 },"
+              "{ shape = \"box\", lower = [0.5, 0.8, 0], upper = [1, 1, 0.1], rate = 0.01 }]");
+    double before = 0;
+    for (int step = 0; step < 60; ++step) {
+        soil.step({{{0.31, 0.94, 0.05}, {0.02}}});
+        CHECK(soil.quantity("maximum") <= 0.43);
+        CHECK(std::abs(soil.quantity("balance")) < 1e-12);
+        CHECK(soil.quantity("runoff") >= before);
+        before = soil.quantity("runoff");
+    }
+    CHECK(before > 0);
+    CHECK(soil.quantity("added") == Approx(60 * (0.07 * 10 + 0.01 * 10)));
+    CHECK(soil.quantity("total") == Approx(10 + soil.quantity("added") - soil.quantity("drunk") - before));
+}
+
+TEST_CASE("more water than room is a warning, once, where the soil has no porosity", "[environment][water]") {
+    const std::string text =
+        "domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\n"
+        "sources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 1], rate = 0.4 }]\n";
+    std::vector<Diagnostic> warnings;
+    EnvironmentContext context;
+    context.warnings = &warnings;
+    Soil soil(text, context), plain(text + "unit = \"mol/m3\"", context), full(text + "porosity = 0.4", context);
+    for (int step = 0; step < 5; ++step) {
+        for (Soil* each : {&soil, &plain, &full}) each->step();
+    }
+    REQUIRE(warnings.size() == 1);
+    mentions(warnings[0].message, "'water' holds 1.2 m3/m3");
+    mentions(warnings[0].message, "porosity");
+}
+
 TEST_CASE("mistakes in a soil's table are explained", "[environment][water]") {
     const std::string domain = "domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\n";
     CHECK(mentions(mistake(domain + "voxel = -0.1"), "voxel"));
+    const std::string full = domain + "voxel = 0.1\nporosity = 0.4\n";
+    CHECK(mistake(full + "initial = 0.4").empty());
+    CHECK(mentions(mistake(full + "initial = 0.5"), "a content of 0.5 is more than the porosity of the soil, 0.4"));
+    CHECK(mentions(mistake(full + "boundaries = { top = { fixed = 1 } }"), "porosity"));
+    CHECK(mentions(mistake(full + "layers = [{ initial = 0.41 }]"), "porosity"));
+    CHECK(mentions(mistake(full + "regions = [{ shape = \"sphere\", center = [0, 0, 0], radius = 1, value = 0.41 }]"),
+                   "porosity"));
+    CHECK(mentions(mistake(full + "sources = [{ shape = \"sphere\", center = [0, 0, 0], radius = 1, hold = 0.41 }]"),
+                   "porosity"));
+    CHECK(mentions(mistake(full + "begin = \"steady\"\ndiffusion = 0.01\nboundaries = { top = \"open\" }\n"
+                                  "sources = [{ shape = \"box\", lower = [0, 0, 0], upper = [1, 1, 1], rate = 1 }]"),
+                   "porosity"));
     CHECK(mentions(mistake(domain), "voxel"));
     CHECK(mentions(mistake("voxel = 0.1"), "domain"));
     CHECK(mentions(mistake(domain + "voxel = 0.1\ndifusion = 1"), "diffusion"));
