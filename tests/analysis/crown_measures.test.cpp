@@ -179,7 +179,8 @@ TEST_CASE("crown: voxels of a given size fill a solid crown", "[analysis]") {
     CHECK(crown.voxel == 1);
 }
 
-TEST_CASE("layers: lengths are shared where internodes pass, sums are kept, heights are those of the world", "[analysis]") {
+TEST_CASE("layers: lengths are shared where internodes pass, sums are kept, heights are those of the world",
+          "[analysis]") {
     BranchTree tree;
     tree.add(BranchTree::ground, {0, 10, 0}, {0, 7.5, 0}, 0.1, 0.1);  // a root down
     tree.add(0, {0, 7.5, 0}, {2, 7.5, 0}, 0.1, 0.1);                  // level

@@ -156,7 +156,8 @@ TEST_CASE_METHOD(Workplace, "derive prints the string, its counts and its module
     CHECK(string["string"][5]["parameters"][0] == 0.5);
 }
 
-TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, also before the last exchange, as cpfg does", "[app]") {
+TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, also before the last exchange, as cpfg does",
+                 "[app]") {
     write("walk.l",
           "lsystem: 1\nderivation length: 2\naxiom: F(1)?P(0,0,0)\n"
           "?P(x,y,z) --> F(y)?P(9,9,9)\nendlsystem\n");

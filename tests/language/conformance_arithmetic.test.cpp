@@ -56,7 +56,9 @@ TEST_CASE("14.1 divisions, rounding and subscripts", "[conformance]") {
 }
 
 TEST_CASE("14.1 || has the value of a compound left operand, in its lowest byte", "[conformance]") {
-    quote("`a || b` is a where a holds and is more than a number or a name: `-2 || 1` is -2, `2 || 1` is 1. It is 1 where the");
+    quote(
+        "`a || b` is a where a holds and is more than a number or a name: `-2 || 1` is -2, `2 || 1` is 1. It is 1 "
+        "where the");
     quote("integer part of a is a multiple of 256: `x - 2.5 || 0` is 1 for x = 3.");
     const std::string either = after(1, "A(-2,0)", "A(x,y) --> A(-2||1,x||1,y||3)\n");
     CHECK(in_cpfg(either) == "A(-2,1,1)");

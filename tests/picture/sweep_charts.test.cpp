@@ -89,7 +89,8 @@ TEST_CASE("runs that differ in their seed alone are a mean, a deviation and dots
 
 TEST_CASE("a sweep's mean of a stand is of those plants that asked, by how much they did", "[pictures]") {
     SweptRuns sweep{"", {"light.voxel"}, {}};
-    sweep.runs.push_back({{"1"}, {{"step", "plant", "light.mean", "light.queries"}, {{3, 0, 0.5, 30}, {3, 1, 0.2, 10}}}});
+    sweep.runs.push_back(
+        {{"1"}, {{"step", "plant", "light.mean", "light.queries"}, {{3, 0, 0.5, 30}, {3, 1, 0.2, 10}}}});
     for (int seed = 2; seed < 30; ++seed) sweep.runs[0].table.rows.push_back({3, double(seed), 0, 0});
     CHECK(sweep_page(sweep, {"light.mean"}, false).charts[0].series[0].y[0] == Approx(17.0 / 40));
 }

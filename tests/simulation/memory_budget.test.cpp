@@ -145,7 +145,8 @@ TEST_CASE("the shade of a large crown takes memory from the plants, and plants f
         return refusal(recorded.world, 400);
     };
     // Ever more shade of few organs may take more than half; of many plants' modules it gets what they leave.
-    CHECK_THAT(refused("environment light;\naxiom: A\nA --> f(2)?light(1)A\n"), Contains("the shade of this step needs"));
+    CHECK_THAT(refused("environment light;\naxiom: A\nA --> f(2)?light(1)A\n"),
+               Contains("the shade of this step needs"));
     CHECK_THAT(refused("environment light;\naxiom: A?light(1)\nA --> AB\nB --> BB\n"), Contains("for plants"));
 }
 

@@ -72,7 +72,7 @@ class EnvironmentProcess {
 public:
     virtual ~EnvironmentProcess() = default;
 
-    /// Brings the fields to this step: by one `dt`, but step 0 is the initial state. The queries are this process's own, of all plants, in plant and string order.
+    /// Brings the fields on by one `dt`; step 0 is the beginning. The queries are its own, in plant and string order.
     virtual void advance(const WorldView&, std::span<const Query>, Fields&) {}
 
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.

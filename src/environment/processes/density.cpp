@@ -97,7 +97,8 @@ private:
     glm::dvec2 downhill_at(const glm::dvec2& at) const {
         if (as_cpfg_ && !at_the_point_) {
             const double corner = density(at + glm::dvec2(0.1));
-            return glm::dvec2(density(at + glm::dvec2(-0.1, 0.1)) - corner, density(at + glm::dvec2(0.1, -0.1)) - corner) /
+            return glm::dvec2(density(at + glm::dvec2(-0.1, 0.1)) - corner,
+                              density(at + glm::dvec2(0.1, -0.1)) - corner) /
                    6.0;
         }
         const glm::dvec2 right(0.5, 0), above(0, 0.5);

@@ -45,7 +45,8 @@ public:
         }
         total_ = 0;
         for (const auto& voxel : amounts_) total_ += voxel.second;
-        if (amounts_.size() > memory_ / bytes_per_voxel) throw RunError("so many voxels are occupied that memory would run out");
+        if (amounts_.size() > memory_ / bytes_per_voxel)
+            throw RunError("so many voxels are occupied that memory would run out");
         statistics_.sum_up(queries, answers);
     }
 

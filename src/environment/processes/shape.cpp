@@ -159,8 +159,8 @@ private:
         if (box_.empty()) return;
         const std::shared_ptr<const FieldGrid> grid = sample_level_set(*shape_, box_, voxel_, memory_, place_);
         held_ = grid->grid->memUsage();
-        fields.provide({name_ + ".distance", "m", "signed distance to the surface, negative inside", grid,
-                        motion_.moves()});
+        fields.provide(
+            {name_ + ".distance", "m", "signed distance to the surface, negative inside", grid, motion_.moves()});
     }
 
     std::string name_;

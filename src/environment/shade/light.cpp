@@ -62,9 +62,9 @@ glm::ivec3 ShadeLattice::voxel_of(const glm::dvec3& point) const {
     return result;
 }
 
-void ShadeLattice::stay_inside(glm::ivec3& voxel) const {
+void ShadeLattice::stay_inside(glm::ivec3& at) const {
     for (int axis = 0; axis < 3; ++axis) {
-        if (!periodic || axis == 1) voxel[axis] = std::clamp(voxel[axis], domain.lower[axis], domain.upper[axis]);
+        if (!periodic || axis == 1) at[axis] = std::clamp(at[axis], domain.lower[axis], domain.upper[axis]);
     }
 }
 

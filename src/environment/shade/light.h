@@ -26,7 +26,7 @@ struct ShadeLattice {
     /// False outside a fixed domain, where there is nothing but full light.
     bool reaches(const glm::dvec3& index) const;
     /// The nearest voxel of a fixed domain.
-    void stay_inside(glm::ivec3& voxel) const;
+    void stay_inside(glm::ivec3& at) const;
 };
 
 class ShadeLight {
@@ -43,8 +43,8 @@ public:
     void fetch(const glm::dvec3& point) const;
 
 private:
-    /// The first of the eight voxels around a point, and where between them the point lies. Beyond the outermost centres
-    /// of a fixed domain its outermost voxels count alone.
+    /// The first of the eight voxels around a point, and where between them the point lies. Beyond the outermost
+    /// centres of a fixed domain its outermost voxels count alone.
     struct Corner {
         glm::ivec3 voxel;
         glm::dvec3 part;

@@ -54,7 +54,7 @@ struct WaterParameters {
     std::string unit;
     double initial = 0;
     double porosity = std::numeric_limits<double>::infinity();  ///< content of a voxel that is full
-    bool steady = false;  ///< begin at the steady state of diffusion
+    bool steady = false;                                        ///< begin at the steady state of diffusion
     glm::dvec3 diffusion{0};
     int max_substeps = 0;
     int sweeps = 0;

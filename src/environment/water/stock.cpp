@@ -171,9 +171,10 @@ void WaterStock::settle(const WaterDiffusion& diffusion) {
     measure();
     balance_.start = balance_.total;
     if (balance_.maximum > parameters_.porosity * (1 + 1e-9)) {
-        throw UserError(diffusion.place(), fmt::format("begin = \"steady\": sources would fill the soil to {:.3g}, more "
-                                                       "than its porosity",
-                                                       balance_.maximum));
+        throw UserError(diffusion.place(),
+                        fmt::format("begin = \"steady\": sources would fill the soil to {:.3g}, more "
+                                    "than its porosity",
+                                    balance_.maximum));
     }
 }
 

@@ -171,8 +171,8 @@ TEST_CASE("from within a ball light passes the leaves in front of it", "[chiba]"
 }
 
 TEST_CASE("by chords, two balls that overlap have the light that cpfg's program answered", "[chiba]") {
-    const std::vector<double> light = answers("source_direction = [\"0 1 0\"]\ntransmittance = 0.5\n",
-                                              {{{0, 0, 0}, {0.4}}, {{0, 0.3, 0}, {0.4}}});
+    const std::vector<double> light =
+        answers("source_direction = [\"0 1 0\"]\ntransmittance = 0.5\n", {{{0, 0, 0}, {0.4}}, {{0, 0.3, 0}, {0.4}}});
     CHECK(light[0] == Approx(0.545254).margin(5e-7));
     CHECK(light[1] == Approx(0.917004).margin(5e-7));
 }

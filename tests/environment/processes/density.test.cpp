@@ -66,8 +66,8 @@ TEST_CASE("with the numbers of cpfg, the asker adds nothing, and directions are 
     for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 6; ++j) {
             const double x = -0.5 + 0.2 * i, y = -0.5 + 0.2 * j;
-            least = std::min(
-                least, 1 / (1 + (x - 0.7) * (x - 0.7) + (y - 2) * (y - 2)) + 3 / (1 + std::hypot(x + 1, y - 1)));
+            least = std::min(least,
+                             1 / (1 + (x - 0.7) * (x - 0.7) + (y - 2) * (y - 2)) + 3 / (1 + std::hypot(x + 1, y - 1)));
         }
     }
     const std::vector<double> found = density(as_cpfg, questions), ours = density("", questions);
