@@ -14,17 +14,17 @@
 namespace espalier::analysis {
 namespace {
 
-/// Heights above the foot between which everything lies.
+/// Heights between which everything lies.
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 
     void add(double height) { low = std::min(low, height), high = std::max(high, height); }
 };
 
-Range range_of(const BranchTree& tree, const Leaves& leaves, double foot) {
+Range range_of(const BranchTree& tree, const Leaves& leaves) {
     Range range;
-    for (std::size_t i = 0; i < tree.size(); ++i) range.add(tree.bases[i].y - foot), range.add(tree.tips[i].y - foot);
-    for (const Leaf& leaf : leaves.leaves) range.add(leaf.position.y - foot);
+    for (std::size_t i = 0; i < tree.size(); ++i) range.add(tree.bases[i].y), range.add(tree.tips[i].y);
+    for (const Leaf& leaf : leaves.leaves) range.add(leaf.position.y);
     return range;
 }
 
@@ -32,17 +32,13 @@ double power_of_ten_below(double extent) {
     return std::pow(10.0, std::floor(std::log10(extent / 20)));
 }
 
-double foot_of(const BranchTree& tree, const Leaves& leaves) {
-    return tree.size() > 0 ? tree.bases[0].y : leaves.leaves.empty() ? 0 : leaves.leaves[0].position.y;
-}
-
 double density_of(double length, double thickness, double area) {
     return area > 0 ? length / (thickness * area) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Shares an internode among the layers it passes, by length.
-void share(const BranchTree& tree, std::size_t internode, double foot, double thickness, std::vector<Layer>& layers) {
-    double low = tree.bases[internode].y - foot, high = tree.tips[internode].y - foot;
+void share(const BranchTree& tree, std::size_t internode, double thickness, std::vector<Layer>& layers) {
+    double low = tree.bases[internode].y, high = tree.tips[internode].y;
     if (low > high) std::swap(low, high);
     const double surface = std::numbers::pi * (tree.base_radii[internode] + tree.radii[internode]);
     const auto index = [&](double height) {
@@ -71,7 +67,7 @@ double convenient_thickness(double extent) {
 }
 
 double part_of_thickness(const BranchTree& tree, const Leaves& leaves) {
-    const Range range = range_of(tree, leaves, foot_of(tree, leaves));
+    const Range range = range_of(tree, leaves);
     constexpr double least = 1e-6;
     return range.low < range.high ? std::max(power_of_ten_below(range.high - range.low), least) : least;
 }
@@ -109,8 +105,7 @@ std::vector<Layer> merged_layers(const std::vector<Layer>& parts, double thickne
 }
 
 std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double thickness) {
-    const double foot = foot_of(tree, leaves);
-    const Range range = range_of(tree, leaves, foot);
+    const Range range = range_of(tree, leaves);
     if (!(range.low <= range.high)) return {};
     if (!(thickness > 0)) thickness = convenient_thickness(range.high - range.low);
     const double first = std::floor(range.low / thickness);
@@ -124,9 +119,9 @@ std::vector<Layer> layers(const BranchTree& tree, const Leaves& leaves, double t
         result[i].from = (first + static_cast<double>(i)) * thickness;
         result[i].to = (first + static_cast<double>(i + 1)) * thickness;
     }
-    for (std::size_t i = 0; i < tree.size(); ++i) share(tree, i, foot, thickness, result);
+    for (std::size_t i = 0; i < tree.size(); ++i) share(tree, i, thickness, result);
     for (const Leaf& leaf : leaves.leaves) {
-        const double at = std::floor((leaf.position.y - foot) / thickness) - first;
+        const double at = std::floor(leaf.position.y / thickness) - first;
         result[static_cast<std::size_t>(std::clamp(at, 0.0, count - 1))].leaf_area += leaf.area;
     }
     const double shadow = shadow_of(tree);

@@ -9,7 +9,7 @@
 
 namespace espalier::analysis {
 
-/// What lies between two heights above the plant's foot (negative: depths), m.
+/// What lies between two heights of the world, m: those of the soil, whatever height the plant stands at.
 struct Layer {
     double from = 0, to = 0;
     double length = 0;          ///< of the internodes' pieces in it, m

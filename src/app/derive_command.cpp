@@ -60,14 +60,16 @@ private:
 struct Growth {
     std::function<bool()> done;  ///< asked anew after every step: a model may stop, or change its length
     std::function<void()> plant_axiom, derive, exchange;
+    std::function<void()> answer_turtle;  ///< of an exchange, only what the turtle answers
 };
 
 void grow(const Growth& growth, bool before_exchange) {
+    const auto exchange = [&] { growth.done() && before_exchange ? growth.answer_turtle() : growth.exchange(); };
     growth.plant_axiom();
-    if (!growth.done() || !before_exchange) growth.exchange();
+    exchange();
     while (!growth.done()) {
         growth.derive();
-        if (!growth.done() || !before_exchange) growth.exchange();
+        exchange();
     }
 }
 
@@ -100,7 +102,7 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
               std::swap(string, next);
               insertions.apply(derivation.steps_done(), string);
           },
-          [&] { answers.exchange(string, derivation); }},
+          [&] { answers.exchange(string, derivation); }, [&] { answers.exchange(string, derivation); }},
          before_exchange);
     return string;
 }
@@ -112,6 +114,10 @@ ModuleString derive_in_world(const Scene& scene, const DeriveArguments& argument
           [&] {
               world.interpret();
               world.exchange();
+          },
+          [&] {
+              world.interpret();
+              world.answer_turtle_queries();
           }},
          before_exchange);
     return world.string(0);

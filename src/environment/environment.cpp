@@ -11,6 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <numeric>
+
 namespace espalier::environment {
 namespace {
 
@@ -61,6 +64,8 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
         communications_.emplace_back(table);
         EnvironmentContext own = context;
         own.name = name;
+        note_memory();
+        own.memory -= std::min(own.memory, memory_kept());
         const auto& type = registered_part<ProcessType>(settings, "process", "process");
         processes_.push_back(type.make(settings, own, fields_));
         names_.push_back(name);
@@ -68,6 +73,7 @@ Environment::Environment(const std::vector<std::pair<std::string, Settings>>& ta
         arities_.push_back(processes_.back()->query_arity());
     }
     if (processes_.size() == 1) default_ = 0;
+    note_memory();
     batches_.resize(processes_.size());
     answering_ = std::make_unique<Answering>();
 }
@@ -129,6 +135,26 @@ void Environment::require_answers(const Model& model, const std::string& plant_n
                                     model.name, is_unnamed ? "?E" : symbol, parameters_text({given, given}),
                                     names_[*process], kinds_[*process], parameters_text(arities_[*process])));
     });
+}
+
+void Environment::note_memory() {
+    kept_.clear();
+    for (const auto& process : processes_) {
+        const ProcessMemory memory = process->memory();
+        kept_.push_back(memory.grows ? 2 * memory.held : memory.held);
+    }
+}
+
+std::size_t Environment::memory_kept() const {
+    return std::accumulate(kept_.begin(), kept_.end(), std::size_t{0});
+}
+
+void Environment::limit_memory(std::size_t bytes) {
+    const std::size_t kept = memory_kept();
+    for (std::size_t process = 0; process < processes_.size(); ++process) {
+        const std::size_t others = kept - kept_[process];
+        processes_[process]->limit_memory(bytes - std::min(bytes, others));
+    }
 }
 
 std::vector<Quantity> Environment::statistics(std::uint32_t plant) const {

@@ -179,7 +179,8 @@ TEST_CASE("crown: voxels of a given size fill a solid crown", "[analysis]") {
     CHECK(crown.voxel == 1);
 }
 
-TEST_CASE("layers: lengths are shared where internodes pass, sums are kept, depths are below the foot", "[analysis]") {
+TEST_CASE("layers: lengths are shared where internodes pass, sums are kept, heights are those of the world",
+          "[analysis]") {
     BranchTree tree;
     tree.add(BranchTree::ground, {0, 10, 0}, {0, 7.5, 0}, 0.1, 0.1);  // a root down
     tree.add(0, {0, 7.5, 0}, {2, 7.5, 0}, 0.1, 0.1);                  // level
@@ -187,8 +188,8 @@ TEST_CASE("layers: lengths are shared where internodes pass, sums are kept, dept
     tree.add(BranchTree::ground, {0, 10, 0}, {0, 11, 0}, 0.1, 0.1);  // a shoot
     const std::vector<Layer> spread = layers(tree, leaves_at({{0, 10.7, 0}}, 3), 1);
     REQUIRE(spread.size() == 4);
-    CHECK(spread[0].from == -3);
-    CHECK(spread[3].to == 1);
+    CHECK(spread[0].from == 7);
+    CHECK(spread[3].to == 11);
     CHECK(spread[0].length == Approx(0.5 + 4));
     CHECK(spread[1].length == Approx(1));
     CHECK(spread[2].length == Approx(1));
@@ -196,6 +197,19 @@ TEST_CASE("layers: lengths are shared where internodes pass, sums are kept, dept
     CHECK(spread[3].leaf_area == 3);
     CHECK(spread[1].surface == Approx(0.2 * std::numbers::pi));
     CHECK(spread[1].density == Approx(1 / 2.0));  // the shadow is a triangle of 2 m2
+    // A root that begins deeper reaches into deeper layers of the same soil, between the bounds of its water's.
+    for (const double base : {0.0, -0.13, -0.4, 0.27}) {
+        BranchTree root;
+        root.add(BranchTree::ground, {0, base, 0}, {0, base - 1, 0}, 0.01, 0.01);
+        double sum = 0;
+        for (const Layer& layer : layers(root, {}, 0.25)) {
+            const double there = std::min(layer.to, base) - std::max(layer.from, base - 1);
+            CHECK(layer.length == Approx(std::max(there, 0.0)).margin(1e-12));
+            CHECK(std::remainder(layer.from, 0.25) == Approx(0).margin(1e-12));
+            sum += layer.length;
+        }
+        CHECK(sum == Approx(1));
+    }
     for (const double thickness : {0.0, 0.1, 0.33, 7.0}) {
         double sum = 0;
         for (const Layer& layer : layers(tree, {}, thickness)) sum += layer.length;

@@ -156,12 +156,13 @@ TEST_CASE_METHOD(Workplace, "derive prints the string, its counts and its module
     CHECK(string["string"][5]["parameters"][0] == 0.5);
 }
 
-TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, or leaves the last ones as cpfg does", "[app]") {
+TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, also before the last exchange, as cpfg does",
+                 "[app]") {
     write("walk.l",
           "lsystem: 1\nderivation length: 2\naxiom: F(1)?P(0,0,0)\n"
           "?P(x,y,z) --> F(y)?P(9,9,9)\nendlsystem\n");
     CHECK(run("derive walk.l").out == "F(1)F(1)F(2)?P(0,4,0)\n");
-    CHECK(run("derive walk.l --before-exchange").out == "F(1)F(1)F(2)?P(9,9,9)\n");
+    CHECK(run("derive walk.l --before-exchange").out == "F(1)F(1)F(2)?P(0,4,0)\n");
     write("ask.l", "lsystem: 1\nderivation length: 1\naxiom: F(1)?E(5)\nF(x) --> F(x)F(x)\nendlsystem\n");
     CHECK(run("derive ask.l").out == "F(1)F(1)?E(5)\n");
 }

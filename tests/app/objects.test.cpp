@@ -139,7 +139,7 @@ TEST_CASE_METHOD(Objects, "queries are answered by the turtle as the view file s
     CHECK(run("derive walk.l --view walk.v --before-exchange").out == "+F?P(-2,0)\n");
     write("walk.l", "lsystem: 1\nderivation length: 1\naxiom: F?P(0,0)\nF --> FF\nendlsystem\n");
     CHECK(run("derive walk.l").out == "FF?P(0,2)\n");
-    CHECK(run("derive walk.l --before-exchange").out == "FF?P(0,1)\n");
+    CHECK(run("derive walk.l --before-exchange").out == "FF?P(0,2)\n");
     write("walk.v", "environment display: before\n");
     CHECK(run("derive walk.l --view walk.v --before-exchange").out == "FF?P(0,2)\n");
 }
@@ -169,6 +169,11 @@ TEST_CASE_METHOD(Objects, "an environment file names who answers, and derive ask
     INFO(answered.err);
     CHECK(answered.out == "FFF?E(0)\n");
     CHECK(run("derive ask.l --environment ask.e --before-exchange").out == "FFF?E(11)\n");
+    write("both.l",
+          "lsystem: 1\nderivation length: 2\naxiom: F?P(0,0)?H(9,9,9)?E(0)\n?E(x) --> F?P(7,7)?E(x+10)\nendlsystem\n");
+    CHECK(run("derive both.l --environment ask.e --before-exchange").out ==
+          "F?P(0,1)?H(0,1,0)F?P(0,2)F?P(0,3)?E(11)\n");
+    CHECK(run("derive both.l --environment ask.e").out == "F?P(0,1)?H(0,1,0)F?P(0,2)F?P(0,3)?E(0)\n");
     CHECK(run("derive ask.l --environment ask.e --steps 1").out == "FF?E(1)\n");
 
     const Outcome alone = run("derive ask.l");

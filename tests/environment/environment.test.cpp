@@ -77,6 +77,27 @@ TEST_CASE("statistics carry the name of their process", "[environment]") {
     CHECK(names[5] == "lamp.mean");
 }
 
+TEST_CASE("a plant that asks nothing has no mean, least or most light", "[environment]") {
+    const std::string process =
+        GENERATE("voxel-shade", "chiba", "takenaka", "shadowpyramid", "clover", "density", "cohen", "ornament");
+    INFO(process);
+    Environment environment = environment_of("[light]\nprocess = \"" + process + "\"\n");
+    const std::vector<double> question = process == "density" ? std::vector<double>{0, 0, 0} : std::vector(4, 0.5);
+    AskingPlants plants;
+    plants.add({}).add({{{0.1, 0.2, 0.3}, question}}).add({});
+    plants.exchange(environment);
+    const std::vector<Quantity> asked = environment.statistics(1);
+    for (const std::uint32_t silent : {0U, 2U}) {
+        const std::vector<Quantity> nothing = environment.statistics(silent);
+        for (std::size_t i = 0; i < 3; ++i) {
+            CHECK(std::isnan(nothing[i].value));
+            CHECK(asked[i].value == asked[0].value);  // of one answer
+        }
+        CHECK(nothing[3].value == 0);
+    }
+    CHECK(asked[3].value == 1);
+}
+
 TEST_CASE("a field that is not there is an error that names those that are", "[environment]") {
     const Environment environment = environment_of(two_processes);
     CHECK(environment.fields().need("light.shade").name == "light.shade");

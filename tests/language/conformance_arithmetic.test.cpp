@@ -55,11 +55,39 @@ TEST_CASE("14.1 divisions, rounding and subscripts", "[conformance]") {
     CHECK_THROWS_AS(derived(turns), RunError);
 }
 
-TEST_CASE("14.1 || has the value of its left operand if that is not 0", "[conformance]") {
-    quote("`a || b` is a if a is not 0: `-2 || 1` is -2.");
+TEST_CASE("14.1 || has the value of a compound left operand, in its lowest byte", "[conformance]") {
+    quote(
+        "`a || b` is a where a holds and is more than a number or a name: `-2 || 1` is -2, `2 || 1` is 1. It is 1 "
+        "where the");
+    quote("integer part of a is a multiple of 256: `x - 2.5 || 0` is 1 for x = 3.");
     const std::string either = after(1, "A(-2,0)", "A(x,y) --> A(-2||1,x||1,y||3)\n");
-    CHECK(in_cpfg(either) == "A(-2,-2,1)");
+    CHECK(in_cpfg(either) == "A(-2,1,1)");
     CHECK(derived(either) == "A(1,1,1)");
+    const auto of = [&](const std::string& a, const std::string& x) {
+        return in_cpfg(after(1, "A(" + x + ",0)", "A(x,y) --> A(" + a + ")\n"));
+    };
+    CHECK(of("2||1", "3") == "A(1)");
+    CHECK(of("x-2.5||0", "3") == "A(1)");
+    CHECK(of("-x||y", "3") == "A(-3)");
+    CHECK(of("x*128||0", "2") == "A(1)");
+    CHECK(of("x*128||0", "3") == "A(384)");
+    CHECK(of("x*128||0", "0") == "A(0)");
+    CHECK(of("x*128||0", "-4") == "A(1)");
+    CHECK(of("1+1||0", "3") == "A(2)");
+    CHECK(of("y||x||x", "3") == "A(1)");
+    CHECK(of("(x-2.5||0)?5:6", "3") == "A(5)");
+    const std::string global = lsystem_of("Start: {g = 2;}\n", "A(g*128||0,g||0,g*3||0)", "B --> C\n");
+    CHECK(in_cpfg(global) == "A(1,1,6)");
+}
+
+TEST_CASE("14.1 a string never becomes empty", "[conformance]") {
+    quote("A step that would leave nothing of the string leaves it as it was.");
+    const std::string gone = after(2, "AB", "A --> *\nB --> *\n");
+    CHECK(in_cpfg(gone) == "AB");
+    CHECK(derived(gone).empty());
+    // The step goes on otherwise: blocks run, and the next may leave something.
+    const std::string late = after(3, "A", "A : Q < 3 --> *\nA --> B(Q)\n");
+    CHECK(in_cpfg(late) == "B(3)");
 }
 
 TEST_CASE("14.1 parentheses do not separate ?: from what stands before them", "[conformance]") {

@@ -70,6 +70,14 @@ TEST_CASE("runs that differ in their seed alone are a mean, a deviation and dots
     CHECK(dots.x == std::vector<double>{0, 0, 0, 0, 1, 1, 1, 1});
     CHECK(dots.y == std::vector<double>{2, 4, 4, 6, 10, 10, 10, 10});
 
+    // What is never negative has no band below 0.
+    sweep.runs[2] = run({"0", "2"}, 100, 1);
+    const Series wide = sweep_page(sweep, {"organs"}, false).charts[0].series[0];
+    CHECK(wide.low[0] == 0);
+    CHECK(wide.high[0] > 70);
+    sweep.runs[1] = run({"0", "1"}, -4, 1);
+    CHECK(sweep_page(sweep, {"organs"}, false).charts[0].series[0].low[0] < -20);
+
     // Alone, seeds are repetitions of one thing.
     const SweptRuns seeds{"", {"simulation.seed"}, {run({"3"}, 7, 1), run({"1"}, 5, 1)}};
     const Chart alone = sweep_page(seeds, {"organs"}, false).charts[0];
@@ -77,6 +85,14 @@ TEST_CASE("runs that differ in their seed alone are a mean, a deviation and dots
     CHECK(alone.series[0].high[0] == Approx(6 + std::sqrt(2)));
     CHECK(alone.series[1].y == std::vector<double>{7, 5});
     CHECK(alone.x_names == std::vector<std::string>{"2 runs"});
+}
+
+TEST_CASE("a sweep's mean of a stand is of those plants that asked, by how much they did", "[pictures]") {
+    SweptRuns sweep{"", {"light.voxel"}, {}};
+    sweep.runs.push_back(
+        {{"1"}, {{"step", "plant", "light.mean", "light.queries"}, {{3, 0, 0.5, 30}, {3, 1, 0.2, 10}}}});
+    for (int seed = 2; seed < 30; ++seed) sweep.runs[0].table.rows.push_back({3, double(seed), 0, 0});
+    CHECK(sweep_page(sweep, {"light.mean"}, false).charts[0].series[0].y[0] == Approx(17.0 / 40));
 }
 
 TEST_CASE("of two keys the one with more numbers goes along, and the other makes the lines", "[pictures]") {

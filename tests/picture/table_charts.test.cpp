@@ -115,6 +115,18 @@ TEST_CASE("charts: plants of a species, or all, are summed, averaged, or their g
     CHECK(total.charts[1].series[0].y[0] == Approx(0.6));  // the plant without light does not count
 }
 
+TEST_CASE("charts: the mean of a stand weighs its plants by what they asked", "[charts]") {
+    PlottedTable stand;
+    stand.table.columns = {"step", "plant", "light.mean", "light.min", "light.queries"};
+    // One plant asks a hundred times, one three times; the others are seeds (the last as older versions wrote them).
+    stand.table.rows = {
+        {7, 0, 0.48, 0.2, 100}, {7, 1, 0.44, 0.4, 3}, {7, 2, not_a_number, not_a_number, 0}, {7, 3, 0, 0, 0}};
+    stand.plants = {{0, "a", "a.l"}, {1, "b", "a.l"}, {2, "c", "a.l"}, {3, "d", "a.l"}};
+    const ChartPage drawn = page({stand}, {"light.mean", "light.min"}, Lines::total);
+    CHECK(drawn.charts[0].series[0].y[0] == Approx((48 + 3 * 0.44) / 103));
+    CHECK(drawn.charts[1].series[0].y[0] == 0.2);
+}
+
 TEST_CASE("charts: of several runs colours tell the runs and dashes the plants; a run may lack a quantity",
           "[charts]") {
     PlottedTable other = table("b");

@@ -34,17 +34,18 @@ private:
 /// A world of one plant whose timeline is `table`, in so much memory.
 class RecordedWorld {
 public:
-    RecordedWorld(const std::string& model, const std::string& table, std::size_t memory)
-        : scene_(scene(folder_, model)),
+    RecordedWorld(const std::string& model, const std::string& table, std::size_t memory,
+                  const std::string& processes = "")
+        : scene_(scene(folder_, model, processes)),
           timeline_(folder_.path() / "run", Settings::parse_toml(table, "scene.toml"), 1000),
           world(scene_, memory) {
         world.attach(counted_);
     }
 
 private:
-    static Scene scene(const TemporaryFolder& folder, const std::string& model) {
+    static Scene scene(const TemporaryFolder& folder, const std::string& model, const std::string& processes) {
         folder.write("plant.l", "lsystem: 1\nderivation length: 1000\n" + model + "endlsystem\n");
-        return read_scene_text("[[plant]]\nmodel = 'plant.l'\n", "scene.toml", folder.path());
+        return read_scene_text("[[plant]]\nmodel = 'plant.l'\n" + processes, "scene.toml", folder.path());
     }
 
     TemporaryFolder folder_;
@@ -115,6 +116,38 @@ TEST_CASE("a world that was saved runs out of memory where it would have without
     resumed.world.restore(checkpoint);
     CHECK(without_file(refusal(resumed.world)) == without_file(message));
     CHECK(resumed.world.steps_done() == last + 1);
+}
+
+TEST_CASE("memory is kept back for what processes need, not for each that there is", "[simulation]") {
+    const std::string bush = "axiom: ?E(0)A\nA --> F(1)[+(20)A]-(30)A\n";
+    const auto refused = [&](const std::string& processes) {
+        RecordedWorld recorded(bush, "", std::size_t{64} << 20, processes);
+        return without_file(refusal(recorded.world));
+    };
+    const std::string needs_nothing = "[environment.a]\nprocess = 'honda81'\n";
+    const std::string alone = refused(needs_nothing);
+    CHECK_THAT(alone, Contains("56 MiB"));  // 7/8, as without a process
+    std::string several = needs_nothing;
+    for (const char* name : {"ecosystem", "cohen", "takenaka", "ulam"})
+        several += fmt::format("[environment.{0}]\nprocess = '{0}'\n", name);
+    CHECK(refused("[simulation]\ndefault_process = 'a'\n" + several) == alone);
+    // Shade of one bud is small; the soil takes what it says.
+    CHECK_THAT(refused("[environment.a]\nprocess = 'voxel-shade'\n"), Contains("55 MiB"));
+    CHECK_THAT(refused("[environment.a]\nprocess = 'soil-water'\nvoxel = 0.01\n"
+                       "domain = { lower = [0, 0, 0], upper = [1, 1, 0.5] }\n"),
+               Contains("43 MiB"));
+}
+
+TEST_CASE("the shade of a large crown takes memory from the plants, and plants from the shade", "[simulation]") {
+    const auto refused = [](const std::string& model) {
+        RecordedWorld recorded(model, "skeleton = false\nlifespans = false\n", std::size_t{48} << 20,
+                               "[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.1\ndepth = 40\n");
+        return refusal(recorded.world, 400);
+    };
+    // Ever more shade of few organs may take more than half; of many plants' modules it gets what they leave.
+    CHECK_THAT(refused("environment light;\naxiom: A\nA --> f(2)?light(1)A\n"),
+               Contains("the shade of this step needs"));
+    CHECK_THAT(refused("environment light;\naxiom: A?light(1)\nA --> AB\nB --> BB\n"), Contains("for plants"));
 }
 
 TEST_CASE("what the timeline holds of all steps adds up, what it holds of a frame does not", "[simulation]") {

@@ -188,6 +188,16 @@ TEST_CASE("height is measured from the base of the first internode", "[timeline]
     CHECK(bytes_of(folder.path / "statistics.csv").find("\n0,0,0,plant,2,0,2,0,5,2,") != std::string::npos);
 }
 
+TEST_CASE("a quantity that a plant has not is an empty cell", "[timeline]") {
+    const RunFolder folder;
+    Timeline timeline(folder.path, timeline_table(), 0);
+    HandmadePlant plant;
+    plant.quantities = {{"light.mean", std::numeric_limits<double>::quiet_NaN()}, {"light.queries", 0}};
+    record(timeline, 0, {&plant});
+    const std::string table = bytes_of(folder.path / "statistics.csv");
+    CHECK(table.ends_with("light.mean,light.queries\n0,0,0,plant,0,0,0,0,0,0,0,0,0,,0\n"));
+}
+
 TEST_CASE("quantities that change their names are refused, not written under the wrong ones", "[timeline]") {
     const RunFolder folder;
     Timeline timeline(folder.path, timeline_table(), 1);

@@ -17,8 +17,8 @@ bool asks_processes(const Model& model);
 
 class Environment {
 public:
-    /// Makes the processes of `tables` (the scene's [environment.<name>] tables) in the given order.
-    /// Throws UserError for an unknown process or parameter.
+    /// Makes the processes of `tables` (the scene's [environment.<name>] tables) in the given order, which share the
+    /// memory of the context. Throws UserError for an unknown process or parameter.
     Environment(const std::vector<std::pair<std::string, Settings>>& tables, const EnvironmentContext& context);
     ~Environment();
     Environment(Environment&&) noexcept;
@@ -61,6 +61,11 @@ public:
     /// Quantities of all processes for one plant, named "process.quantity", in scene order.
     std::vector<Quantity> statistics(std::uint32_t plant) const;
 
+    /// Bytes that plants must leave to the fields of processes until the next exchange.
+    std::size_t memory_kept() const;
+    /// What all fields together may take from the next exchange on.
+    void limit_memory(std::size_t bytes);
+
     void save(std::ostream& out) const;
     void restore(std::istream& in);
 
@@ -90,11 +95,13 @@ private:
     void round_answers(std::size_t process);
     void require_finite(std::size_t process, const WorldView& world) const;
     static void write_answers(const Batch& batch, std::span<ModuleString*> strings);
+    void note_memory();
 
     std::vector<std::string> names_;
     std::vector<std::string> kinds_;  ///< what each process is: "voxel-shade"
     std::vector<std::unique_ptr<EnvironmentProcess>> processes_;
     std::vector<std::pair<int, int>> arities_;
+    std::vector<std::size_t> kept_;  ///< bytes of memory, for each process
     std::vector<Communication> communications_;
     Fields fields_;
     std::optional<std::size_t> default_;

@@ -40,7 +40,7 @@ struct EnvironmentContext {
     std::optional<Box> domain;  ///< the scene's domain, if it gives one
     std::uint64_t seed = 0;
     std::uint32_t plants = 0;              ///< how many plants the world has
-    std::size_t memory = std::size_t(-1);  ///< bytes a process's fields may take; more is an error before allocating
+    std::size_t memory = std::size_t(-1);  ///< bytes its fields may take at first; more is an error before allocating
     std::vector<Diagnostic>* warnings = nullptr;  ///< lasts as long as the process, and may grow in any step
 };
 
@@ -48,7 +48,7 @@ struct EnvironmentContext {
 /// The columns are the same in every step.
 struct Quantity {
     std::string name;
-    double value = 0;
+    double value = 0;       ///< NaN where there is none, as the mean of no answers: an empty cell
     std::string unit = {};  ///< "": a number without one
 };
 
@@ -59,6 +59,12 @@ struct ChangingSetting {
     std::function<void(double)> set;
 };
 
+/// What the fields of a process take. The plants leave it room: as much, or twice as much if it may grow.
+struct ProcessMemory {
+    std::size_t held = 0;  ///< bytes
+    bool grows = false;    ///< from step to step
+};
+
 /// Constructors take (Settings&, const EnvironmentContext&, Fields&), read their parameters (the scene rejects unread
 /// ones) and provide their fields. Order inside a step: `advance`, then `answer`, each once; then fields and statistics
 /// are recorded. Answers do not depend on the order of the queries, nor on the number of threads.
@@ -66,7 +72,7 @@ class EnvironmentProcess {
 public:
     virtual ~EnvironmentProcess() = default;
 
-    /// Brings the fields to this step. The queries are this process's own, of all plants, in plant and string order.
+    /// Brings the fields on by one `dt`; step 0 is the beginning. The queries are its own, in plant and string order.
     virtual void advance(const WorldView&, std::span<const Query>, Fields&) {}
 
     /// Answers the whole batch; answers[i] belongs to queries[i] and begins as a copy of its parameters.
@@ -81,6 +87,11 @@ public:
 
     /// Fewest and most parameters a query to this process may have, for `check` and for a clear error.
     virtual std::pair<int, int> query_arity() const = 0;
+
+    /// Nothing where all that a process keeps is small beside the plants.
+    virtual ProcessMemory memory() const { return {}; }
+    /// Bytes that the fields of a process which grows may take in this step. More is a RunError before allocating.
+    virtual void limit_memory(std::size_t) {}
 
     /// What lasts from step to step, as bytes, for a checkpoint.
     virtual void save(std::ostream&) const {}
@@ -105,6 +116,7 @@ using environment::ChangingSetting;
 using environment::EnvironmentContext;
 using environment::EnvironmentProcess;
 using environment::PlantView;
+using environment::ProcessMemory;
 using environment::ProcessType;
 using environment::Quantity;
 using environment::WorldView;

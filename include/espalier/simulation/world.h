@@ -63,6 +63,8 @@ public:
     void interpret();
     void exchange();
     void record();
+    /// Of an exchange, what turtles answer themselves: ?P, ?H, ?L, ?U.
+    void answer_turtle_queries();
 
     /// After write_axioms() or derive().
     DerivedStep derived() const;

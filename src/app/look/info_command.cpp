@@ -5,6 +5,7 @@
 #include "app/command.h"
 #include "app/progress.h"
 #include "base/text.h"
+#include "picture/charts/quantity.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
@@ -27,21 +27,17 @@ struct InfoArguments {
     bool json = false;
 };
 
-/// What statistics.csv says of the last step.
-struct LastStep {
-    std::vector<std::string> columns;
-    std::vector<std::vector<double>> rows;  ///< one a plant
-};
-
-LastStep last_step_of(const fs::path& run) {
+/// What statistics.csv says of the last step, a row a plant.
+RecordedTable last_step_of(const fs::path& run) {
     const fs::path file = run / "statistics.csv";
     if (!fs::exists(file)) return {};
-    const RecordedTable table = read_table(file);
-    return {table.columns, table.last_rows()};
+    RecordedTable table = read_table(file);
+    table.rows = table.last_rows();
+    return table;
 }
 
 // One object per plant; what a plant has not is null.
-Json json_of(const LastStep& last) {
+Json json_of(const RecordedTable& last) {
     Json rows = Json::array();
     for (const std::vector<double>& values : last.rows) {
         Json row;
@@ -96,7 +92,7 @@ Json read_run(const fs::path& folder) {
     return run;
 }
 
-Json summary_of(const fs::path& folder, const Json& run, const LastStep& last) {
+Json summary_of(const fs::path& folder, const Json& run, const RecordedTable& last) {
     Json summary;
     for (const char* key : {"exit", "version", "started", "seed", "threads", "steps", "steps_done", "time_unit"}) {
         summary[key] = run.value(key, Json());
@@ -117,7 +113,7 @@ Json summary_of(const fs::path& folder, const Json& run, const LastStep& last) {
 /// Columns of a printed table, each below its heading.
 using Headed = std::vector<std::pair<std::string, std::vector<double>>>;
 
-Headed one_each(const LastStep& last, const Json& plants) {
+Headed one_each(const RecordedTable& last, const Json& plants) {
     Headed columns;
     for (std::size_t i = 0; i < last.rows.size(); ++i) {
         columns.emplace_back(i < plants.size() ? plants[i].value("name", "") : "", last.rows[i]);
@@ -125,27 +121,32 @@ Headed one_each(const LastStep& last, const Json& plants) {
     return columns;
 }
 
-/// The least, the mean and the most of those plants that have a value.
-Headed of_all(const LastStep& last) {
+/// The least, the mean and the most of those plants that have a value. Means of answers count as much as was asked.
+Headed of_all(const RecordedTable& last) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     const std::size_t count = last.columns.size();
     const std::vector<double> none(count, std::numeric_limits<double>::quiet_NaN());
     Headed columns{{"least", none}, {"mean", none}, {"most", none}};
     for (std::size_t i = 0; i < count; ++i) {
-        std::vector<double> values;
+        const picture::QuantityColumn column(last, last.columns[i]);
+        double least = infinity, most = -infinity, sum = 0, weights = 0;
         for (const std::vector<double>& row : last.rows) {
-            if (std::isfinite(row[i])) values.push_back(row[i]);
+            const double weight = column.weight(row);
+            if (!std::isfinite(row[i]) || !(weight > 0)) continue;
+            least = std::min(least, row[i]);
+            most = std::max(most, row[i]);
+            sum += weight * row[i];
+            weights += weight;
         }
-        if (values.empty()) continue;
-        const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-        const double figures[] = {*least, sum / static_cast<double>(values.size()), *most};
+        if (weights == 0) continue;
+        const double figures[] = {least, sum / weights, most};
         for (std::size_t k = 0; k < columns.size(); ++k) columns[k].second[i] = figures[k];
     }
     return columns;
 }
 
 /// A column for every plant of a few.
-void print_statistics(const LastStep& last, const Json& plants) {
+void print_statistics(const RecordedTable& last, const Json& plants) {
     if (last.rows.empty()) return;
     constexpr std::size_t most_columns = 6;
     const bool few = last.rows.size() <= most_columns;
@@ -183,7 +184,7 @@ void print_summary(const fs::path& folder, const Json& summary) {
 int info(const InfoArguments& arguments) {
     try {
         const Json run = read_run(arguments.folder);
-        const LastStep last = last_step_of(arguments.folder);
+        const RecordedTable last = last_step_of(arguments.folder);
         const Json summary = summary_of(arguments.folder, run, last);
         if (arguments.json) {
             fmt::print("{}\n", summary.dump(2, ' ', false, Json::error_handler_t::replace));

@@ -1,6 +1,7 @@
 #include "environment/exchange/answer_statistics.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace espalier::environment {
 
@@ -27,9 +28,11 @@ void AnswerStatistics::sum_up(std::span<const Query> queries, std::span<const An
 
 std::vector<Quantity> AnswerStatistics::quantities(std::uint32_t plant) const {
     const Totals totals = of(plant);
-    return {{"mean", totals.count > 0 ? totals.sum / totals.count : 0},
-            {"min", totals.least},
-            {"max", totals.most},
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const bool asked = totals.count > 0;
+    return {{"mean", asked ? totals.sum / totals.count : none},
+            {"min", asked ? totals.least : none},
+            {"max", asked ? totals.most : none},
             {"queries", totals.count}};
 }
 

@@ -17,7 +17,7 @@ public:
     /// After clear: parameter `index` of every answer that has it.
     void sum_up(std::span<const Query> queries, std::span<const Answer> answers, std::size_t index = 0);
 
-    /// mean, min, max and queries of one plant.
+    /// mean, min, max and queries of one plant; but for the queries, NaN where it asked nothing.
     std::vector<Quantity> quantities(std::uint32_t plant) const;
     /// For answers of 1 and 0: how many of each, under these names.
     std::vector<Quantity> counts(std::uint32_t plant, const char* ones, const char* zeros) const;

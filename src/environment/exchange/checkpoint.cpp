@@ -40,6 +40,8 @@ void Environment::save(std::ostream& out) const {
         processes_[process]->save(state);
         write_block(out, names_[process]);
         write_block(out, state.str());
+        const std::uint64_t kept = kept_[process];
+        out.write(reinterpret_cast<const char*>(&kept), sizeof kept);
     }
 }
 
@@ -54,6 +56,10 @@ void Environment::restore(std::istream& in) {
         }
         std::istringstream state(read_block(in));
         processes_[process]->restore(state);
+        std::uint64_t kept = 0;
+        in.read(reinterpret_cast<char*>(&kept), sizeof kept);
+        if (!in) throw UserError("the checkpoint ends too early");
+        kept_[process] = kept;
     }
 }
 

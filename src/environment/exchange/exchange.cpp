@@ -59,6 +59,7 @@ void Environment::exchange(const WorldView& world, std::span<ModuleString*> stri
     // Only now: the queries' parameters point into these strings.
     for (const Batch& batch : batches_) write_answers(batch, strings);
     write_turtle_answers(world, strings);
+    note_memory();
 }
 
 // Plant order, then string order.

@@ -31,6 +31,8 @@ public:
     void remove_disc(const glm::dvec2& centre, double radius);
     void clear() { counts_.assign(counts_.size(), 0); }
 
+    std::size_t bytes() const { return counts_.size() * sizeof(std::uint32_t); }
+    bool has_picture() const { return !image_.empty(); }
     std::uint32_t count(std::size_t cell) const { return counts_[cell]; }
     /// Of the image over the cell; white if there is none.
     Picture::Colour colour(std::size_t cell) const;

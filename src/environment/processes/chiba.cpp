@@ -50,7 +50,6 @@ public:
             {"grid size", "number of samples", "lower to upper ratio", "use CIE formula", "source direction",
              "transmittance", "radius", "beam radius", "estimate intersection area"});
         file.numbers("grid size", {1, 1, 1}, Range::between(1, 1e9));  // rays are exact without one
-        chords_ = file.has_numbers_of_cpfg() ? Chords::whole : Chords::in_front;
         sky_ = read_sky(file);
         std::erase_if(sky_, [](const SkyDirection& direction) { return direction.weight == 0; });
         transmittance_ = file.number("transmittance", 0.6, Range::between(0, 1));
@@ -123,7 +122,7 @@ private:
     /// The part of the light from a direction that the balls in its way leave.
     double passed(BallsMet& met, double radius, double margin) const {
         if (by_area_) return passed_by_areas(met, radius, transmittance_);
-        return math::pow(transmittance_, sum_of_chords(met, margin, chords_));
+        return math::pow(transmittance_, sum_of_chords(met, margin));
     }
 
     static void write(const Light& light, Answer answer) {
@@ -137,7 +136,6 @@ private:
     std::vector<SkyDirection> sky_;
     double transmittance_, radius_, beam_;
     bool by_area_;
-    Chords chords_;
     AnswerStatistics statistics_;
 };
 
@@ -161,13 +159,11 @@ use_cie_formula        false; true: more light from above, by (1 + c)/3 (8.6 c +
 source_direction       ["x y z intensity", ...]: directions towards lights in place of the samples; intensity 1
 grid_size              [1, 1, 1]; accepted and ignored: all clusters are tested
 parameters             a file with these keys in words, as cpfg's program chiba reads it
-numbers                "exact", or "cpfg" (default with `parameters` and in .e files): of a ball around the query's
-                       centre the whole chord counts, not only its part in front
 
-By areas, only clusters whose centres are in front reduce the light. Answers do not depend on the order of the queries.
+By chords, of a ball around the query's centre only the part in front counts. By areas, only clusters whose centres are in front reduce the light. Answers do not depend on the order of the queries.
 Statistics of a plant: mean, min, max of the light, queries.
 )",
-     construct<Chiba>, true}};
+     construct<Chiba>}};
 
 }  // namespace
 }  // namespace espalier::environment

@@ -38,7 +38,7 @@ public:
             if (as_cpfg_ && action(queries[i]) != 0) continue;
             const std::optional<std::size_t> cell = ground_.cell(place(queries[i]));
             answers[i][0] = cell ? light(*cell) : 0;
-            if (answers[i].size() > 1) answers[i][1] = cell ? ground_.colour(*cell)[0] / 128.0 : 0;
+            if (answers[i].size() > 1) answers[i][1] = cell ? red(*cell) : 0;
         }
         statistics_.clear();
         for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -49,6 +49,7 @@ public:
     std::vector<Quantity> statistics(std::uint32_t plant) const override { return statistics_.quantities(plant); }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+    ProcessMemory memory() const override { return {ground_.bytes()}; }
 
     void save(std::ostream& out) const override { ground_.save(out); }
     void restore(std::istream& in) override { ground_.restore(in); }
@@ -89,6 +90,10 @@ private:
         return ground_.colour(cell)[1] / 255.0 * math::pow(transmittance_, leaves);
     }
 
+    double red(std::size_t cell) const {
+        return as_cpfg_ && !ground_.has_picture() ? 0 : ground_.colour(cell)[0] / 128.0;
+    }
+
     bool as_cpfg_;
     double transmittance_;
     bool forgets_, z_is_up_;
@@ -112,7 +117,7 @@ remove_old_leaves  false: leaves remain until they are removed; true: each step 
 z_is_up        true: the ground is x and y; false: x and z
 parameters     a file with these keys in words, as cpfg's program clover reads it
 numbers        "exact", or "cpfg" (default with `parameters` and in .e files): a leaf covers every cell that its disc
-               touches, at most 255 lie over each other, the picture is stretched from corner cell to corner cell, and
+               touches, at most 255 lie over each other, there is no red without a picture, the picture is stretched from corner cell to corner cell, and
                leaves are added and removed in string order by queries that get no answer
 
 A leaf covers the cells whose centres are inside its disc. Statistics of a plant: mean, min, max of the light, queries.

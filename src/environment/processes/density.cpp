@@ -32,7 +32,8 @@ public:
                             "one point value", "return vector"});
         as_cpfg_ = file.has_numbers_of_cpfg();
         at_the_point_ = file.flag("one point value", false);
-        as_vector_ = file.flag("return vector", false, {"yes", "on"}, {"no", "off"});
+        const bool vector = file.flag("return vector", false, {"yes", "on"}, {"no", "off"});
+        as_vector_ = vector && !as_cpfg_;
         // Of the picture that cpfg's program writes, and we record in other ways.
         for (const char* key : {"range", "position"}) file.numbers(key, {0, 0});
         for (const char* key : {"quantization step", "gamma"}) file.number(key, 1);
@@ -66,11 +67,11 @@ public:
 private:
     static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
 
-    // What the asker itself adds: as an occupant at its place, or 1 wherever it looks.
+    // In cpfg the asker itself adds nothing.
     double density_for(const glm::dvec2& asker, const glm::dvec2& at) const {
         if (!as_cpfg_) return density(at);
         const glm::dvec2 away = at - asker;
-        return density(at) - 1 / (1 + glm::dot(away, away)) + 1;
+        return density(at) - 1 / (1 + glm::dot(away, away));
     }
 
     double density(const glm::dvec2& at) const {
@@ -91,15 +92,28 @@ private:
         return least;
     }
 
-    void answer_one(const glm::dvec2& at, Answer answer) const {
+    /// How much it falls over a unit to the right and above. cpfg's program takes a sixth of what it falls between the
+    /// middle ones of its 6 x 6 places.
+    glm::dvec2 downhill_at(const glm::dvec2& at) const {
+        if (as_cpfg_ && !at_the_point_) {
+            const double corner = density(at + glm::dvec2(0.1));
+            return glm::dvec2(density(at + glm::dvec2(-0.1, 0.1)) - corner,
+                              density(at + glm::dvec2(0.1, -0.1)) - corner) /
+                   6.0;
+        }
         const glm::dvec2 right(0.5, 0), above(0, 0.5);
-        const glm::dvec2 downhill(density(at - right) - density(at + right), density(at - above) - density(at + above));
-        answer[0] = at_the_point_ ? density(at) : least_around(at);
+        return {density(at - right) - density(at + right), density(at - above) - density(at + above)};
+    }
+
+    void answer_one(const glm::dvec2& at, Answer answer) const {
+        const glm::dvec2 downhill = downhill_at(at);
+        answer[0] = at_the_point_ ? density_for(at, at) : least_around(at);
         answer[1] = as_vector_ ? downhill.x : angle(downhill);
         answer[2] = as_vector_ ? downhill.y : glm::length(downhill);
     }
 
     double angle(const glm::dvec2& direction) const {
+        if (as_cpfg_ && direction == glm::dvec2(0)) return 90;
         const double degrees = math::atan2(direction.y, direction.x) * 180 / std::numbers::pi;
         return as_cpfg_ && degrees < 0 ? degrees + 360 : degrees;
     }
@@ -125,7 +139,8 @@ range, position, output_image, frame_intervals, quantization_step, gamma
                  accepted and ignored: they concern the picture that cpfg's program writes
 parameters       a file with these keys in words, as cpfg's program density reads it
 numbers          "exact": a is from -180 to 180; or "cpfg" (default with `parameters` and in .e files): a is from 0 to
-                 360, and the query itself adds 1 at all 36 places, not 1 / (1 + d^2)
+                 360, or 90 where nothing falls; the query itself adds nothing; m is a sixth of the fall between the
+                 middle ones of the 36 places, 0.2 apart, unless one_point_value is true; return_vector does nothing
 
 Time grows with the square of the number of queries. Statistics of a plant: mean, min, max of r, queries.
 )",

@@ -48,7 +48,8 @@ public:
         }
         total_ = 0;
         for (const auto& voxel : amounts_) total_ += voxel.second;
-        if (amounts_.size() > memory_ / 64) throw RunError("so many voxels are occupied that memory would run out");
+        if (amounts_.size() > memory_ / bytes_per_voxel)
+            throw RunError("so many voxels are occupied that memory would run out");
         statistics_.sum_up(queries, answers);
     }
 
@@ -59,6 +60,9 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
+
+    ProcessMemory memory() const override { return {amounts_.size() * bytes_per_voxel, true}; }
+    void limit_memory(std::size_t bytes) override { memory_ = bytes; }
 
     void save(std::ostream& out) const override {
         for (const auto& [voxel, amount] : amounts_) {
@@ -80,6 +84,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t bytes_per_voxel = 64;
+
     double add(std::uint64_t voxel, double value) {
         double& amount = amounts_[voxel];
         amount += value;

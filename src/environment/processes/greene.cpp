@@ -134,10 +134,11 @@ public:
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
         const Totals totals = plant < totals_.size() ? totals_[plant] : Totals();
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
         return {{"grown", totals.grown},
                 {"stuck", totals.stuck},
-                {"chosen", totals.grown > 0 ? totals.chosen / totals.grown : 0},
-                {"rejected", totals.others > 0 ? totals.rejected / totals.others : 0}};
+                {"chosen", totals.grown > 0 ? totals.chosen / totals.grown : none},
+                {"rejected", totals.others > 0 ? totals.rejected / totals.others : none}};
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }

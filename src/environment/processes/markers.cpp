@@ -116,6 +116,8 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
+    ProcessMemory memory() const override { return {points_.points().size() * Colonization::bytes_per_point}; }
+
     void save(std::ostream& out) const override { points_.save(out); }
     void restore(std::istream& in) override { points_.restore(in); }
 

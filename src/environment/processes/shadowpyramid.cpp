@@ -78,6 +78,9 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
+    ProcessMemory memory() const override { return {2 * light_->memUsage(), true}; }
+    void limit_memory(std::size_t bytes) override { memory_ = bytes; }
+
 private:
     using Accessor = openvdb::FloatGrid::ConstAccessor;
 

@@ -117,6 +117,9 @@ public:
 
     std::pair<int, int> query_arity() const override { return {1, 8}; }
 
+    ProcessMemory memory() const override { return {held_, motion_.moves()}; }
+    void limit_memory(std::size_t bytes) override { memory_ = bytes; }
+
 private:
     void answer_one(const glm::dvec3& position, Answer answer) const {
         if (answer.size() == 1) {
@@ -152,17 +155,19 @@ private:
         return box;
     }
 
-    void provide_field(Fields& fields) const {
+    void provide_field(Fields& fields) {
         if (box_.empty()) return;
-        fields.provide({name_ + ".distance", "m", "signed distance to the surface, negative inside",
-                        sample_level_set(*shape_, box_, voxel_, memory_, place_), motion_.moves()});
+        const std::shared_ptr<const FieldGrid> grid = sample_level_set(*shape_, box_, voxel_, memory_, place_);
+        held_ = grid->grid->memUsage();
+        fields.provide(
+            {name_ + ".distance", "m", "signed distance to the surface, negative inside", grid, motion_.moves()});
     }
 
     std::string name_;
     std::shared_ptr<const Shape> at_rest_, shape_;
     Motion motion_;
     std::optional<Box> domain_;
-    std::size_t memory_;
+    std::size_t memory_, held_ = 0;  ///< bytes, of the field
     Place place_;
     double voxel_ = 0;
     double growth_ = 0;

@@ -25,11 +25,12 @@
 namespace espalier::environment {
 namespace {
 
+// Two bricks of doubles, two grids of floats, flags.
+constexpr double bytes_per_voxel = 2 * 8 + 2 * 5 + 3;
+
 WaterGrid affordable_grid(const WaterParameters& parameters, const EnvironmentContext& context) {
-    // Two bricks of doubles, two grids of floats, flags.
-    const double bytes_per_voxel = 2 * 8 + 2 * 5 + 3 + (parameters.steady ? steady_bytes_per_voxel : 0);
     const double voxels = WaterGrid::voxels_needed(parameters.domain, parameters.voxel, parameters.flat);
-    const double bytes = voxels * bytes_per_voxel;
+    const double bytes = voxels * (bytes_per_voxel + (parameters.steady ? steady_bytes_per_voxel : 0));
     if (!(voxels <= 2e9) || bytes > static_cast<double>(context.memory)) {
         throw UserError(parameters.voxel_place,
                         fmt::format("'{}' would have {} voxels and take {} GB: use larger voxels, a smaller domain or "
@@ -65,7 +66,9 @@ public:
             stock_->set_free(solids_.free_voxels(grid_));
             field_.set_faces(stock_->faces());
         }
-        if (parameters_.mode == WaterMode::relaxation) {
+        if (world.step == 0) {
+            stock_->hold();  // no time has passed
+        } else if (parameters_.mode == WaterMode::relaxation) {
             stock_->relax(world.dt);
         } else {
             stock_->diffuse(diffusion_, world.dt);
@@ -90,6 +93,7 @@ public:
             wish_[queries[q].plant] += wishes[q].amount * parameters_.amount;
         }
         stock_->measure();
+        warn_of_water_without_room();
         field_.change();
     }
 
@@ -99,7 +103,8 @@ public:
             changing("gradient_length", Range::positive(), parameters_.gradient_length)};
         for (std::size_t k = 0; k < parameters_.sources.size(); ++k) {
             const bool holds = parameters_.sources[k].hold.has_value();
-            settings.push_back({fmt::format("sources.{}.{}", k, holds ? "hold" : "rate"), content_range,
+            const Range range = holds ? Range::between(0, std::min(parameters_.porosity, 1e30)) : content_range;
+            settings.push_back({fmt::format("sources.{}.{}", k, holds ? "hold" : "rate"), range,
                                 [this, k](double value) { stock_->set_source(k, value); }});
         }
         return settings;
@@ -116,12 +121,17 @@ public:
                 {"boundary", balance.boundary * amount, unit},
                 {"drunk", balance.drunk * amount, unit},
                 {"displaced", balance.displaced * amount, unit},
+                {"runoff", balance.runoff * amount, unit},
                 {"balance", balance.relative_error()},
                 {"minimum", balance.minimum, "m3/m3"},
                 {"maximum", balance.maximum, "m3/m3"}};
     }
 
     std::pair<int, int> query_arity() const override { return {1, 100}; }
+
+    ProcessMemory memory() const override {
+        return {static_cast<std::size_t>(bytes_per_voxel * static_cast<double>(grid_.voxels()))};
+    }
 
     void save(std::ostream& out) const override {
         stock_->save(out);
@@ -165,6 +175,17 @@ private:
             warnings_ = nullptr;
             return;
         }
+    }
+
+    // Once. A concentration may be what it likes, but there is no more than a cubic metre of water in one of soil.
+    void warn_of_water_without_room() {
+        if (!warnings_ || parameters_.unit != "m3/m3" || !(stock_->balance().maximum > 1)) return;
+        warnings_->push_back({Diagnostic::Severity::warning, parameters_.settings_place,
+                              fmt::format("'{}' holds {:.3g} m3/m3, more water than there is room: give the soil its "
+                                          "porosity (porosity = 0.45), so that the excess runs off, or another unit",
+                                          name_, stock_->balance().maximum),
+                              ""});
+        warnings_ = nullptr;
     }
 
     /// Writes what the query senses into its answer; returns what it wishes.

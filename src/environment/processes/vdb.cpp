@@ -87,7 +87,11 @@ public:
                             fmt::format("the grid '{}' is neither of numbers nor of vectors in a regular lattice",
                                         grid->getName()));
         }
-        require_memory(parts, context.memory, place);
+        for (const auto& part : parts) bytes_ += part->grid->memUsage();
+        if (bytes_ > context.memory) {
+            throw UserError(place, fmt::format("the grid takes {:.3g} GB, which is more than the memory there is",
+                                               static_cast<double>(bytes_) / 1e9));
+        }
         const std::string meaning = fmt::format("grid '{}' of a file", grid->getName());
         for (std::size_t k = 0; k < parts.size(); ++k) {
             names_.push_back(parts.size() == 1 ? context.name : context.name + "." + "xyz"[k]);
@@ -107,17 +111,10 @@ public:
     }
 
     std::pair<int, int> query_arity() const override { return names_.size() == 1 ? std::pair{1, 4} : std::pair{3, 3}; }
+    ProcessMemory memory() const override { return {bytes_}; }
 
 private:
-    static void require_memory(const std::vector<std::shared_ptr<const FieldGrid>>& parts, std::size_t most,
-                               const Place& place) {
-        std::size_t bytes = 0;
-        for (const auto& part : parts) bytes += part->grid->memUsage();
-        if (bytes <= most) return;
-        throw UserError(place, fmt::format("the grid takes {:.3g} GB, which is more than the memory there is",
-                                           static_cast<double>(bytes) / 1e9));
-    }
-
+    std::size_t bytes_ = 0;           ///< of the grid
     std::vector<std::string> names_;  ///< of the fields
     FieldValues values_;
 };

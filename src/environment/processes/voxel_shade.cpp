@@ -4,6 +4,8 @@
 
 #include "base/parallel.h"
 #include "environment/changing_settings.h"
+#include "environment/covering.h"
+#include "environment/exchange/answer_statistics.h"
 #include "environment/shade/grids.h"
 #include "environment/shade/light.h"
 
@@ -12,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace espalier::environment {
 namespace {
@@ -46,13 +47,16 @@ std::optional<Box> read_domain(const Settings& settings, const std::optional<Box
     return domain;
 }
 
-/// The voxels whose centres lie in [lower, upper). A domain as wide as n voxels always has n of them.
-VoxelBox voxels_of(const Box& domain, double voxel, bool flat) {
-    const glm::dvec3 lower = glm::ceil(domain.lower / voxel - 1e-9);
-    const glm::dvec3 upper = glm::max(glm::ceil(domain.upper / voxel - 1e-9) - 1.0, lower);
-    VoxelBox box{glm::ivec3(lower), glm::ivec3(upper)};
-    if (flat) box.lower.z = box.upper.z = 0;
-    return box;
+/// Lays the voxels so that whole ones cover the domain. Voxel (0, 0, 0) stays the one at the origin.
+void cover(const Box& domain, ShadeLattice& lattice) {
+    const glm::dvec3 first = lower_corner_over(domain, lattice.voxel) / lattice.voxel + 0.5;
+    const glm::dvec3 whole = glm::floor(first + 0.5 + 1e-9);
+    for (int axis = 0; axis < (lattice.flat ? 2 : 3); ++axis) {
+        const double beside = first[axis] - whole[axis];
+        lattice.centre[axis] = std::abs(beside) < 1e-9 ? 0 : lattice.voxel * beside;
+    }
+    lattice.domain = {glm::ivec3(whole), glm::ivec3(whole + voxels_over(domain, lattice.voxel) - 1.0)};
+    if (lattice.flat) lattice.domain.lower.z = lattice.domain.upper.z = 0;
 }
 
 void require_size(const Box& domain, double voxel, bool flat, std::size_t memory, const Place& place) {
@@ -93,7 +97,10 @@ ShadeLattice read_lattice(const Settings& settings, const EnvironmentContext& co
     lattice.periodic = settings.flag_or("periodic", false);
     lattice.fixed = settings.flag_or("fixed", lattice.periodic || settings.has("domain"));
     const std::optional<Box> domain = read_domain(settings, context.domain);
-    if (domain) require_size(*domain, lattice.voxel, rule.flat, context.memory, settings.place("voxel"));
+    if (domain) {
+        require_size(*domain, lattice.voxel, rule.flat, context.memory, settings.place("voxel"));
+        cover(*domain, lattice);
+    }
     if (!lattice.fixed && !lattice.periodic) return lattice;
     if (!domain) {
         throw UserError(settings.place(lattice.periodic ? "periodic" : "fixed"),
@@ -102,7 +109,6 @@ ShadeLattice read_lattice(const Settings& settings, const EnvironmentContext& co
                                     context.name, lattice.periodic ? "periodic" : "fixed"));
     }
     if (lattice.periodic) require_period(*domain, lattice, rule, settings.place("voxel"));
-    lattice.domain = voxels_of(*domain, lattice.voxel, rule.flat);
     return lattice;
 }
 
@@ -127,8 +133,9 @@ public:
           gradient_radius_(settings.number_or("gradient_radius", lattice_.voxel, Range::positive())),
           casts_(rule_, clip_of(lattice_)),
           field_(context.memory),
-          grids_(context.name, rule_, lattice_.voxel),
-          totals_(context.plants) {
+          grids_(context.name, rule_, lattice_),
+          statistics_(context.plants),
+          cast_by_(context.plants) {
         grids_.provide(field_.bricks(), shown(), fields);
     }
 
@@ -167,23 +174,17 @@ public:
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
-        const Totals totals = plant < totals_.size() ? totals_[plant] : Totals();
-        const double queries = totals.queries;
-        return {{"mean", queries > 0 ? totals.light / queries : 0},
-                {"min", queries > 0 ? totals.least : 0},
-                {"max", queries > 0 ? totals.most : 0},
-                {"queries", queries},
-                {"casts", totals.casts}};
+        std::vector<Quantity> all = statistics_.quantities(plant);
+        all.push_back({"casts", plant < cast_by_.size() ? cast_by_[plant] : 0});
+        return all;
     }
 
     std::pair<int, int> query_arity() const override { return {1, 20}; }
 
-private:
-    struct Totals {
-        double light = 0, queries = 0, casts = 0;
-        double least = std::numeric_limits<double>::infinity(), most = 0;
-    };
+    ProcessMemory memory() const override { return {field_.bricks().bytes(), true}; }
+    void limit_memory(std::size_t bytes) override { field_.bricks().limit_memory(bytes); }
 
+private:
     const VoxelBox& shown() const { return lattice_.fixed ? lattice_.domain : field_.box(); }
 
     // In a periodic domain, with every image whose pyramid reaches into the stored period.
@@ -212,15 +213,11 @@ private:
     }
 
     void sum_up(std::span<const Query> queries, std::span<const Answer> answers) {
-        std::fill(totals_.begin(), totals_.end(), Totals());
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            if (queries[i].plant >= totals_.size()) totals_.resize(queries[i].plant + 1);
-            Totals& totals = totals_[queries[i].plant];
-            totals.light += answers[i][0];
-            totals.queries += 1;
-            totals.casts += queries[i].parameters[0] > 0;
-            totals.least = std::min(totals.least, answers[i][0]);
-            totals.most = std::max(totals.most, answers[i][0]);
+        statistics_.sum_up(queries, answers);
+        std::fill(cast_by_.begin(), cast_by_.end(), 0);
+        for (const Query& query : queries) {
+            if (query.plant >= cast_by_.size()) cast_by_.resize(query.plant + 1);
+            cast_by_[query.plant] += query.parameters[0] > 0;
         }
     }
 
@@ -232,7 +229,8 @@ private:
     ShadeField field_;
     ShadeGrids grids_;
     std::vector<std::size_t> casts_begin_;  ///< of each query, and the end of the last
-    std::vector<Totals> totals_;
+    AnswerStatistics statistics_;
+    std::vector<double> cast_by_;  ///< pyramids of each plant
 };
 
 const Registered<ProcessType> entry{
@@ -244,7 +242,8 @@ square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  A q
 ?name(s, x, y, z) -> light, and its gradient per metre: the brightest direction, not normalised
 Further parameters (at most 20 in all) keep their values.
 
-voxel           m, 0.5; edge of a voxel. Voxel (0, 0, 0) has its centre at the origin
+voxel           m, 0.5; edge of a voxel. Whole voxels cover the domain about its middle; without a domain, the centre
+                of one voxel is at the origin
 mode            "add" (default): Q = max(full_light - sum of shadows, 0)
                 "attenuate": Q = full_light times the product of 1 - min(1, shadow)
 strength        a, 0.2; shadow of a query of strength 1 in its own voxel
@@ -257,7 +256,8 @@ gradient_radius m, one voxel; distance of the central differences
 dimensions      3; 2: one voxel thick, z is ignored
 domain          { lower, upper } in m; default: the scene's
 fixed           true if `domain` is given here or `periodic` is true, else false: shade grows with the plants.
-                There is full light outside a fixed domain
+                There is full light outside a fixed domain; in it, light reaches its sides as it is in the outermost
+                voxels
 periodic        false; true: the domain repeats along x and z without end
 
 Fields: name (light), name.shade (the sum, or the optical depth).

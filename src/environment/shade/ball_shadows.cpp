@@ -69,12 +69,12 @@ double product_of_areas(const double* ahead, const double* aside2, const double*
 
 }  // namespace
 
-double sum_of_chords(const BallsMet& met, double margin, Chords chords) {
+double sum_of_chords(const BallsMet& met, double margin) {
     double sum = 0;
     for (std::size_t k = 0; k < met.count; ++k) {
         const double reach = met.radius[k] + margin;
         const double half = std::sqrt(std::max(reach * reach - met.aside2[k], 0.0));
-        const double behind = chords == Chords::whole ? 0 : std::max(half - met.ahead[k], 0.0);
+        const double behind = std::max(half - met.ahead[k], 0.0);
         sum += (2 * half - behind) / (2 * reach);
     }
     return sum;

@@ -5,12 +5,9 @@
 
 namespace espalier::environment {
 
-/// What counts of a ball around the origin of a ray.
-enum class Chords { in_front, whole };
-
 /// The lengths of a ray inside the balls, each as a part of the ball's diameter, added up. Balls are larger by
 /// `margin`.
-double sum_of_chords(const BallsMet& met, double margin, Chords chords);
+double sum_of_chords(const BallsMet& met, double margin);
 
 /// The product of 1 - (1 - t) A / (pi r^2) over the balls with their centre in front, A being the area that the ball's
 /// disc shares with the ray's own of radius r. Writes behind the last ball.

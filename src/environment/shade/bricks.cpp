@@ -150,13 +150,16 @@ void ShadeBricks::keep_besides(std::size_t bytes) {
     require_memory(places(), bricks_.size() - unused_.size());
 }
 
-void ShadeBricks::require_memory(std::size_t places, std::size_t bricks) const {
+std::size_t ShadeBricks::bytes(std::size_t places, std::size_t bricks) const {
     // A place in the directory and in the counts of a rebuild; a brick here, and two grids of float made of it.
-    const std::size_t bytes =
-        besides_ + places * 2 * sizeof(std::int32_t) + bricks * voxels * (sizeof(Shade) + 2 * sizeof(float));
-    if (bytes <= memory_) return;
+    return besides_ + places * 2 * sizeof(std::int32_t) + bricks * voxels * (sizeof(Shade) + 2 * sizeof(float));
+}
+
+void ShadeBricks::require_memory(std::size_t places, std::size_t bricks) const {
+    const std::size_t needed = bytes(places, bricks);
+    if (needed <= memory_) return;
     throw RunError(fmt::format("the shade of this step needs {} MiB, but --memory leaves it {} MiB; take larger voxels",
-                               bytes >> 20, memory_ >> 20));
+                               needed >> 20, memory_ >> 20));
 }
 
 }  // namespace espalier::environment

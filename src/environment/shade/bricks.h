@@ -25,6 +25,9 @@ public:
     /// `memory`: bytes that bricks, grids made of them, and what is kept besides may take.
     explicit ShadeBricks(std::size_t memory) : memory_(memory) {}
 
+    /// What everything takes.
+    std::size_t bytes() const { return bytes(places(), bricks_.size() - unused_.size()); }
+    void limit_memory(std::size_t bytes) { memory_ = bytes; }
     /// So many bytes are, or soon will be, kept besides the bricks. Throws RunError if they do not fit beside them.
     void keep_besides(std::size_t bytes);
 
@@ -92,6 +95,7 @@ private:
     void place_directory(const glm::ivec3& lower, const glm::ivec3& upper);
     std::int32_t add(const glm::ivec3& brick);
     void remove(std::int32_t number);
+    std::size_t bytes(std::size_t places, std::size_t bricks) const;
     void require_memory(std::size_t places, std::size_t bricks) const;
 
     std::size_t memory_, besides_ = 0;

@@ -183,12 +183,12 @@ void ShadeGrids::Grids::One::bring_up_to_date(const ShadeBricks& bricks, const V
     now.forget_changes();
 }
 
-ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, double voxel)
+ShadeGrids::ShadeGrids(std::string name, const ShadeRule& rule, const ShadeLattice& lattice)
     : name_(std::move(name)), rule_(rule), grids_(std::make_unique<Grids>()) {
     initialize_openvdb();
     const auto make = [&](const std::string& field, double background) {
         const auto grid = openvdb::FloatGrid::create(static_cast<float>(background));
-        grid->setTransform(cell_centred_transform(voxel, glm::dvec3(-0.5 * voxel)));
+        grid->setTransform(cell_centred_transform(lattice.voxel, lattice.centre - 0.5 * lattice.voxel));
         grid->setName(field);
         return std::make_shared<FieldGrid>(FieldGrid{grid, {}, true});
     };

@@ -5,6 +5,7 @@
 #include "espalier/geometry/field.h"
 
 #include "environment/shade/leaves.h"
+#include "environment/shade/light.h"
 
 #include <memory>
 #include <string>
@@ -14,7 +15,7 @@ namespace espalier::environment {
 class ShadeGrids {
 public:
     /// Fields will be `name` (light) and `name`.shade.
-    ShadeGrids(std::string name, const ShadeRule& rule, double voxel);
+    ShadeGrids(std::string name, const ShadeRule& rule, const ShadeLattice& lattice);
     ~ShadeGrids();
 
     /// Provides both fields. `bricks` and `shown`, the voxels a viewer should be shown, are looked at whenever a field

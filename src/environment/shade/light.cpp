@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace espalier::environment {
@@ -31,9 +32,24 @@ int floored(double value) {
 
 }  // namespace
 
+glm::dvec3 ShadeLattice::index_of(const glm::dvec3& point) const {
+    glm::dvec3 index = (point - centre) / voxel;
+    if (flat) index.z = 0;
+    return index;
+}
+
+bool ShadeLattice::reaches(const glm::dvec3& index) const {
+    if (!fixed) return true;
+    constexpr double half = 0.5 + 1e-9;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (periodic && axis != 1) continue;
+        if (index[axis] < domain.lower[axis] - half || index[axis] > domain.upper[axis] + half) return false;
+    }
+    return true;
+}
+
 glm::ivec3 ShadeLattice::voxel_of(const glm::dvec3& point) const {
-    glm::dvec3 at = point / voxel + 0.5;
-    if (flat) at.z = 0;
+    const glm::dvec3 at = index_of(point) + 0.5;
     glm::ivec3 result;
     for (int axis = 0; axis < 3; ++axis) {
         if (!(at[axis] >= 1 - farthest_voxel && at[axis] < farthest_voxel)) {
@@ -42,7 +58,14 @@ glm::ivec3 ShadeLattice::voxel_of(const glm::dvec3& point) const {
         }
         result[axis] = floored(at[axis]);
     }
+    if (fixed && reaches(at - 0.5)) stay_inside(result);
     return result;
+}
+
+void ShadeLattice::stay_inside(glm::ivec3& at) const {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!periodic || axis == 1) at[axis] = std::clamp(at[axis], domain.lower[axis], domain.upper[axis]);
+    }
 }
 
 glm::ivec3 ShadeLattice::wrapped(glm::ivec3 v) const {
@@ -54,6 +77,7 @@ glm::ivec3 ShadeLattice::wrapped(glm::ivec3 v) const {
 }
 
 double ShadeLight::at(const glm::dvec3& point, std::span<const ShadeCast> own) const {
+    if (lattice_.fixed && !lattice_.reaches(lattice_.index_of(point))) return casts_.rule().full_light;
     return lattice_.trilinear ? interpolated(point, own) : of_voxel(lattice_.voxel_of(point), own);
 }
 
@@ -98,13 +122,19 @@ double ShadeLight::interpolated(const Corner& corner, const LightOf& light_of) c
 }
 
 ShadeLight::Corner ShadeLight::corner_of(const glm::dvec3& point) const {
-    glm::dvec3 at = point / lattice_.voxel;
-    if (lattice_.flat) at.z = 0;
+    const glm::dvec3 at = lattice_.index_of(point);
     Corner corner;
     for (int axis = 0; axis < 3; ++axis) {
         if (!(std::abs(at[axis]) < farthest_voxel - 1)) static_cast<void>(lattice_.voxel_of(point));  // throws
         corner.voxel[axis] = floored(at[axis]);
         corner.part[axis] = at[axis] - corner.voxel[axis];
+    }
+    if (!lattice_.fixed) return corner;
+    const glm::ivec3 found = corner.voxel;
+    lattice_.stay_inside(corner.voxel);
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool is_last = corner.voxel[axis] == lattice_.domain.upper[axis] && !(lattice_.periodic && axis != 1);
+        if (corner.voxel[axis] != found[axis] || is_last) corner.part[axis] = 0;
     }
     return corner;
 }
@@ -121,7 +151,7 @@ const Shade* ShadeLight::sums_around(const glm::ivec3& voxel) const {
 
 void ShadeLight::fetch(const glm::dvec3& point) const {
     if (!lattice_.trilinear) return;
-    const glm::dvec3 at = point / lattice_.voxel;
+    const glm::dvec3 at = lattice_.index_of(point);
     if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest_voxel - 1)) return;
     const glm::ivec3 voxel(floored(at.x), floored(at.y), floored(at.z));
     const Shade* around = sums_around(voxel);

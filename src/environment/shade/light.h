@@ -7,9 +7,10 @@
 
 namespace espalier::environment {
 
-/// Where voxels lie in space. Voxel (0, 0, 0) has its centre at the origin, so that a plant there stands in its middle.
+/// Where voxels lie in space: about the middle of a domain, or else with the centre of voxel (0, 0, 0) at the origin.
 struct ShadeLattice {
-    double voxel = 0.5;  ///< metres
+    double voxel = 0.5;    ///< metres
+    glm::dvec3 centre{0};  ///< of voxel (0, 0, 0)
     bool flat = false;
     bool trilinear = true;
     bool fixed = false;     ///< only the voxels of `domain` exist
@@ -18,8 +19,14 @@ struct ShadeLattice {
 
     /// The voxel that holds `point`. Throws RunError for a point too far away to be numbered.
     glm::ivec3 voxel_of(const glm::dvec3& point) const;
+    /// In voxels, from the centre of voxel (0, 0, 0).
+    glm::dvec3 index_of(const glm::dvec3& point) const;
     /// The same voxel in the period that is stored.
     glm::ivec3 wrapped(glm::ivec3 voxel) const;
+    /// False outside a fixed domain, where there is nothing but full light.
+    bool reaches(const glm::dvec3& index) const;
+    /// The nearest voxel of a fixed domain.
+    void stay_inside(glm::ivec3& at) const;
 };
 
 class ShadeLight {
@@ -36,7 +43,8 @@ public:
     void fetch(const glm::dvec3& point) const;
 
 private:
-    /// The first of the eight voxels around a point, and where between them the point lies.
+    /// The first of the eight voxels around a point, and where between them the point lies. Beyond the outermost
+    /// centres of a fixed domain its outermost voxels count alone.
     struct Corner {
         glm::ivec3 voxel;
         glm::dvec3 part;

@@ -1,6 +1,7 @@
 #include "environment/shapes/field.h"
 
 #include "base/parallel.h"
+#include "environment/covering.h"
 
 #include <fmt/format.h>
 
@@ -74,14 +75,14 @@ void sample_leaf(Leaf& leaf, const Shape& shape, const openvdb::math::Transform&
 }
 
 openvdb::CoordBBox voxels_of(const Box& box, double voxel, const Place& place) {
+    const glm::dvec3 count = voxels_over(box, voxel);
     openvdb::Coord upper;
     for (int i = 0; i < 3; ++i) {
-        const double count = std::ceil((box.upper[i] - box.lower[i]) / voxel - 1e-6);
-        if (!(count < 1 << 28)) {
+        if (!(count[i] < 1 << 28)) {
             throw UserError(place, fmt::format("voxels of {:g} m are too small for a box of {:g} m", voxel,
                                                box.upper[i] - box.lower[i]));
         }
-        upper[i] = std::max(static_cast<int>(count) - 1, 0);
+        upper[i] = static_cast<int>(count[i]) - 1;
     }
     return {openvdb::Coord(0), upper};
 }
@@ -92,7 +93,7 @@ std::shared_ptr<const FieldGrid> sample_level_set(const Shape& shape, const Box&
                                                   const Place& place) {
     initialize_openvdb();
     const openvdb::CoordBBox voxels = voxels_of(box, voxel, place);
-    const auto transform = cell_centred_transform(voxel, box.lower);
+    const auto transform = cell_centred_transform(voxel, lower_corner_over(box, voxel));
     const auto background = static_cast<float>(half_band * voxel);
     auto grid = openvdb::FloatGrid::create(background);
     grid->setTransform(transform);

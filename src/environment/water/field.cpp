@@ -2,6 +2,8 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "geometry/grids/active_values.h"
+
 #include <openvdb/tree/LeafManager.h>
 
 #include <atomic>
@@ -52,6 +54,7 @@ void WaterField::set_faces(const WaterFaces& faces) {
     grid->setName(name_);
     grid->setTransform(cell_centred_transform(grid_.voxel(), grid_.lower()));
     grid->tree().denseFill(box_of(grid_), 0, true);
+    use_only_active_values(*grid);
     openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
     leaves.foreach ([&](Leaf& leaf, std::size_t) {
         for_voxels(leaf, grid_, [&](openvdb::Index offset, std::size_t cell) {

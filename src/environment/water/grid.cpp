@@ -1,17 +1,13 @@
 #include "environment/water/grid.h"
 
 #include "base/parallel.h"
+#include "environment/covering.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace espalier::environment {
 namespace {
-
-/// Whole voxels that cover `extent`; a hair of rounding does not cost another one.
-double voxels_across(double extent, double voxel) {
-    return std::max(1.0, std::ceil(extent / voxel - 1e-6));
-}
 
 /// Two neighbouring voxels of one axis and the weight of each.
 struct Between {

@@ -130,6 +130,22 @@ void read_mode(Settings& settings, WaterParameters& parameters) {
     }
 }
 
+/// Nothing may begin, or be held, with more than a voxel has room for.
+void read_porosity(Settings& settings, WaterParameters& parameters) {
+    if (!settings.has("porosity")) return;
+    parameters.porosity = settings.number("porosity", Range::positive());
+    const auto require_room = [&](double content, const Place& place) {
+        if (content <= parameters.porosity) return;
+        throw UserError(place, fmt::format("a content of {} is more than the porosity of the soil, {}",
+                                           format_general(content), format_general(parameters.porosity)));
+    };
+    require_room(parameters.initial, settings.place("initial"));
+    for (const WaterSide& side : parameters.sides) require_room(side.content, settings.place("boundaries"));
+    for (const WaterLayer& layer : parameters.layers) require_room(layer.initial.value_or(0), settings.place("layers"));
+    for (const WaterRegion& region : parameters.regions) require_room(region.content, settings.place("regions"));
+    for (const WaterSource& source : parameters.sources) require_room(source.hold.value_or(0), source.place);
+}
+
 }  // namespace
 
 WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context) {
@@ -158,6 +174,7 @@ WaterParameters read_water_parameters(Settings& settings, const EnvironmentConte
     parameters.layers = read_layers(settings, parameters, diffusion, anisotropy);
     parameters.regions = read_regions(settings);
     parameters.sources = read_sources(settings);
+    read_porosity(settings, parameters);
     for (Settings& table : settings.tables("obstacles")) parameters.obstacles.push_back(read_shape(table));
     parameters.obstacle_field = settings.text_or("obstacle_field", "");
     parameters.container_field = settings.text_or("container_field", "");
@@ -173,7 +190,8 @@ WaterParameters read_water_parameters(Settings& settings, const EnvironmentConte
 
 const WaterLayer* layer_at(const WaterParameters& parameters, double y) {
     for (auto layer = parameters.layers.rbegin(); layer != parameters.layers.rend(); ++layer) {
-        if (y >= layer->bottom && y < layer->top) return &*layer;
+        const bool below_top = y < layer->top || (y == layer->top && y == parameters.domain.upper.y);
+        if (y >= layer->bottom && below_top) return &*layer;
     }
     return nullptr;
 }
@@ -197,6 +215,8 @@ container_field  name of a distance field, as "pot.distance": outside it is an o
 boundaries       { left, right, bottom, top, back, front }, each "no-flux" (default), { fixed = content } held on
                  the face of that side, or "open": the same with content 0; water that reaches the side is lost
 sources          [ { a shape, rate or hold }, ... ]: the content grows by `rate` per time unit, or is held at `hold`
+porosity         content of a voxel that is full; default: none. What a source brings beyond it runs off. Nothing else may
+                 exceed it: neither `initial` contents nor what is held
 
 mode             "diffusion" (default): finite volumes, conserves water; or "relaxation" (below)
 diffusion        m2 per time unit, 0; between layers the harmonic mean counts
@@ -224,6 +244,7 @@ Content is interpolated between voxels before uptake; outside the domain it is 0
 
 Field `name`: the content. Statistics: uptake and wish (this plant, this step); and of the world, amounts: total,
 added (by sources, so far), boundary (net inflow so far), drunk (so far), displaced (by moving obstacles, so far),
-balance = (start + added + boundary - drunk - displaced - total) / the largest of them; minimum and maximum content.)";
+runoff (what was added and found no room, so far), balance = (start + added + boundary - drunk - displaced - runoff -
+total) / the largest of them; minimum and maximum content.)";
 
 }  // namespace espalier::environment

@@ -5,6 +5,7 @@
 #include "espalier/environment/shape.h"
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,7 +53,8 @@ struct WaterParameters {
     bool flat = false;  ///< two-dimensional
     std::string unit;
     double initial = 0;
-    bool steady = false;  ///< begin at the steady state of diffusion
+    double porosity = std::numeric_limits<double>::infinity();  ///< content of a voxel that is full
+    bool steady = false;                                        ///< begin at the steady state of diffusion
     glm::dvec3 diffusion{0};
     int max_substeps = 0;
     int sweeps = 0;

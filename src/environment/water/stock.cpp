@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "environment/water/steady.h"
 
+#include <fmt/format.h>
 #include <tbb/blocked_range.h>
 
 #include <algorithm>
@@ -67,8 +68,8 @@ double initial_content(const WaterParameters& parameters, const glm::dvec3& poin
 }  // namespace
 
 double WaterBalance::relative_error() const {
-    const double missing = start + added + boundary - drunk - displaced - total;
-    const double largest = std::max({start, added, std::abs(boundary), drunk, displaced, total});
+    const double missing = start + added + boundary - drunk - displaced - runoff - total;
+    const double largest = std::max({start, added, std::abs(boundary), drunk, displaced, runoff, total});
     return largest > 0 ? missing / largest : 0;
 }
 
@@ -141,7 +142,19 @@ void WaterStock::gain(double dt) {
         const double amount = source.source.rate * dt;
         for (const std::size_t cell : source.cells) contents_[cell] += amount;
         balance_.added += amount * static_cast<double>(source.cells.size());
+        run_off(source);
     }
+}
+
+void WaterStock::run_off(const Source& source) {
+    const double full = parameters_.porosity;
+    double excess = 0;
+    for (const std::size_t cell : source.cells) {
+        if (contents_[cell] <= full) continue;
+        excess += contents_[cell] - full;
+        contents_[cell] = full;
+    }
+    balance_.runoff += excess;
 }
 
 void WaterStock::settle(const WaterDiffusion& diffusion) {
@@ -159,6 +172,12 @@ void WaterStock::settle(const WaterDiffusion& diffusion) {
     balance_ = {};
     measure();
     balance_.start = balance_.total;
+    if (balance_.maximum > parameters_.porosity * (1 + 1e-9)) {
+        throw UserError(diffusion.place(),
+                        fmt::format("begin = \"steady\": sources would fill the soil to {:.3g}, more "
+                                    "than its porosity",
+                                    balance_.maximum));
+    }
 }
 
 void WaterStock::diffuse(WaterDiffusion& diffusion, double dt) {

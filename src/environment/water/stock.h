@@ -19,6 +19,7 @@ struct WaterBalance {
     double boundary = 0;  ///< net, inwards through the sides
     double drunk = 0;
     double displaced = 0;  ///< out of voxels that a moving obstacle filled
+    double runoff = 0;     ///< of what was added, what found no room
     double total = 0;      ///< what there is now
     double minimum = 0, maximum = 0;
 
@@ -44,6 +45,8 @@ public:
     /// Restarts at the steady state of diffusion.
     void settle(const WaterDiffusion& diffusion);
 
+    /// Sources that hold a content fill their voxels; no time passes.
+    void hold();
     void diffuse(WaterDiffusion& diffusion, double dt);
     void relax(double dt);
 
@@ -60,15 +63,15 @@ public:
     void restore(std::istream& in);
 
 private:
-    void paint();
-    void find_sources();
-    void hold();
-    void gain(double dt);
-
     struct Source {
         WaterSource source;
         std::vector<std::size_t> cells;
     };
+
+    void paint();
+    void find_sources();
+    void gain(double dt);
+    void run_off(const Source& source);
 
     WaterGrid grid_;
     WaterParameters parameters_;

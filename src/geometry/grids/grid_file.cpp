@@ -5,6 +5,7 @@
 #include "espalier/base/read_log.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "geometry/grids/active_values.h"
 #include "geometry/grids/written_grid.h"
 
 #include <fmt/format.h>
@@ -78,7 +79,9 @@ bool same_field(const FieldGrid& a, const FieldGrid& b) {
 std::string bytes_of(const FieldGrid& grid) {
     initialize_openvdb();
     const MemoryArchive archive(openvdb::io::COMPRESS_NONE);  // inactive values, too
-    return archive.text(grid.grid->copyGridReplacingMetadata(openvdb::MetaMap()));
+    openvdb::MetaMap kept;
+    if (has_only_active_values(*grid.grid)) kept.insertMeta(only_active_values, openvdb::BoolMetadata(true));
+    return archive.text(grid.grid->copyGridReplacingMetadata(kept));
 }
 
 std::shared_ptr<const FieldGrid> grid_from_bytes(const std::string& bytes) {

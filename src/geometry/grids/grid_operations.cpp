@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "geometry/grids/active_values.h"
 #include "geometry/grids/grid_file.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace espalier::geometry {
 namespace {
@@ -24,15 +26,60 @@ double sampled(const openvdb::FloatGrid& grid, const openvdb::Vec3d& place) {
     return openvdb::tools::BoxSampler::sample(grid.tree(), grid.worldToIndex(place));
 }
 
+/// The mean of the active ones of the eight voxels around a place, and the middle that it holds at, in index space.
+struct ActiveMean {
+    double value = 0;
+    openvdb::Vec3d middle{0};
+    double weight = 0;  ///< 0: there is none
+};
+
+ActiveMean active_mean(const openvdb::FloatGrid& grid, const openvdb::Vec3d& place) {
+    const openvdb::Coord first = openvdb::Coord::floor(place);
+    ActiveMean mean;
+    for (int corner = 0; corner < 8; ++corner) {
+        const openvdb::Coord voxel = first + openvdb::Coord(corner & 1, corner >> 1 & 1, corner >> 2);
+        double weight = 1;
+        for (int axis = 0; axis < 3; ++axis) weight *= 1 - std::abs(place[axis] - voxel[axis]);
+        float value = 0;
+        if (!(weight > 0) || !grid.tree().probeValue(voxel, value)) continue;
+        mean.value += weight * value;
+        mean.middle += weight * voxel.asVec3d();
+        mean.weight += weight;
+    }
+    if (mean.weight > 0) {
+        mean.value /= mean.weight;
+        mean.middle /= mean.weight;
+    }
+    return mean;
+}
+
 double value(const FieldGrid& field, const glm::dvec3& position) {
-    return sampled(*field.grid, {position.x, position.y, position.z});
+    const openvdb::Vec3d place(position.x, position.y, position.z);
+    if (!has_only_active_values(*field.grid)) return sampled(*field.grid, place);
+    return active_mean(*field.grid, field.grid->worldToIndex(place)).value;
+}
+
+/// Beside voxels without a value it is the difference between those that have one.
+double active_slope(const openvdb::FloatGrid& grid, const openvdb::Vec3d& place, int axis) {
+    openvdb::Vec3d step(0);
+    step[axis] = 1;
+    ActiveMean behind = active_mean(grid, place - step), ahead = active_mean(grid, place + step);
+    if (behind.weight == 0) behind = active_mean(grid, place);
+    if (ahead.weight == 0) ahead = active_mean(grid, place);
+    const double apart = ahead.middle[axis] - behind.middle[axis];
+    if (behind.weight == 0 || ahead.weight == 0 || apart < 1e-6) return 0;
+    return (ahead.value - behind.value) / (apart * grid.voxelSize()[axis]);
 }
 
 glm::dvec3 gradient(const FieldGrid& field, const glm::dvec3& position) {
     glm::dvec3 slope(0);
-    const openvdb::Vec3d voxel = field.grid->voxelSize();
+    const openvdb::Vec3d voxel = field.grid->voxelSize(), place(position.x, position.y, position.z);
     for (int axis = 0; axis < 3; ++axis) {
-        openvdb::Vec3d behind(position.x, position.y, position.z), ahead = behind;
+        if (has_only_active_values(*field.grid)) {
+            slope[axis] = active_slope(*field.grid, field.grid->worldToIndex(place), axis);
+            continue;
+        }
+        openvdb::Vec3d behind = place, ahead = place;
         behind[axis] -= voxel[axis];
         ahead[axis] += voxel[axis];
         slope[axis] = (sampled(*field.grid, ahead) - sampled(*field.grid, behind)) / (2 * voxel[axis]);

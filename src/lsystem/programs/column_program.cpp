@@ -151,6 +151,9 @@ bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::
             case Opcode::is_true:
                 with([](double a, double) { return a != 0 ? 1.0 : 0.0; });
                 break;
+            case Opcode::held:
+                with([](double a, double) { return held_by_or(a); });
+                break;
             case Opcode::single:
                 with([](double a, double) { return stored(a, Arithmetic::cpfg); });
                 break;

@@ -29,7 +29,9 @@ std::optional<double> applied(const Expression& expression, Arithmetic arithmeti
     if (!a) return std::nullopt;
     if (expression.operands.size() == 1) return apply(op, *a, 0);
     if (op == Operator::logical_and && *a == 0) return 0;
-    if (op == Operator::logical_or && *a != 0) return arithmetic == Arithmetic::cpfg ? *a : 1;
+    if (op == Operator::logical_or && *a != 0) {
+        return arithmetic == Arithmetic::cpfg && keeps_left_of_or(expression) ? held_by_or(*a) : 1;
+    }
     const std::optional<double> b = constant_value(expression.operands[1], arithmetic, formals);
     if (!b) return std::nullopt;
     if (op != Operator::divide && op != Operator::remainder) return apply(op, *a, *b);

@@ -164,6 +164,18 @@ double apply(Operator op, double a, double b) {
     return 0;
 }
 
+bool keeps_left_of_or(const Expression& expression) {
+    using Kind = Expression::Kind;
+    const Kind left = expression.operands[0].kind;
+    return expression.op == Operator::logical_or && left != Kind::number && left != Kind::formal &&
+           left != Kind::global;
+}
+
+double held_by_or(double a) {
+    if (a == 0) return 0;
+    return std::fmod(std::trunc(a), 256) == 0 ? 1 : a;
+}
+
 double divide(double a, double b, Arithmetic arithmetic, const Place& place) {
     if (b != 0) return a / b;
     if (arithmetic == Arithmetic::cpfg) return a;

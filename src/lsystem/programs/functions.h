@@ -36,6 +36,10 @@ double apply(Operator op, double a, double b);
 /// a / b and a % b; with cpfg's arithmetic, division by 0 divides by 1. Throws EvaluationError.
 double divide(double a, double b, Arithmetic arithmetic, const Place& place);
 double remainder(double a, double b, Arithmetic arithmetic, const Place& place);
+/// Whether the value of a || b in cpfg is a's own where a holds: not that of a plain number or name.
+bool keeps_left_of_or(const Expression& expression);
+/// That value: 0 if a is 0, else a, but 1 where the integer part of a is a multiple of 256.
+double held_by_or(double a);
 /// A pure function.
 double call(Function function, std::span<const double> values, Arithmetic arithmetic);
 /// ran, nran, bran, biran. Throws EvaluationError for arguments they are not defined for.

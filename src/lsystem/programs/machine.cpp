@@ -86,6 +86,9 @@ void Machine::run(const Program& program) {
             case Opcode::is_true:
                 r[i.target] = r[i.a] != 0;
                 break;
+            case Opcode::held:
+                r[i.target] = held_by_or(r[i.a]);
+                break;
             case Opcode::single:
                 r[i.target] = stored(r[i.a], Arithmetic::cpfg);
                 break;

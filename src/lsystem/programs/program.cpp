@@ -200,9 +200,8 @@ ProgramCompiler::Operand ProgramCompiler::apply(const Expression& expression) {
 ProgramCompiler::Operand ProgramCompiler::short_circuit(const Expression& expression) {
     const std::uint32_t target = temporary();
     const Opcode leave = expression.op == Operator::logical_and ? Opcode::jump_if_false : Opcode::jump_if_true;
-    // In cpfg, what holds on the left of || is the value.
-    const bool keeps_value = arithmetic_ == Arithmetic::cpfg && expression.op == Operator::logical_or;
-    const Opcode test = keeps_value ? Opcode::copy : Opcode::is_true;
+    const bool is_held = arithmetic_ == Arithmetic::cpfg && keeps_left_of_or(expression);
+    const Opcode test = is_held ? Opcode::held : Opcode::is_true;
     emit({test, Function::sin, 0, target, reg(compile(expression.operands[0])), 0}, expression.place);
     const std::size_t jump = emit_jump(leave, target, expression.place);
     emit({Opcode::is_true, Function::sin, 0, target, reg(compile(expression.operands[1])), 0}, expression.place);

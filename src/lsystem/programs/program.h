@@ -33,6 +33,7 @@ enum class Opcode : std::uint8_t {
     equal,
     not_equal,
     is_true,  // target = a != 0
+    held,     // target = what cpfg makes of a left of ||
     single,   // target = a, rounded to a 32-bit float
     call,     // target = function(count registers from a)
     load_global,

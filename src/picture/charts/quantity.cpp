@@ -37,22 +37,35 @@ void require_quantity(std::span<const PlottedTable> tables, const std::string& q
     throw UserError(fmt::format("there is no quantity '{}'{}", quantity, did_you_mean(quantity, names)));
 }
 
-void Merged::add(double value) {
-    if (std::isnan(value)) return;
-    if (count_ == 0)
-        value_ = value;
-    else if (way_ == Way::greatest)
-        value_ = std::max(value_, value);
-    else if (way_ == Way::least)
-        value_ = std::min(value_, value);
-    else
+QuantityColumn::QuantityColumn(const RecordedTable& table, const std::string& quantity) {
+    const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
+        const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+        if (found == table.columns.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - table.columns.begin());
+    };
+    value_ = find(quantity);
+    for (const auto& [mean, count] : {std::pair{".mean", ".queries"}, std::pair{".chosen", ".grown"}}) {
+        if (!quantity.ends_with(mean)) continue;
+        weight_ = find(quantity.substr(0, quantity.rfind('.')) + count);
+    }
+}
+
+void Merged::add(double value, double weight) {
+    if (std::isnan(value) || !(weight > 0)) return;
+    if (way_ == Way::mean)
+        value_ += weight * value;
+    else if (way_ == Way::sum)
         value_ += value;
-    ++count_;
+    else if (weights_ == 0)
+        value_ = value;
+    else
+        value_ = way_ == Way::greatest ? std::max(value_, value) : std::min(value_, value);
+    weights_ += weight;
 }
 
 double Merged::value() const {
-    if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
-    return way_ == Way::mean ? value_ / static_cast<double>(count_) : value_;
+    if (weights_ == 0) return std::numeric_limits<double>::quiet_NaN();
+    return way_ == Way::mean ? value_ / weights_ : value_;
 }
 
 Merged::Way Merged::way_of(const std::string& quantity) {

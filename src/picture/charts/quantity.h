@@ -4,8 +4,10 @@
 #include "picture/charts/table_charts.h"
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace espalier::picture {
 
@@ -18,12 +20,27 @@ std::string with_powers(const std::string& unit);
 /// Throws UserError for a quantity that no table has, naming the nearest.
 void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity);
 
+/// Where a table has a quantity, and of how many values each row's mean is.
+class QuantityColumn {
+public:
+    QuantityColumn(const RecordedTable& table, const std::string& quantity);
+
+    explicit operator bool() const { return value_.has_value(); }
+    double value(const std::vector<double>& row) const { return row[*value_]; }
+    /// light.queries of light.mean, so that plants which ask nothing, or little, count as much as they asked; else 1.
+    double weight(const std::vector<double>& row) const { return weight_ ? row[*weight_] : 1; }
+
+private:
+    std::optional<std::size_t> value_, weight_;
+};
+
 /// Several plants' values of one step in one, as `chart_page` says.
 class Merged {
 public:
     explicit Merged(const std::string& quantity) : way_(way_of(quantity)) {}
 
-    void add(double value);
+    /// NaN, and what has no weight, do not count. Weights matter to means only.
+    void add(double value, double weight = 1);
     double value() const;  ///< NaN of none
 
 private:
@@ -32,8 +49,7 @@ private:
     static Way way_of(const std::string& quantity);
 
     Way way_;
-    double value_ = 0;
-    std::size_t count_ = 0;
+    double value_ = 0, weights_ = 0;
 };
 
 }  // namespace espalier::picture

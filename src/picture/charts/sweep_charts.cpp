@@ -67,10 +67,9 @@ std::vector<Axis> axes_of(const SweptRuns& sweep) {
 /// The value a run ended with.
 double value_of(const SweptRun& run, const std::string& quantity) {
     Merged merged(quantity);
-    const auto found = std::find(run.table.columns.begin(), run.table.columns.end(), quantity);
-    if (found == run.table.columns.end()) return std::numeric_limits<double>::quiet_NaN();
-    const auto column = static_cast<std::size_t>(found - run.table.columns.begin());
-    for (const std::vector<double>& row : run.table.last_rows()) merged.add(row[column]);
+    const QuantityColumn column(run.table, quantity);
+    if (!column) return std::numeric_limits<double>::quiet_NaN();
+    for (const std::vector<double>& row : run.table.last_rows()) merged.add(column.value(row), column.weight(row));
     return merged.value();
 }
 
@@ -97,9 +96,13 @@ public:
             std::vector<std::size_t> line;
             for (std::size_t i = 1; i < axes.size(); ++i) line.push_back(axes[i].index(run));
             std::vector<double>& there = values_[line][axes.empty() ? 0 : axes.front().index(run)];
-            if (std::isfinite(value)) there.push_back(value);
+            if (!std::isfinite(value)) continue;
+            there.push_back(value);
+            least_ = std::min(least_, value);
         }
     }
+    /// Where bands end: what is never negative has none below 0.
+    double lowest() const { return least_ >= 0 ? 0 : -std::numeric_limits<double>::infinity(); }
     const std::map<std::vector<std::size_t>, std::map<std::size_t, std::vector<double>>>& lines() const {
         return values_;
     }
@@ -121,6 +124,7 @@ public:
 
 private:
     std::map<std::vector<std::size_t>, std::map<std::size_t, std::vector<double>>> values_;
+    double least_ = std::numeric_limits<double>::infinity();
 };
 
 std::string last_part(const std::string& key) {
@@ -149,7 +153,7 @@ Chart line_chart(const std::vector<Axis>& axes, const Values& values, const std:
             means.x.push_back(x.place(place));
             means.y.push_back(spread.mean);
             if (!repeated) continue;
-            means.low.push_back(spread.mean - spread.deviation);
+            means.low.push_back(std::max(spread.mean - spread.deviation, values.lowest()));
             means.high.push_back(spread.mean + spread.deviation);
             for (const double value : repetitions) dots.x.push_back(x.place(place)), dots.y.push_back(value);
         }

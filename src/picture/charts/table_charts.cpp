@@ -99,7 +99,7 @@ private:
 
 void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const std::string& quantity, const Keys& keys,
                 const std::string& along, Lines lines, bool upright) {
-    const std::optional<std::size_t> column = column_of(table.table, quantity);
+    const QuantityColumn column(table.table, quantity);
     if (!column) return;
     const std::size_t at_x = table.table.column(along), plant = table.table.column("plant");
     const std::map<double, std::string> groups = groups_of(table, lines);
@@ -107,7 +107,8 @@ void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const 
     for (const std::vector<double>& row : table.table.rows) {
         const auto group = groups.find(row[plant]);
         if (group == groups.end() || !std::isfinite(row[at_x])) continue;
-        values[keys.of(run, group->second)].emplace(row[at_x], Merged(quantity)).first->second.add(row[*column]);
+        Merged& merged = values[keys.of(run, group->second)].emplace(row[at_x], Merged(quantity)).first->second;
+        merged.add(column.value(row), column.weight(row));
     }
     for (const auto& [key, by_step] : values) {
         Series series{key, {}, {}};

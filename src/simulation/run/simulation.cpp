@@ -88,7 +88,7 @@ private:
 
     void begin_recording() {
         if (scene_.frames) timeline_->choose(*scene_.frames);
-        timeline_->keep_at_most(share_memory(options_.memory, scene_.environment.processes.size()).frames);
+        timeline_->keep_at_most(share_memory(options_.memory, world_.environment().memory_kept()).frames);
         world_.attach(*timeline_);
         disk_.emplace(options_.output, options_.disk, options_.resume);
         write_record("running");

@@ -32,11 +32,10 @@ std::string commonest_module(const Model& model, const ModuleString& string) {
 
 }  // namespace
 
-MemoryShares share_memory(std::size_t budget, std::size_t processes) {
-    const std::size_t fields = processes == 0 ? 0 : budget / 2;
-    const std::size_t plants = budget - fields;
+MemoryShares share_memory(std::size_t budget, std::size_t kept) {
+    const std::size_t left = budget - std::min(budget, kept);
     // The rest is for the program itself, and for what is drawn of a step's strings before it is counted.
-    return {plants / 8 * 7, plants / 16, processes == 0 ? 0 : fields / processes};
+    return {left / 8 * 7, left / 16};
 }
 
 void MemoryBudget::limit_strings(GrowingPlant& plant) const {

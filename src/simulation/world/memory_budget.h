@@ -13,19 +13,23 @@
 
 namespace espalier::simulation {
 
-/// A budget divided between the plants and the fields of the processes.
+/// What the fields of processes leave of a budget.
 struct MemoryShares {
-    std::size_t plants;   ///< strings, old and new, what is drawn of them, and what recording takes
-    std::size_t frames;   ///< frames that wait to be written, if there are several
-    std::size_t process;  ///< the fields of each process
+    std::size_t plants;  ///< strings, old and new, what is drawn of them, and what recording takes
+    std::size_t frames;  ///< frames that wait to be written, if there are several
 };
-MemoryShares share_memory(std::size_t budget, std::size_t processes);
+/// `kept`: bytes for fields.
+MemoryShares share_memory(std::size_t budget, std::size_t kept);
 
 /// The plants' share. Stages limit and count each plant in parallel, then check all of them together; a check throws
 /// RunError that names the step, the size and the largest plant, the same with any number of threads.
 class MemoryBudget {
 public:
     explicit MemoryBudget(std::size_t bytes) : bytes_(bytes) {}
+
+    /// The share changes with what the fields leave.
+    void set_bytes(std::size_t bytes) { bytes_ = bytes; }
+    std::size_t held() const { return held_.total(); }
 
     /// What it takes counts, too, from now on. It outlives the steps.
     void count_recorder(const Recorder& recorder) { recorders_.push_back(&recorder); }

@@ -27,7 +27,7 @@
 namespace espalier::simulation {
 namespace {
 
-constexpr std::uint64_t checkpoint_signature = 0x34'646c'726f'57;  // "World4"
+constexpr std::uint64_t checkpoint_signature = 0x35'646c'726f'57;  // "World5"
 
 class Stopwatch {
 public:
@@ -69,9 +69,10 @@ Scene decided(Scene scene) {
 }  // namespace
 
 struct World::State {
-    State(const Scene& described, std::size_t budget, const std::filesystem::path& files,
+    State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
           std::shared_ptr<Printout> prints);
 
+    void share_out_memory();
     void make_environment();
     void make_plants(const std::filesystem::path& files);
     void set_lengths();
@@ -81,10 +82,11 @@ struct World::State {
     void note_ends();
     void find_fields_read();
     void take_fields();
+    void store_answers();
 
     std::shared_ptr<Printout> printout;
     Scene scene;
-    MemoryShares shares;
+    std::size_t budget;  ///< of plants and fields, bytes
     MemoryBudget memory;
     bool is_seen = true;
     ReadLog* reads = ReadLog::current();  ///< of the thread that makes the world
@@ -185,12 +187,24 @@ void World::exchange() {
         strings.push_back(&*plant.string);
     }
     if (const auto& in_time = state_->scene.environment.in_time) in_time->set(*state_->environment, state_->time());
+    state_->share_out_memory();
     state_->environment->exchange({state_->step, state_->time(), state_->scene.dt, views}, strings);
-    // Answers are kept as all parameters are.
-    for (const PlantView& plant : views) {
-        const Arithmetic arithmetic = plant.model->arithmetic;
-        if (!plant.asks || arithmetic == Arithmetic::double_precision) continue;
-        for (double& value : strings[plant.plant]->parameters) value = stored(value, arithmetic);
+    state_->share_out_memory();
+    state_->store_answers();
+}
+
+void World::answer_turtle_queries() {
+    for (GrowingPlant& plant : state_->plants) write_turtle_answers(*plant.interpretation, *plant.string);
+    state_->store_answers();
+}
+
+// Answers are kept as all parameters are.
+void World::State::store_answers() {
+    for (GrowingPlant& plant : plants) {
+        const PlantView view = plant.view();
+        const Arithmetic arithmetic = view.model->arithmetic;
+        if (!view.asks || arithmetic == Arithmetic::double_precision) continue;
+        for (double& value : plant.string->parameters) value = stored(value, arithmetic);
     }
 }
 
@@ -217,22 +231,30 @@ std::filesystem::path folder_with(const Model& model) {
     return folder.empty() ? "." : folder;
 }
 
-World::State::State(const Scene& described, std::size_t budget, const std::filesystem::path& files,
+World::State::State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
                     std::shared_ptr<Printout> prints)
     : printout(prints ? std::move(prints) : std::make_shared<Printout>()),
       scene(decided(described)),
-      shares(share_memory(budget, scene.environment.processes.size())),
-      memory(shares.plants) {
+      budget(bytes),
+      memory(share_memory(bytes, 0).plants) {
     make_environment();
+    share_out_memory();
     make_plants(files);
     find_fields_read();
     set_lengths();
 }
 
+// Plants get what the fields leave, and fields what the plants leave.
+void World::State::share_out_memory() {
+    memory.set_bytes(share_memory(budget, environment->memory_kept()).plants);
+    const std::size_t most = share_memory(budget, 0).plants;
+    environment->limit_memory(most - std::min(most, memory.held()));
+}
+
 void World::State::make_environment() {
     const SceneEnvironment& described = scene.environment;
     const auto count = static_cast<std::uint32_t>(scene.plants.size());
-    const EnvironmentContext context{"", scene.domain, scene.seed, count, shares.process, &warnings};
+    const EnvironmentContext context{"", scene.domain, scene.seed, count, budget / 2, &warnings};
     try {
         environment = std::make_unique<Environment>(described.processes, context);
     } catch (const UserError& error) {
@@ -364,6 +386,7 @@ void World::restore(std::istream& in) {
         plant.memory = get<PlantMemory>(in);
     }
     state_->environment->restore(in);
+    state_->share_out_memory();
     state_->fields.restore(in);
     state_->has_restored_fields = true;
     state_->step = step;

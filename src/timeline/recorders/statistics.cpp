@@ -4,7 +4,7 @@
 // Columns: step, time (in the scene's unit), plant (its number), name; modules (of the string, brackets included);
 // queries; internodes; organs (polygons included); length (m, of all internodes); height (m, highest point above the
 // base of the first internode); volume (m3, of all internodes); born, died (modules since the step before, brackets
-// included); then the processes' quantities.
+// included); then the processes' quantities, empty where there is none.
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
@@ -101,7 +101,7 @@ private:
                         csv_text(plant.name), modules, queries, geometry.internodes.size(),
                         geometry.organs.size() + geometry.polygons.size(), format_exact(total_length(geometry)),
                         format_exact(height(geometry)), format_exact(total_volume(geometry)), turnover(plant));
-        for (const Quantity& quantity : plant.quantities) row.append(",").append(format_exact(quantity.value));
+        for (const Quantity& quantity : plant.quantities) row.append(",").append(csv_number(quantity.value));
         return row + "\n";
     }
 

@@ -170,14 +170,11 @@ TEST_CASE("from within a ball light passes the leaves in front of it", "[chiba]"
     CHECK(below(-2.5) == 1);
 }
 
-TEST_CASE("with the numbers of cpfg, the whole chord of a ball counts from within it", "[chiba]") {
-    const auto below = [](double aside, double height) {
-        return answers(zenith + "numbers = \"cpfg\"\n", {{{0, 0, 0}, {0.1}}, {{aside, height, 0}, {2}}})[0];
-    };
-    for (const double height : {-1.0, 1.0, 3.0}) CHECK(below(0, height) == Approx(0.25));
-    CHECK(below(1.2, -1) == Approx(std::pow(0.25, 0.8)));
-    CHECK(below(1.2, -1.7) == 1);
-    CHECK(below(0, -2.5) == 1);
+TEST_CASE("by chords, two balls that overlap have the light that cpfg's program answered", "[chiba]") {
+    const std::vector<double> light =
+        answers("source_direction = [\"0 1 0\"]\ntransmittance = 0.5\n", {{{0, 0, 0}, {0.4}}, {{0, 0.3, 0}, {0.4}}});
+    CHECK(light[0] == Approx(0.545254).margin(5e-7));
+    CHECK(light[1] == Approx(0.917004).margin(5e-7));
 }
 
 TEST_CASE("light among clusters is the same bytes in any order of queries and on any number of threads", "[chiba]") {

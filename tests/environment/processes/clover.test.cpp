@@ -150,6 +150,16 @@ TEST_CASE("with the numbers of cpfg, the picture is stretched from corner cell t
     CHECK(ask(environment, questions) == expected);
 }
 
+TEST_CASE("with the numbers of cpfg, there is no red without a picture", "[clover]") {
+    Environment white = environment_of("[light]\nprocess = \"clover\"\nnumbers = \"cpfg\"\n");
+    CHECK(ask(white, {{{0.5, 0.5, 0}, {0, 3}}}) == std::vector<double>{1, 0});
+    const TemporaryFolder folder;
+    const std::string name = folder.write("plain.rgb", sgi(false)).string();
+    Environment environment = environment_of(
+        "[light]\nprocess = \"clover\"\ngrid_size = [3, 2]\nnumbers = \"cpfg\"\ninput_image = \"" + name + "\"\n");
+    CHECK(ask(environment, {{{0.9, 0.9, 0}, {0, 0}}})[1] == 21 / 128.0);
+}
+
 TEST_CASE("a file of parameters asks for the numbers of cpfg, and a scene may ask for the exact ones", "[clover]") {
     const TemporaryFolder folder;
     const std::string file = folder.write("clover.spec", "grid size: 9x7\ngrid range: 9 7\n").string();

@@ -1,7 +1,10 @@
 // The process as a scene meets it: fields, statistics, checkpoints, mistakes.
+#include "espalier/geometry/field_values.h"
+
 #include "catch.h"
 #include "environment/water/soil.h"
 
+#include <fmt/format.h>
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
@@ -176,9 +179,135 @@ TEST_CASE("the domain is the scene's unless the process has its own, and a thin 
     CHECK(own.fields.need("water").grid->box.dim() == openvdb::Coord(4, 8, 1));
 }
 
+TEST_CASE("the soil of a step is that of its time: erfc(x / sqrt(4 D t)) below a wet face", "[environment][water]") {
+    const double diffusion = GENERATE(1e-3, 2.7e-3), dt = GENERATE(0.25, 0.7);
+    INFO("D " << diffusion << ", dt " << dt);
+    Soil soil(
+        fmt::format("domain = {{ lower = [0, 0, 0], upper = [1, 0.01, 0] }}\nvoxel = 0.01\ndiffusion = {}\n"
+                    "boundaries = {{ left = {{ fixed = 0.4 }} }}",
+                    diffusion));
+    soil.world.step = 0;
+    for (int step = 0; step * dt <= 8; ++step) {
+        soil.step({}, dt);
+        const double t = step * dt;
+        if (step == 0) CHECK(soil.quantity("maximum") == 0);
+        if (t < 2) continue;
+        for (const double x : {0.033, 0.055, 0.087}) {
+            const double expected = 0.4 * std::erfc(x / std::sqrt(4 * diffusion * t));
+            INFO("x " << x << ", t " << t);
+            CHECK(soil.ask({{{x, 0.005, 0}, {0, 0}}})[0][1] == Approx(expected).epsilon(0.01));
+        }
+    }
+}
+
+TEST_CASE("n steps have n pulses of rain, and step 0 is the beginning", "[environment][water]") {
+    const std::string mode = GENERATE("diffusion = 0.001", "mode = \"relaxation\"");
+    Soil soil("domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\ninitial = 0.1\n" + mode +
+              "\nsources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 1], rate = 0.002 },"
+              "{ shape = \"sphere\", center = [0.5, 0.2, 0.5], radius = 0.1, hold = 0.3 }]");
+    soil.world.step = 0;
+    soil.step({}, 0.5);
+    const double held = soil.quantity("added");
+    CHECK(soil.quantity("total") == Approx(100 + held));
+    CHECK(soil.ask({{{0.55, 0.25, 0.55}, {0, 0}}})[0][1] == Approx(0.3));
+    CHECK(soil.ask({{{0.55, 0.95, 0.55}, {0, 0}}})[0][1] == Approx(0.1));
+    Soil rain("domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\ninitial = 0.1\n" + mode +
+              "\nsources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 1], rate = 0.002 }]");
+    rain.world.step = 0;
+    for (int step = 0; step <= 40; ++step) {
+        rain.step({}, 0.5);
+        CHECK(rain.quantity("added") == Approx(step * 0.5 * 0.002 * 100));
+    }
+}
+
+TEST_CASE("rain that finds no room runs off, and the balance knows it", "[environment][water]") {
+    const std::string relaxation = "mode = \"relaxation\"";
+    const std::string mode = GENERATE_COPY(std::string("diffusion = 0.0004"), std::string("diffusion = 0"), relaxation);
+    Soil soil("domain = { lower = [0, 0, 0], upper = [1, 1, 0.1] }\nvoxel = 0.1\ninitial = 0.1\nporosity = 0.43\n" +
+              mode +
+              "\nsources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 0.1], rate = 0.07 },"
+              "{ shape = \"box\", lower = [0.5, 0.8, 0], upper = [1, 1, 0.1], rate = 0.01 }]");
+    double before = 0;
+    for (int step = 0; step < 60; ++step) {
+        soil.step({{{0.31, 0.94, 0.05}, {0.02}}});
+        CHECK(soil.quantity("maximum") <= 0.43);
+        if (mode != relaxation) CHECK(std::abs(soil.quantity("balance")) < 1e-12);
+        CHECK(soil.quantity("runoff") >= before);
+        before = soil.quantity("runoff");
+    }
+    CHECK(before > 0);
+    CHECK(soil.quantity("added") == Approx(60 * (0.07 * 10 + 0.01 * 10)));
+    if (mode == relaxation) return;  // does not conserve
+    CHECK(soil.quantity("total") == Approx(10 + soil.quantity("added") - soil.quantity("drunk") - before));
+}
+
+TEST_CASE("models read the field up to its sides and stones as the process answers it", "[environment][water]") {
+    // Content that rises along x and y by 0.3 and 0.2 per metre, in a soil with a stone; also in the plane.
+    const bool flat = GENERATE(false, true);
+    std::string text = fmt::format(
+        "domain = {{ lower = [-1, -1, {0}], upper = [1, 1, {1}] }}\nvoxel = 0.1\n"
+        "obstacles = [{{ shape = \"box\", lower = [-0.3, -0.4, -9], upper = [0.2, 0.1, 9] }}]\nregions = [\n",
+        flat ? 0 : -1, flat ? 0 : 1);
+    for (int i = 0; i < 20; ++i) {
+        for (int j = 0; j < 20; ++j) {
+            const double x = -0.95 + 0.1 * i, y = -0.95 + 0.1 * j;
+            text += fmt::format("{{ shape = \"box\", lower = [{}, {}, -9], upper = [{}, {}, 9], value = {} }},\n",
+                                x - 0.04, y - 0.04, x + 0.04, y + 0.04, 0.5 + 0.3 * x + 0.2 * y);
+        }
+    }
+    Soil soil(text + "]\n");
+    FieldValues values;
+    values.take(soil.fields, {"water"});
+    RandomSamples samples({4, 0, Stream::process}, 1, 1);
+    for (int i = 0; i < 300; ++i) {
+        const glm::dvec3 place(2 * samples.uniform() - 1, 2 * samples.uniform() - 1,
+                               flat ? 0 : 2 * samples.uniform() - 1);
+        const auto near_stone = [&](double margin) {
+            return std::max(std::abs(place.x + 0.05), std::abs(place.y + 0.15)) < 0.25 + margin;
+        };
+        if (near_stone(0.05)) continue;
+        const glm::dvec3 slope = values.gradient("water", place);
+        INFO(place.x << " " << place.y << " " << place.z);
+        const double answered = soil.ask({{place, {0, 0}}})[0][1];
+        CHECK(values.value("water", place) == Approx(answered).margin(1e-6));
+        if (near_stone(0.2)) continue;  // slopes beside corners are less exact
+        CHECK(slope.x == Approx(0.3).epsilon(1e-4));
+        CHECK(slope.y == Approx(0.2).epsilon(1e-4));
+        CHECK(std::abs(slope.z) < 1e-4);
+    }
+}
+
+TEST_CASE("more water than room is a warning, once, where the soil has no porosity", "[environment][water]") {
+    const std::string text =
+        "domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\nvoxel = 0.1\n"
+        "sources = [{ shape = \"box\", lower = [0, 0.9, 0], upper = [1, 1, 1], rate = 0.4 }]\n";
+    std::vector<Diagnostic> warnings;
+    EnvironmentContext context;
+    context.warnings = &warnings;
+    Soil soil(text, context), plain(text + "unit = \"mol/m3\"", context), full(text + "porosity = 0.4", context);
+    for (int step = 0; step < 5; ++step) {
+        for (Soil* each : {&soil, &plain, &full}) each->step();
+    }
+    REQUIRE(warnings.size() == 1);
+    mentions(warnings[0].message, "'water' holds 1.2 m3/m3");
+    mentions(warnings[0].message, "porosity");
+}
+
 TEST_CASE("mistakes in a soil's table are explained", "[environment][water]") {
     const std::string domain = "domain = { lower = [0, 0, 0], upper = [1, 1, 1] }\n";
     CHECK(mentions(mistake(domain + "voxel = -0.1"), "voxel"));
+    const std::string full = domain + "voxel = 0.1\nporosity = 0.4\n";
+    CHECK(mistake(full + "initial = 0.4").empty());
+    CHECK(mentions(mistake(full + "initial = 0.5"), "a content of 0.5 is more than the porosity of the soil, 0.4"));
+    CHECK(mentions(mistake(full + "boundaries = { top = { fixed = 1 } }"), "porosity"));
+    CHECK(mentions(mistake(full + "layers = [{ initial = 0.41 }]"), "porosity"));
+    CHECK(mentions(mistake(full + "regions = [{ shape = \"sphere\", center = [0, 0, 0], radius = 1, value = 0.41 }]"),
+                   "porosity"));
+    CHECK(mentions(mistake(full + "sources = [{ shape = \"sphere\", center = [0, 0, 0], radius = 1, hold = 0.41 }]"),
+                   "porosity"));
+    CHECK(mentions(mistake(full + "begin = \"steady\"\ndiffusion = 0.01\nboundaries = { top = \"open\" }\n"
+                                  "sources = [{ shape = \"box\", lower = [0, 0, 0], upper = [1, 1, 1], rate = 1 }]"),
+                   "porosity"));
     CHECK(mentions(mistake(domain), "voxel"));
     CHECK(mentions(mistake("voxel = 0.1"), "domain"));
     CHECK(mentions(mistake(domain + "voxel = 0.1\ndifusion = 1"), "diffusion"));

@@ -4,6 +4,7 @@
 #include "catch.h"
 #include "environment/exchange_plants.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <tbb/global_control.h>
 
@@ -218,10 +219,10 @@ TEST_CASE("one thread and two give the same bytes, of answers and of fields", "[
 
 TEST_CASE("a grid that grows with the plants answers as a large fixed one", "[environment]") {
     const std::vector<Asked> questions = crown(300);
-    const std::string domain = "domain = { lower = [-40, -40, -40], upper = [40, 40, 40] }\n";
+    const std::string domain = "domain = { lower = [-40.5, -40.5, -40.5], upper = [40.5, 40.5, 40.5] }\n";
     CHECK(same_bytes(answers(palubicki, questions), answers(palubicki + domain, questions)));
     EnvironmentContext context;
-    context.domain = Box{{-30, -30, -30}, {30, 30, 30}};
+    context.domain = Box{{-30.5, -30.5, -30.5}, {30.5, 30.5, 30.5}};
     CHECK(same_bytes(answers(palubicki, questions), answers(palubicki + "fixed = true\n", questions, context)));
 }
 
@@ -236,6 +237,103 @@ TEST_CASE("outside a fixed domain is full light", "[environment]") {
     CHECK(light[2] == 1);
     CHECK(light[3] == Approx(1 - 0.25 / 4));
     CHECK(light[4] == 1);
+}
+
+TEST_CASE("shade reaches the sides of a fixed domain, wherever its sides lie between voxels", "[environment]") {
+    // One organ lets half the light through, straight down without end, in whatever voxel it stands.
+    const std::string column =
+        "[light]\nprocess = \"voxel-shade\"\nvoxel = 0.5\nmode = \"attenuate\"\nstrength = 0.5\n"
+        "dissipation = 1\nspread = 0\ndepth = 30\n";
+    const std::string sampling = GENERATE("trilinear", "nearest");
+    const auto below_caster = [&](double bottom, double top, const glm::dvec3& caster, const glm::dvec3& place) {
+        const std::string domain = fmt::format(
+            "domain = {{ lower = [-1, {}, -1], upper = [1, {}, 1] }}\nsampling = \"{}\"\n", bottom, top, sampling);
+        return answers(column + domain, {{caster, {1}}, {place, {0}}})[1];
+    };
+    const glm::dvec3 caster(0.25, 0.95, 0.25);
+    const auto at = [](double height) { return glm::dvec3(0.25, height, 0.25); };
+    for (double top = 0.96; top < 2.1; top += 0.0371) {
+        for (const double bottom : {0.0, -0.3, -1.1}) {
+            INFO("from " << bottom << " to " << top << ", " << sampling);
+            CHECK(below_caster(bottom, top, caster, at(std::min(bottom + 0.01, 0.3))) == Approx(0.5));
+            CHECK(below_caster(bottom, top, caster, at(bottom)) == Approx(0.5));
+            CHECK(below_caster(bottom, top, caster, at(top + 0.6)) == 1);
+            CHECK(below_caster(bottom, top, caster, at(bottom - 0.6)) == 1);
+        }
+    }
+    // In the last half voxel it is as bright as in the middle of the outermost one, also on the side and in a corner.
+    for (const double height : {0.8, 0.74, 0.501, 0.45, 0.2}) {
+        CHECK(below_caster(0, 1, caster, at(height)) == Approx(0.5));
+    }
+    CHECK(below_caster(0, 1, {0.75, 1, 0.75}, {1, 0, 1}) == Approx(0.5));
+    CHECK(below_caster(0, 1, {1, 1, 1}, {0.75, 0.3, 0.75}) == Approx(0.5));
+}
+
+TEST_CASE("voxels cover a domain about its middle, in the soil as in the shade", "[environment]") {
+    RandomSamples samples({8, 0, Stream::process}, 1, 1);
+    for (int i = 0; i < 100; ++i) {
+        const auto number = [&](double most) { return most * (2 * samples.uniform() - 1); };
+        const glm::dvec3 lower(number(3), number(3), number(3));
+        const glm::dvec3 upper =
+            lower + 0.7 + 2.0 * glm::dvec3(samples.uniform(), samples.uniform(), samples.uniform());
+        const std::string grid =
+            fmt::format("voxel = {}\ndomain = {{ lower = [{}, {}, {}], upper = [{}, {}, {}] }}\n",
+                        0.1 + 0.2 * samples.uniform(), lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
+        Environment environment = environment_of("[light]\nprocess = \"voxel-shade\"\n" + grid +
+                                                 "[water]\nprocess = \"soil-water\"\n" + grid);
+        const FieldGrid& light = *environment.fields().need("light").grid;
+        const FieldGrid& water = *environment.fields().need("water").grid;
+        CHECK(light.box.dim() == water.box.dim());
+        const openvdb::Vec3d first = light.grid->indexToWorld(light.box.min()),
+                             last = light.grid->indexToWorld(light.box.max());
+        CHECK((first - water.grid->indexToWorld(water.box.min())).length() < 1e-9);
+        CHECK((first + last - openvdb::Vec3d(lower.x + upper.x, lower.y + upper.y, lower.z + upper.z)).length() < 1e-9);
+    }
+}
+
+TEST_CASE("under random leaves that hide a of the ground each, light is Beer's law with k = -ln(1 - a) / a",
+          "[environment]") {
+    // docs/light.md gives this setting. Each organ lets 1 - a of a voxel's light through, straight down; n organs stand
+    // over a column, the leaf area index is n a, and the light (1 - a)^n = exp(-k LAI).
+    for (const double a : {0.01, 0.1, 0.37, 0.5, 0.83}) {
+        const std::string scene = fmt::format(
+            "[light]\nprocess = \"voxel-shade\"\nvoxel = 0.5\nmode = \"attenuate\"\nstrength = {}\n"
+            "dissipation = 1\nspread = 0\ndepth = 100\nsampling = \"nearest\"\n",
+            a);
+        const double k = -std::log(1 - a) / a;
+        RandomSamples samples({9, 0, Stream::process}, 1, 1);
+        std::vector<Asked> questions;
+        for (const int n : {0, 1, 3, 7, 20, 50}) {
+            const double x = 2.0 * n;
+            questions.push_back({{x, 0, 0}, {0}});
+            for (int organ = 0; organ < n; ++organ) {
+                questions.push_back({{x + 0.49 * (samples.uniform() - 0.5), 1 + 40 * samples.uniform(),
+                                      0.49 * (samples.uniform() - 0.5)},
+                                     {1}});
+            }
+        }
+        const std::vector<double> light = answers(scene, questions);
+        std::size_t at = 0;
+        for (const int n : {0, 1, 3, 7, 20, 50}) {
+            CHECK(light[at] == Approx(std::exp(-k * n * a)).epsilon(1e-8).margin(1e-12));
+            at += static_cast<std::size_t>(n) + 1;
+        }
+    }
+    // With strengths s = 1 - exp(-k A / voxel^2), any leaf area A counts, and the law holds with k itself.
+    const std::string scene =
+        "[light]\nprocess = \"voxel-shade\"\nvoxel = 0.25\nmode = \"attenuate\"\nstrength = 1\n"
+        "dissipation = 1\nspread = 0\ndepth = 200\nsampling = \"nearest\"\n";
+    RandomSamples samples({10, 0, Stream::process}, 1, 1);
+    for (const double k : {0.3, 0.5, 0.77}) {
+        std::vector<Asked> questions{{{0, 0, 0}, {0}}};
+        double area = 0;
+        for (int leaf = 0; leaf < 60; ++leaf) {
+            const double own = 0.01 * samples.uniform();
+            area += own;
+            questions.push_back({{0, 0.5 + 30 * samples.uniform(), 0}, {1 - std::exp(-k * own / (0.25 * 0.25))}});
+        }
+        CHECK(answers(scene, questions)[0] == Approx(std::exp(-k * area / (0.25 * 0.25))).epsilon(1e-7));
+    }
 }
 
 TEST_CASE("plants far apart do not influence each other at all", "[environment]") {
@@ -261,7 +359,7 @@ TEST_CASE("shade is made anew each step: a caster that is gone shades no more", 
 TEST_CASE("a periodic domain shades across its sides, a lone caster still sees full light", "[environment]") {
     const std::string scene = palubicki +
                               "periodic = true\n"
-                              "domain = { lower = [-3.5, -1, -3.5], upper = [3.5, 20, 3.5] }\n";
+                              "domain = { lower = [-3.5, -1.5, -3.5], upper = [3.5, 20.5, 3.5] }\n";
     // From x = 3 the pyramid reaches x = 4 one layer below, which is x = -3 of the next period.
     const std::vector<double> light =
         answers(scene, {{{3, 10, 0}, {1}}, {{-3, 9, 0}, {0}}, {{-2, 9, 0}, {0}}, {{11, 9, 7}, {0}}});
@@ -308,7 +406,8 @@ TEST_CASE("statistics sum up one plant's answers", "[environment]") {
     const std::vector<double> expected{1 - 0.25 / 4, 1 - 0.25 / 2, 1, 2, 1};
     for (std::size_t i = 0; i < 5; ++i) CHECK(first[i].value == Approx(expected[i]));
     CHECK(environment.statistics(1)[0].value == 1);
-    for (const Quantity& quantity : last) CHECK(quantity.value == 0);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(std::isnan(last[i].value));  // of nothing
+    for (std::size_t i = 3; i < 5; ++i) CHECK(last[i].value == 0);
 }
 
 TEST_CASE("bad parameters are refused before anything is allocated", "[environment]") {

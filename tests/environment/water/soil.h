@@ -84,7 +84,7 @@ struct Soil {
 
     EnvironmentContext context;
     Fields fields;
-    WorldView world;
+    WorldView world{1, 0, 1, {}};  ///< behind the initial state: the first advance is of one dt
     std::unique_ptr<EnvironmentProcess> process;
 };
 
