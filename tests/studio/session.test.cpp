@@ -240,7 +240,7 @@ TEST_CASE("growth can be stopped", "[studio]") {
 }
 
 TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is asked to", "[studio][stop]") {
-    const std::string loop = "F : {i = 0; while (Q == 3 && i < 9e7) i = i + LENGTH;} 1 --> F F\nendlsystem\n";
+    const std::string loop = "F : {i = 0; while (Q == 3 && i < 9e7) {i = i + LENGTH;}} 1 --> F F\nendlsystem\n";
     const std::string begin = "#define LENGTH 1\nlsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F');
     const std::string light = "environment p;\n" + begin + "?p(1)\n" + loop;
     for (const bool is_lit : {false, true}) {
@@ -271,7 +271,7 @@ TEST_CASE("a change ends the endless growth before it, and so does the end of th
     const auto begin = std::chrono::steady_clock::now();
     {
         OpenStudio studio("#define LENGTH 1\nlsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F') +
-                          "\nF : {i = 0; while (i < 9e7) i = i + LENGTH;} 1 --> F\nendlsystem\n");
+                          "\nF : {i = 0; while (i < 9e7) {i = i + LENGTH;}} 1 --> F\nendlsystem\n");
         ListeningPage& page = studio.begin();
         studio.wait([&] { return page.last("growth")["step"] == 0; });
         studio.change({{"settings", {{"LENGTH", "100000000"}}}});
@@ -283,7 +283,8 @@ TEST_CASE("a change ends the endless growth before it, and so does the end of th
 
 TEST_CASE("what models print is one message of the page", "[studio][stop]") {
     OpenStudio studio(
-        "#define LENGTH 1\nlsystem: 1\nStartEach: { for (i = 0; i < 300; i += 1) printf(\"step %g%c\\n\", Q, 27); }\n"
+        "#define LENGTH 1\nlsystem: 1\nStartEach: { for (i = 0; i < 300; i += 1) { printf(\"step %g%c\\n\", Q, 27); } "
+        "}\n"
         "derivation length: 3\naxiom: F(LENGTH)\nF --> F\nendlsystem\n");
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
