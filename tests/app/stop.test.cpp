@@ -65,11 +65,12 @@ public:
     }
 
     json record() const { return json::parse(text_of(path() / "out" / "run.json")); }
-    std::size_t frames() const {
-        std::size_t count = 0;
-        for (const auto& file : fs::directory_iterator(path() / "out" / "plants")) {
-            count += file.path().extension() == ".vtp";
-        }
+    int frames() const {
+        if (!fs::exists(path() / "out" / "plants.pvd")) return 0;
+        const std::string collection = text_of(path() / "out" / "plants.pvd");
+        CHECK_THAT(collection, Contains("</VTKFile>"));
+        int count = 0;
+        for (std::size_t at = 0; (at = collection.find("<DataSet", at)) != std::string::npos; ++at) ++count;
         return count;
     }
 
@@ -97,7 +98,7 @@ const std::vector<Work> works{
     {"sweeps of a relaxation", -1, asking("(1)"),
      domain + "process = \"soil-water\"\nvoxel = 0.04\nmode = \"relaxation\"\nsweeps = 1000000000\n"
               "regions = [{ shape = \"box\", lower = [-1, -1, -1], upper = [0, 0, 0], value = 1 }]\n"},
-    {"rounds of a reaction", -1, asking("(1)"),
+    {"rounds of a reaction", 0, asking("(1)"),
      domain + "process = \"reaction-diffusion\"\npattern = \"net\"\ncolumns = 400\nrows = 400\nrounds = 100000\n"},
 };
 
@@ -111,8 +112,7 @@ TEST_CASE_METHOD(Stoppable, "Ctrl-C ends a run in the midst of a step, and the f
         CHECK_THAT(outcome.out, Contains("0 of 9 steps (interrupted)") || Contains("1 of 9 steps (interrupted)"));
         CHECK(record()["exit"] == "interrupted");
         CHECK(record()["steps_done"] == std::max(work.last_whole, 0));
-        CHECK(frames() == static_cast<std::size_t>(work.last_whole + 1));
-        CHECK_THAT(text_of(path() / "out" / "plants.pvd"), Contains("</VTKFile>"));
+        CHECK(frames() == work.last_whole + 1);
     }
 }
 
