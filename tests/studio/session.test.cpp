@@ -260,9 +260,9 @@ TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is 
         page.packets.clear();
         studio.ask({{"do", "frame"}, {"growth", page.last("growth")["growth"]}, {"step", 1}});
         studio.wait([&] { return !page.packets.empty(); });
-        studio.change({{"settings", {{"LENGTH", "100000000"}}}});
-        studio.wait_until_grown();
-        CHECK(page.last("growth")["step"] == 5);
+        if (is_lit) continue;  // a scene has no settings of its model
+        CHECK_FALSE(studio.change({{"settings", {{"LENGTH", "100000000"}}}}).contains("error"));
+        studio.wait([&] { return page.last("growth")["step"] == 5; });
     }
 }
 
