@@ -65,11 +65,12 @@ public:
     }
 
     json record() const { return json::parse(text_of(path() / "out" / "run.json")); }
-    std::size_t frames() const {
-        std::size_t count = 0;
-        for (const auto& file : fs::directory_iterator(path() / "out" / "plants")) {
-            count += file.path().extension() == ".vtp";
-        }
+    int frames() const {
+        if (!fs::exists(path() / "out" / "plants.pvd")) return 0;
+        const std::string collection = text_of(path() / "out" / "plants.pvd");
+        CHECK_THAT(collection, Contains("</VTKFile>"));
+        int count = 0;
+        for (std::size_t at = 0; (at = collection.find("<DataSet", at)) != std::string::npos; ++at) ++count;
         return count;
     }
 
@@ -81,11 +82,12 @@ const std::string vanishing = "A(x) : x < 50 --> A(x+1) A(x+1)\nA(x) : x >= 50 -
 const std::string header = "lsystem: 1\nderivation length: 9\naxiom: ";
 const std::vector<Work> works{
     {"loops of blocks", 1,
-     header + std::string(500, 'F') + "\nF : {i = 0; while (Q > 1 && i < 90000000) i = i + 1;} 1 --> F\nendlsystem\n"},
+     header + std::string(500, 'F') +
+         "\nF : {i = 0; while (Q > 1 && i < 90000000) {i = i + 1;}} 1 --> F\nendlsystem\n"},
     {"random numbers", 0, header + std::string(500, 'F') + "\nF --> G(biran(1e8, 0.5))\nendlsystem\n"},
     {"printing", 1,
-     "lsystem: 1\nStartEach: { for (j = 0; Q > 1 && j < 1e4; j += 1) for (i = 0; i < 1e4; i += 1) printf(\"%1000d\", "
-     "1); }\n"
+     "lsystem: 1\nStartEach: { for (j = 0; Q > 1 && j < 1e4; j += 1) { for (i = 0; i < 1e4; i += 1) { "
+     "printf(\"%1000d\", 1); } } }\n"
      "derivation length: 9\naxiom: F\nF --> F\nendlsystem\n"},
     {"a decomposition that writes nothing", 1,
      header + "B\nB : Q > 1 --> A(0)\ndecomposition\nmaximum depth: 60\n" + vanishing},
@@ -96,7 +98,7 @@ const std::vector<Work> works{
     {"sweeps of a relaxation", -1, asking("(1)"),
      domain + "process = \"soil-water\"\nvoxel = 0.04\nmode = \"relaxation\"\nsweeps = 1000000000\n"
               "regions = [{ shape = \"box\", lower = [-1, -1, -1], upper = [0, 0, 0], value = 1 }]\n"},
-    {"rounds of a reaction", -1, asking("(1)"),
+    {"rounds of a reaction", 0, asking("(1)"),
      domain + "process = \"reaction-diffusion\"\npattern = \"net\"\ncolumns = 400\nrows = 400\nrounds = 100000\n"},
 };
 
@@ -110,8 +112,7 @@ TEST_CASE_METHOD(Stoppable, "Ctrl-C ends a run in the midst of a step, and the f
         CHECK_THAT(outcome.out, Contains("0 of 9 steps (interrupted)") || Contains("1 of 9 steps (interrupted)"));
         CHECK(record()["exit"] == "interrupted");
         CHECK(record()["steps_done"] == std::max(work.last_whole, 0));
-        CHECK(frames() == static_cast<std::size_t>(work.last_whole + 1));
-        CHECK_THAT(text_of(path() / "out" / "plants.pvd"), Contains("</VTKFile>"));
+        CHECK(frames() == work.last_whole + 1);
     }
 }
 
@@ -128,7 +129,8 @@ TEST_CASE_METHOD(Stoppable, "Ctrl-C ends the reading of macros that multiply", "
 TEST_CASE_METHOD(Stoppable, "a run of long steps can go on from before the step that was dropped", "[app][stop]") {
     // The steps take longer and longer, until none ends in time.
     const std::string model =
-        "lsystem: 1\nStartEach: { n = 0; for (i = 0; i < 3e6 * Q * Q; i += 1) n += sin(i); }\nderivation length: 7\n"
+        "lsystem: 1\nStartEach: { n = 0; for (i = 0; i < 1.5e6 * Q * Q; i += 1) { n += sin(i); } }\nderivation length: "
+        "7\n"
         "axiom: A(0)\nA(x) --> F(n)A(x+1)\nendlsystem\n";
     write("it.l", model);
     REQUIRE(run("run it.l --quiet --output whole").code == 0);
@@ -147,8 +149,8 @@ TEST_CASE_METHOD(Stoppable, "a run of long steps can go on from before the step 
 TEST_CASE_METHOD(Workplace, "what a model prints is shown without escape sequences, and not without end",
                  "[app][stop]") {
     write("it.l",
-          "lsystem: 1\nStart: { printf(\"red %c[31m bell %c\\n\", 27, 7); for (i = 0; i < 1e6; i += 1) printf(\"line "
-          "%g\\n\", i); }\n"
+          "lsystem: 1\nStart: { printf(\"red %c[31m bell %c\\n\", 27, 7); for (i = 0; i < 1e6; i += 1) { printf(\"line "
+          "%g\\n\", i); } }\n"
           "derivation length: 1\naxiom: F\nF --> F F\nendlsystem\n");
     for (const std::string command : {"derive", "run --quiet --output out"}) {
         const Outcome outcome = Workplace::run(command + " it.l");

@@ -183,7 +183,7 @@ TEST_CASE_METHOD(Runs, "an interrupt during the last step interrupts nothing", "
 TEST_CASE_METHOD(Runs, "a run that is asked to end in the midst of a step drops it", "[simulation][stop]") {
     const Scene endless =
         scene_with_model("lsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F') +
-                         "\nF : {i = 0; while (Q > 2 && i < 9e7) i = i + 1;} 1 --> F F\nendlsystem\n");
+                         "\nF : {i = 0; while (Q > 2 && i < 9e7) {i = i + 1;}} 1 --> F F\nendlsystem\n");
     StopRequest interrupt;
     const StopRequest::Scope scope(&interrupt);
     std::jthread asking;

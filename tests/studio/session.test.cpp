@@ -3,7 +3,6 @@
 #include "session_fixture.h"
 
 #include <chrono>
-#include <thread>
 
 using namespace studio_test;
 
@@ -240,7 +239,7 @@ TEST_CASE("growth can be stopped", "[studio]") {
 }
 
 TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is asked to", "[studio][stop]") {
-    const std::string loop = "F : {i = 0; while (Q == 3 && i < 9e7) i = i + LENGTH;} 1 --> F F\nendlsystem\n";
+    const std::string loop = "F : {i = 0; while (Q == 3 && i < 9e7) {i = i + LENGTH;}} 1 --> F F\nendlsystem\n";
     const std::string begin = "#define LENGTH 1\nlsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F');
     const std::string light = "environment p;\n" + begin + "?p(1)\n" + loop;
     for (const bool is_lit : {false, true}) {
@@ -250,8 +249,8 @@ TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is 
                 "lit.toml", "[[plant]]\nmodel = \"plant.l\"\n[environment.p]\nprocess = \"voxel-shade\"\n");
         }
         ListeningPage& page = studio.begin();
-        studio.wait([&] { return page.last("growth")["step"] == 2; });
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        const auto begun = std::chrono::steady_clock::now();
+        studio.wait([&] { return std::chrono::steady_clock::now() - begun > std::chrono::seconds(1); });
         const auto asked = std::chrono::steady_clock::now();
         studio.ask({{"do", "stop"}});
         studio.wait([&] { return page.last("growth")["state"] == "stopped"; });
@@ -261,9 +260,9 @@ TEST_CASE("growth can be stopped in the midst of a step, and goes on when it is 
         page.packets.clear();
         studio.ask({{"do", "frame"}, {"growth", page.last("growth")["growth"]}, {"step", 1}});
         studio.wait([&] { return !page.packets.empty(); });
-        studio.change({{"settings", {{"LENGTH", "100000000"}}}});
-        studio.wait_until_grown();
-        CHECK(page.last("growth")["step"] == 5);
+        if (is_lit) continue;  // a scene has no settings of its model
+        CHECK_FALSE(studio.change({{"settings", {{"LENGTH", "100000000"}}}}).contains("error"));
+        studio.wait([&] { return page.last("growth")["step"] == 5; });
     }
 }
 
@@ -271,7 +270,7 @@ TEST_CASE("a change ends the endless growth before it, and so does the end of th
     const auto begin = std::chrono::steady_clock::now();
     {
         OpenStudio studio("#define LENGTH 1\nlsystem: 1\nderivation length: 5\naxiom: " + std::string(500, 'F') +
-                          "\nF : {i = 0; while (i < 9e7) i = i + LENGTH;} 1 --> F\nendlsystem\n");
+                          "\nF : {i = 0; while (i < 9e7) {i = i + LENGTH;}} 1 --> F\nendlsystem\n");
         ListeningPage& page = studio.begin();
         studio.wait([&] { return page.last("growth")["step"] == 0; });
         studio.change({{"settings", {{"LENGTH", "100000000"}}}});
@@ -283,7 +282,8 @@ TEST_CASE("a change ends the endless growth before it, and so does the end of th
 
 TEST_CASE("what models print is one message of the page", "[studio][stop]") {
     OpenStudio studio(
-        "#define LENGTH 1\nlsystem: 1\nStartEach: { for (i = 0; i < 300; i += 1) printf(\"step %g%c\\n\", Q, 27); }\n"
+        "#define LENGTH 1\nlsystem: 1\nStartEach: { for (i = 0; i < 300; i += 1) { printf(\"step %g%c\\n\", Q, 27); } "
+        "}\n"
         "derivation length: 3\naxiom: F(LENGTH)\nF --> F\nendlsystem\n");
     ListeningPage& page = studio.begin();
     studio.wait_until_grown();
