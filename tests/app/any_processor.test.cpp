@@ -14,7 +14,8 @@ const char* const older_processor = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,
 /// Scenes, not what scenes are made of.
 std::set<fs::path> scenes() {
     std::set<fs::path> found;
-    for (const char* folder : {"environments", "environments/presets", "environments/species", "environments/landscapes"}) {
+    for (const char* folder :
+         {"environments", "environments/presets", "environments/species", "environments/landscapes"}) {
         for (const auto& entry : fs::directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / folder)) {
             if (entry.path().extension() == ".toml") found.insert(entry.path());
         }
@@ -27,7 +28,8 @@ std::set<fs::path> scenes() {
 TEST_CASE_METHOD(Workplace, "every scene grows to the same bytes on a processor without fused multiply-add", "[app]") {
     for (const fs::path& scene : scenes()) {
         INFO(scene);
-        const Outcome first = run("run '" + scene.string() + "' --steps 12 --every 3 --quiet --threads 2 --output first --overwrite");
+        const Outcome first =
+            run("run '" + scene.string() + "' --steps 20 --every 3 --quiet --threads 2 --output first --overwrite");
         INFO(first.err);
         REQUIRE(first.code == 0);
         const Outcome again = run("rerun first --quiet --threads 1", older_processor);

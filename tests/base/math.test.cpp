@@ -140,6 +140,18 @@ TEST_CASE("powers by products and a root are those of the C library to 3.4e-16",
     }
 }
 
+TEST_CASE("powers of one base are as exact as their logarithms are small", "[base][math]") {
+    for (const double base : {0.0, 0.25, 0.9, 1.0, 7.0}) {
+        const math::PowersOf powers(base);
+        CHECK(powers(0) == 1);
+        for (const double exponent : arguments(0, 30, 2000)) {
+            const double exact = std::pow(base, exponent);
+            const double units = 2 + std::abs(exponent * std::log(std::max(base, 1e-300)));
+            REQUIRE(std::abs(powers(exponent) - exact) <= units * 0x1p-52 * exact);
+        }
+    }
+}
+
 TEST_CASE("zeros, infinities and what is no number go in and come out as in C", "[base][math]") {
     const std::array<double, 24> ends{0.0,      -0.0,      1,
                                       -1,       2,         -2,

@@ -47,4 +47,15 @@ inline double pow(double x, double y) {
     return any_power(x, y);
 }
 
+/// The powers of one base, which is not negative: each takes a sixth of the time of pow(), with an error of
+/// up to 1 + |log(power)| units.
+class PowersOf {
+public:
+    explicit PowersOf(double base) : logarithm_(log(base)) {}
+    double operator()(double exponent) const { return exponent == 0 ? 1 : exp(exponent * logarithm_); }
+
+private:
+    double logarithm_;
+};
+
 }  // namespace espalier::math

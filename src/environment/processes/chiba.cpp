@@ -103,6 +103,7 @@ private:
         std::vector<Light> lights(clusters.size());
         BallsAlong balls(clusters);
         tbb::enumerable_thread_specific<BallsMet> met_by_thread;
+        const math::PowersOf powers(transmittance_);
         for (const SkyDirection& direction : sky_) {
             balls.turn_to(direction.towards);
             for_in_parallel(tbb::blocked_range<std::size_t>(0, clusters.size(), 64), [&](const auto& some) {
@@ -110,7 +111,7 @@ private:
                 for (std::size_t i = some.begin(); i < some.end(); ++i) {
                     const double margin = (by_area_ ? 1 : beam_) * clusters[i].radius;
                     balls.meet(i, margin, met);
-                    const double share = direction.weight * passed(met, clusters[i].radius, margin);
+                    const double share = direction.weight * passed(met, clusters[i].radius, margin, powers);
                     lights[i].sum += share;
                     lights[i].brightest += share * direction.towards;
                 }
@@ -119,10 +120,10 @@ private:
         return lights;
     }
 
-    /// The part of the light from a direction that the balls in its way leave.
-    double passed(BallsMet& met, double radius, double margin) const {
+    /// The part of the light from a direction that the balls in its way leave; `powers` are those of the transmittance.
+    double passed(BallsMet& met, double radius, double margin, const math::PowersOf& powers) const {
         if (by_area_) return passed_by_areas(met, radius, transmittance_);
-        return math::pow(transmittance_, sum_of_chords(met, margin));
+        return powers(sum_of_chords(met, margin));
     }
 
     static void write(const Light& light, Answer answer) {
