@@ -246,7 +246,9 @@ World::State::State(const Scene& described, std::size_t bytes, const std::filesy
 
 // Plants get what the fields leave, and fields what the plants leave.
 void World::State::share_out_memory() {
-    memory.set_bytes(share_memory(budget, environment->memory_kept()).plants);
+    // Room for fields to double ends at half of the budget, which those that cannot grow never exceed.
+    const std::size_t kept = environment->memory_kept();
+    memory.set_bytes(share_memory(budget, std::min(kept, std::max(kept / 2, budget / 2))).plants);
     const std::size_t most = share_memory(budget, 0).plants;
     environment->limit_memory(most - std::min(most, memory.held()));
 }
