@@ -29,7 +29,7 @@ TEST_CASE_METHOD(Workplace, "every scene grows to the same bytes on a processor 
     for (const fs::path& scene : scenes()) {
         INFO(scene);
         const Outcome first =
-            run("run '" + scene.string() + "' --steps 20 --every 3 --quiet --threads 2 --output first --overwrite");
+            run("run '" + scene.string() + "' --steps 12 --every 3 --quiet --threads 2 --output first --overwrite");
         INFO(first.err);
         REQUIRE(first.code == 0);
         const Outcome again = run("rerun first --quiet --threads 1", older_processor);
