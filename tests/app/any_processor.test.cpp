@@ -14,8 +14,7 @@ const char* const older_processor = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,
 /// Scenes, not what scenes are made of.
 std::set<fs::path> scenes() {
     std::set<fs::path> found;
-    for (const char* folder :
-         {"environments", "environments/presets", "environments/species", "environments/landscapes"}) {
+    for (const char* folder : {"environments", "environments/species"}) {
         for (const auto& entry : fs::directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / folder)) {
             if (entry.path().extension() == ".toml") found.insert(entry.path());
         }
