@@ -100,9 +100,9 @@ TEST_CASE_METHOD(EnvironmentFolder, "a program of one's own cannot be attached y
 TEST_CASE_METHOD(EnvironmentFolder, "programs of cpfg answer as there, with and without a file of parameters",
                  "[simulation]") {
     CHECK(read("executable: clover\n").processes[0].second.text("numbers") == "cpfg");
-    CHECK(read("executable: chiba plant.spec\n").processes[0].second.text("numbers") == "cpfg");
+    CHECK(read("executable: density plant.spec\n").processes[0].second.text("numbers") == "cpfg");
     folder().write("ours.toml", "numbers = \"exact\"\n");
-    CHECK(read("executable: chiba ours.toml\n").processes[0].second.text("numbers") == "exact");
+    CHECK(read("executable: density ours.toml\n").processes[0].second.text("numbers") == "exact");
     CHECK_FALSE(read("executable: voxel-shade\n").processes[0].second.has("numbers"));
 }
 

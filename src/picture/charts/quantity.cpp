@@ -44,8 +44,9 @@ QuantityColumn::QuantityColumn(const RecordedTable& table, const std::string& qu
         return static_cast<std::size_t>(found - table.columns.begin());
     };
     value_ = find(quantity);
-    for (const auto& [mean, count] : {std::pair{".mean", ".queries"}, std::pair{".chosen", ".grown"}}) {
-        if (!quantity.ends_with(mean)) continue;
+    for (const auto& [of_some, count] : {std::pair{".mean", ".queries"}, std::pair{".min", ".queries"},
+                                         std::pair{".max", ".queries"}, std::pair{".chosen", ".grown"}}) {
+        if (!quantity.ends_with(of_some)) continue;
         weight_ = find(quantity.substr(0, quantity.rfind('.')) + count);
     }
 }

@@ -20,7 +20,7 @@ std::string with_powers(const std::string& unit);
 /// Throws UserError for a quantity that no table has, naming the nearest.
 void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity);
 
-/// Where a table has a quantity, and of how many values each row's mean is.
+/// Where a table has a quantity, and of how many values each row's mean, least or greatest is.
 class QuantityColumn {
 public:
     QuantityColumn(const RecordedTable& table, const std::string& quantity);
