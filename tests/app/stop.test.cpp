@@ -116,10 +116,10 @@ TEST_CASE_METHOD(Stoppable, "Ctrl-C ends a run in the midst of a step, and the f
 }
 
 TEST_CASE_METHOD(Stoppable, "Ctrl-C ends the reading of macros that multiply", "[app][stop]") {
-    // Each use is as long as one may be, and wrong: there are many before so many mistakes end the reading.
-    std::string model = doubled(30, "F");
-    for (int i = 0; i < 19; ++i) model += "A30\n";
-    CHECK(interrupt({"macros", -1, model + header + "F\nendlsystem\n"}) < most_seconds);
+    // Each use is about as long as one may be, and all together nearly as long as a text may be.
+    std::string model = doubled(18, "F") + "lsystem: 1\naxiom:";
+    for (int i = 0; i < 450; ++i) model += " A18";
+    CHECK(interrupt({"macros", 0, model + "\nendlsystem\n"}) < most_seconds);
     CHECK(outcome.code == 130);
     CHECK_THAT(outcome.err, Contains("interrupted before anything was grown"));
     CHECK_FALSE(fs::exists(path() / "out"));
