@@ -21,7 +21,8 @@ constexpr const char* inside = "files";
 // Its program has ended without removing it. A program makes what is inside after it has locked the folder.
 bool is_abandoned(const fs::path& folder) {
     std::error_code error;
-    return fs::is_directory(fs::symlink_status(folder / inside, error)) && !is_locked(folder);
+    return fs::is_directory(fs::symlink_status(folder / inside, error)) && fs::exists(folder / ".lock", error) &&
+           !is_locked(folder);
 }
 
 void remove_abandoned(const fs::path& where, const std::string& prefix) {

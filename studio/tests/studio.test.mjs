@@ -67,7 +67,7 @@ test("the gallery offers models with pictures, and a search finds one that grows
 test("one's own file opens and grows step after step", async () => {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
   await page.getByRole("button", { name: "My files" }).click();
-  await page.locator('.card[title$="/tree.l"]').click();
+  await page.locator('.card[title$="/plants/tree.l"]').click();
   await shows(8);
   await grown();
   assert.equal(await page.locator(".setting").count(), 3);
@@ -237,7 +237,7 @@ test("a link opens the same model in a studio", async () => {
   const written = join(place.folder, "shared", "tree", "tree.l");
   assert.ok(!existsSync(written));
   await dialog.getByRole("button", { name: "Write and open" }).click();
-  await dialog.waitFor({ state: "detached" });
+  await page.locator("header [title$='/shared/tree/tree.l']").waitFor();
   await grown();
   assert.ok(existsSync(written));
   assert.match(await page.locator(".cm-content").textContent(), /A tree for tests/);
@@ -406,7 +406,7 @@ function contrasts({ theme, pairs }) {
 test("the work is found again after the program was killed in the middle of a growth", async () => {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
   await page.getByRole("button", { name: "My files" }).click();
-  await page.locator('.card[title$="/tree.l"]').click();
+  await page.locator('.card[title$="/plants/tree.l"]').click();
   await page.waitForFunction(() => document.title.startsWith("tree.l"));
   await page.locator(".cm-content").click();
   await page.keyboard.press("Control+Home");
