@@ -121,7 +121,8 @@ private:
         std::error_code ignored;
         for (const fs::path& folder : {folder_, folder_ / "output"}) add_runs(folder, entries);
         if (folder_ != data) add_files(folder_, entries);
-        for (const auto& shared : fs::directory_iterator(folder_ / "shared", ignored)) add_files(shared.path(), entries);
+        for (const auto& shared : fs::directory_iterator(folder_ / "shared", ignored))
+            add_files(shared.path(), entries);
     }
 
     static void add_files(const fs::path& folder, std::vector<LibraryEntry>& entries) {

@@ -25,8 +25,8 @@ public:
     /// `memory`: bytes that bricks, grids made of them, and what is kept besides may take.
     explicit ShadeBricks(std::size_t memory) : memory_(memory) {}
 
-    /// What bricks and what is kept besides take. Without the directory, whose size tells where bricks have been: a world
-    /// that goes on from a checkpoint would count other bytes.
+    /// What bricks and what is kept besides take. Without the directory, whose size tells where bricks have been: a
+    /// world that goes on from a checkpoint would count other bytes.
     std::size_t bytes() const { return bytes(0, bricks_.size() - unused_.size()); }
     void limit_memory(std::size_t bytes) { memory_ = bytes; }
     /// So many bytes are, or soon will be, kept besides the bricks. Throws RunError if they do not fit beside them.
