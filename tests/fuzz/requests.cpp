@@ -3,6 +3,7 @@
 #include "../studio/listening_page.h"
 #include "../temporary_folder.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -40,7 +41,8 @@ public:
         page_.texts.clear();
         page_.packets.clear();
         session_->receive(page_, request);
-        if (page_.texts.empty() || !page_.texts.front().contains("reply")) std::abort();
+        const auto is_reply = [](const Json& text) { return text.contains("reply"); };
+        if (std::none_of(page_.texts.begin(), page_.texts.end(), is_reply)) std::abort();
     }
     void work() {
         session_->tick();
