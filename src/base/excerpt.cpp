@@ -2,6 +2,8 @@
 
 #include "espalier/base/file.h"
 
+#include "base/text.h"
+
 #include <algorithm>
 #include <fstream>
 
@@ -10,19 +12,6 @@ namespace {
 
 bool is_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
-
-/// Bytes of the character that begins at `i`, or 0 if it cannot be shown: a control character, or no UTF-8.
-std::size_t shown_length(const std::string& text, std::size_t i) {
-    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-    const unsigned first = byte(i);
-    if (first < 0x80) return first == '\t' || first == '\n' || (first >= 0x20 && first != 0x7F) ? 1 : 0;
-    if (first < 0xC2 || first > 0xF4 || (first == 0xC2 && byte(i + 1) < 0xA0)) return 0;
-    const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    for (std::size_t k = i + 1; k < i + length; ++k) {
-        if ((byte(k) & 0xC0) != 0x80) return 0;
-    }
-    return length;
 }
 
 }  // namespace

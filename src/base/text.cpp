@@ -88,18 +88,25 @@ std::vector<std::string> code_points(std::string_view text) {
     return points;
 }
 
+std::size_t shown_length(std::string_view text, std::size_t i) {
+    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+    const unsigned first = byte(i);
+    if (first < 0x80) return first == '\t' || first == '\n' || (first >= 0x20 && first != 0x7F) ? 1 : 0;
+    if (first < 0xC2 || first > 0xF4 || (first == 0xC2 && byte(i + 1) < 0xA0)) return 0;
+    const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    for (std::size_t k = i + 1; k < i + length; ++k) {
+        if ((byte(k) & 0xC0) != 0x80) return 0;
+    }
+    return length;
+}
+
 std::string escaped(std::string_view text) {
     std::string shown;
-    for (const std::string& point : code_points(text)) {
-        const auto first = static_cast<unsigned char>(point[0]);
-        const bool is_control = (first < 0x20 && first != '\n' && first != '\t') || first == 0x7F;
-        const bool is_late_control = first == 0xC2 && point.size() == 2 && static_cast<unsigned char>(point[1]) < 0xA0;
-        const bool is_stray = first >= 0x80 && point.size() == 1;
-        if (!is_control && !is_late_control && !is_stray) {
-            shown += point;
-            continue;
-        }
-        for (const char byte : point) shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = shown_length(text, i);
+        if (length == 0) shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+        shown += text.substr(i, length);
+        i += std::max<std::size_t>(length, 1);
     }
     return shown;
 }

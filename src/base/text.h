@@ -20,6 +20,9 @@ std::string format_general(double value);
 /// The shortest text that reads back as the same double.
 std::string format_exact(double value);
 
+/// Bytes of the character that begins at `i`, or 0 if it cannot be shown: a control character, or no UTF-8.
+std::size_t shown_length(std::string_view text, std::size_t i);
+
 /// The same text to be shown: control characters other than newline and tab, and bytes that are no UTF-8, as `\x1b`.
 std::string escaped(std::string_view text);
 

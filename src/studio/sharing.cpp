@@ -66,7 +66,7 @@ Json file_json(const fs::path& file, const std::string& bytes, const fs::path& r
     return json;
 }
 
-// A folder above the file has no name of a link's choosing.
+// What a link says is written nowhere before its name has been looked at.
 fs::path checked(const std::string& text) {
     const fs::path path = fs::path(text).lexically_normal();
     require_plain_name(path);
