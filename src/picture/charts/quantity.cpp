@@ -37,17 +37,18 @@ void require_quantity(std::span<const PlottedTable> tables, const std::string& q
     throw UserError(fmt::format("there is no quantity '{}'{}", quantity, did_you_mean(quantity, names)));
 }
 
+std::optional<std::size_t> column_of(const RecordedTable& table, const std::string& name) {
+    const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+    if (found == table.columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - table.columns.begin());
+}
+
 QuantityColumn::QuantityColumn(const RecordedTable& table, const std::string& quantity) {
-    const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
-        const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-        if (found == table.columns.end()) return std::nullopt;
-        return static_cast<std::size_t>(found - table.columns.begin());
-    };
-    value_ = find(quantity);
+    value_ = column_of(table, quantity);
     for (const auto& [of_some, count] : {std::pair{".mean", ".queries"}, std::pair{".min", ".queries"},
                                          std::pair{".max", ".queries"}, std::pair{".chosen", ".grown"}}) {
         if (!quantity.ends_with(of_some)) continue;
-        weight_ = find(quantity.substr(0, quantity.rfind('.')) + count);
+        weight_ = column_of(table, quantity.substr(0, quantity.rfind('.')) + count);
     }
 }
 

@@ -20,6 +20,9 @@ std::string with_powers(const std::string& unit);
 /// Throws UserError for a quantity that no table has, naming the nearest.
 void require_quantity(std::span<const PlottedTable> tables, const std::string& quantity);
 
+/// None if the table has no such column.
+std::optional<std::size_t> column_of(const RecordedTable& table, const std::string& name);
+
 /// Where a table has a quantity, and of how many values each row's mean, least or greatest is.
 class QuantityColumn {
 public:

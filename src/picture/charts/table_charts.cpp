@@ -10,12 +10,6 @@
 namespace espalier::picture {
 namespace {
 
-std::optional<std::size_t> column_of(const RecordedTable& table, const std::string& name) {
-    const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-    if (found == table.columns.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - table.columns.begin());
-}
-
 bool is_zero_throughout(const RecordedTable& table, std::size_t column) {
     return std::all_of(table.rows.begin(), table.rows.end(),
                        [&](const auto& row) { return !(std::abs(row[column]) > 0); });
