@@ -1,145 +1,350 @@
 #!/usr/bin/env bash
-# Makes docs/gallery.md and its pictures anew: a picture for each published system that the library has.
-#   docs/gallery.sh [PROGRAM]     default: build/release/espalier
+# Makes docs/gallery.md and its pictures anew: shelves with every model and scene of the library, as in the studio's gallery.
+#   docs/gallery.sh [PROGRAM [FILE...]]     default: build/release/espalier, and the pictures of all files
 # ffmpeg (apt-get install ffmpeg) gives the pictures a palette, which makes them small.
 set -euo pipefail
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 espalier="$(realpath "${1:-$root/build/release/espalier}")"
+only=" ${*:2} "
 pictures="docs/pictures/gallery"
 page="docs/gallery.md"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 cd "$root"
-rm -rf "$pictures" && mkdir -p "$pictures"
+[[ $# -gt 1 ]] || rm -rf "$pictures"
+mkdir -p "$pictures"
 
 columns=4
 count=0
-row=""
 
-section() { # TITLE
+shelf() { # TITLE
     end_row
-    printf '\n## %s\n\n' "$1" >>"$page"
-    printf '| %.0s' 1 2 3 4 >>"$page"
-    printf '|\n|---|---|---|---|\n' >>"$page"
-}
-end_row() {
-    [[ -n $row ]] && printf '%s|\n' "$row" >>"$page"
-    row=""
-    count=0
+    printf '\n## %s\n\n| | | | |\n|---|---|---|---|\n' "$1" >>"$page"
 }
 # The options of `run` that make the plant, and after -- those of `render`.
-system() { # NAME "TITLE" "SOURCE" FILE [OPTIONS] [-- RENDER OPTIONS]
-    local name="$1" title="$2" source="$3" file="$4" growing=() looking=()
-    shift 4
+entry() { # FILE "TITLE" "SOURCE" [OPTIONS] [-- RENDER OPTIONS]
+    local file="$1" title="$2" source="$3" growing=()
+    shift 3
     while [[ $# -gt 0 && $1 != -- ]]; do growing+=("$1") && shift; done
-    [[ $# -gt 0 ]] && shift && looking=("$@")
-    "$espalier" run "$file" "${growing[@]}" --every 1000000 --output "$work/$name" --quiet 2>/dev/null
-    "$espalier" render "$work/$name" --output "$work/$name.png" --size 240x240 --quiet "${looking[@]}"
-    cell "$name" "$title" "$source" "$(command_of "$file" "${growing[@]}")"
+    cell "$file" "$title" "$source" "$(name_of "$file")" "$file ${growing[*]}"
+    [[ $only == "  " || $only == *" $file "* ]] || return 0
+    [[ $(jobs -rp | wc -l) -lt $(nproc) ]] || wait -n
+    draw "$(name_of "$file")" "$file" "${#growing[@]}" "${growing[@]}" "${@:2}" &
 }
-# Plants of other runs of this script on a terrain.
-landscape() { # NAME "TITLE" "SOURCE" FILE [OPTIONS]
-    "$espalier" landscape "$4" --output "$work/$1.png" --size 240x240 --quiet "${@:5}"
-    cell "$1" "$2" "$3" "espalier landscape $4"
+# A model that shows little without the environment of a scene: it has the scene's picture.
+grown_by() { # SCENE FILE "TITLE" "SOURCE"
+    cell "$2" "$3" "$4" "$(name_of "$1")" "$1"
 }
-cell() { # NAME "TITLE" "SOURCE" "COMMAND"
-    local palette="split[a][b];[a]palettegen=max_colors=64:stats_mode=full[p];[b][p]paletteuse=dither=none"
-    ffmpeg -loglevel error -y -i "$work/$1.png" -filter_complex "$palette" -fflags +bitexact "$pictures/$1.png"
-    row+="| ![$2](pictures/gallery/$1.png)<br>**$2**<br>$3<br>\`$4\` "
+cell() { # FILE "TITLE" "SOURCE" NAME "WHAT IS RUN"
+    printf '| ![%s](pictures/gallery/%s.png)<br>[**%s**](../%s)<br>%s<br>`espalier run %s` ' \
+        "$2" "$4" "$2" "$1" "$3" "${5% }" >>"$page"
     count=$((count + 1))
     [[ $count -lt $columns ]] || end_row
 }
-command_of() { # FILE [OPTIONS]
-    printf 'espalier run %s' "$1"
-    shift
-    [[ $# -eq 0 ]] || printf ' %s' "$@"
+end_row() {
+    [[ $count -eq 0 ]] || printf '|\n' >>"$page"
+    count=0
+}
+name_of() { # FILE
+    local name="${1#models/}"
+    name="${name%.*}"
+    printf '%s' "${name//\//-}"
+}
+draw() { # NAME FILE NUMBER OPTIONS RENDER-OPTIONS
+    local run="$work/$1" picture="$work/$1.png" palette
+    palette="split[a][b];[a]palettegen=max_colors=32:stats_mode=full[p];[b][p]paletteuse=dither=none"
+    "$espalier" run "$2" "${@:4:$3}" --every 1000000 --output "$run" --quiet 2>/dev/null
+    "$espalier" render "$run" --output "$picture" --size 180x180 --quiet "${@:4+$3}"
+    ffmpeg -nostdin -loglevel error -y -i "$picture" -filter_complex "$palette" -fflags +bitexact "$pictures/$1.png"
+    rm -rf "$run"
 }
 
 cat >"$page" <<'PAGE'
 # Gallery
 
-One picture for each published system that the library has, with the command that grows it. `docs/gallery.sh` makes this page.
-`espalier render MODEL` draws a model at once; [models](models.md) says what the tests prove of each.
+Every model and scene of the library, with the command that grows what the picture shows. `docs/gallery.sh` makes this page and its
+pictures, and the studio's gallery has the same shelves. [Models](models.md) says what the tests prove of each model,
+[experiments](experiments.md) what those of the scenes measure.
 PAGE
 
-section "Curves and strings"
-system koch "Snowflake" "von Koch 1904" models/curves/koch-snowflake.l
-system hilbert "Curve in space" "Hilbert 1891, Voorhies 1991" models/curves/hilbert-3d.l
-system dragon "Dragon" "Davis & Knuth 1970" models/curves/dragon.l
-system gosper "Flowsnake" "Gosper, in Gardner 1976" models/curves/gosper.l
-system penrose "Tiling" "Penrose 1974" models/curves/penrose.l
-system islands "Islands and lakes" "Mandelbrot 1982" models/curves/islands-and-lakes.l
-system pythagoras "Pythagoras' tree" "Bosman 1942" models/brackets/pythagoras.l
-system automaton "Cellular automaton" "Wolfram 1983" models/cells/elementary-automaton.l
-system ulam "Cells" "Ulam 1962" environments/ulam.toml -- --azimuth 0 --elevation 90 --no-ground
-system hogeweg "Pattern of signals" "Hogeweg & Hesper 1974" models/signals/hogeweg-hesper-c.l
-system levy "C curve" "Levy 1938" models/curves/levy.l
-end_row
+shelf "Trees and shrubs"
+entry environments/tree.toml "Tree from a cloud of points" "Runions, Lane & Prusinkiewicz 2007"
+entry environments/self-organizing.toml "Self-organizing tree" "Palubicki et al. 2009" --set plant.0.define.YEARS=16
+entry models/species/balsam-fir.species "Balsam fir" "parameters of Weber & Penn 1995"
+entry models/species/black-oak.species "California black oak" "Weber & Penn 1995"
+entry models/species/black-tupelo.species "Black tupelo" "Weber & Penn 1995"
+entry models/species/coconut-palm.species "Coconut palm" "Weber & Penn 1995"
+entry models/species/european-larch.species "European larch" "parameters of Weber & Penn 1995"
+entry models/species/lombardy-poplar.species "Lombardy poplar" "parameters of Weber & Penn 1995"
+entry models/species/quaking-aspen.species "Quaking aspen" "Weber & Penn 1995"
+entry models/species/sassafras.species "Sassafras" "parameters of Weber & Penn 1995"
+entry models/species/weeping-willow.species "Weeping willow" "Weber & Penn 1995"
+entry environments/species/broadleaf.toml "Broadleaved tree by its age" "Lintermann & Deussen 1997"
+entry environments/species/palm.toml "Palm by its age" "Lintermann & Deussen 1997"
+entry environments/species/willow.toml "Weeping willow by its age" "Lintermann & Deussen 1997"
+entry models/trees/honda.l "Two branches at different angles" "Honda 1971"
+entry models/trees/aono-kunii.l "Two constant angles" "Aono & Kunii 1984"
+entry models/trees/monopodial.l "Trees with one leading axis" "Prusinkiewicz & Lindenmayer 1990, figure 2.6"
+entry models/trees/sympodial.l "Trees whose apices fork" "Prusinkiewicz & Lindenmayer 1990, figure 2.7"
+entry models/trees/ternary.l "Three branches at every fork" "Prusinkiewicz & Lindenmayer 1990" --view models/trees/ternary.v
+entry models/trees/oppenheimer.l "Oppenheimer's fractal tree" "Oppenheimer 1986"
+entry models/trees/maple.l "Bark, saddles and roots" "Bloomenthal 1985" --view models/trees/maple.v -- --skin smooth
+entry models/trees/structured-particles.l "Structured particles" "Reeves & Blau 1985"
+entry models/trees/buds.l "Buds that die, rest or grow" "de Reffye et al. 1988"
+entry models/trees/growth-kinds.l "Kinds of growth" "Barthelemy & Caraglio 2007"
+entry models/trees/holton.l "Tree of strands" "Holton 1994"
+entry models/trees/ramification.l "Tree of a ramification matrix" "Viennot et al. 1989"
+entry models/trees/vigour.l "Apical control" "Borchert & Honda 1984"
+entry models/trees/pipe-model.l "Pipe model" "Leonardo da Vinci, in Richter 1970"
+entry models/trees/strahler.l "Strahler numbers" "Strahler 1952"
+entry models/trees/tropisms.l "Tropisms" ""
+entry models/trees/twisted-stem.l "A stem with helical twist and taper" "Oppenheimer 1986"
+entry models/trees/unequal-flow.l "Growth by unequal flow" "Honda, Tomlinson & Fisher 1981"
+entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v
+entry models/pgraph/broadleaf.pgraph "Broadleaved tree of any size" "Lintermann & Deussen 1997"
+entry models/pgraph/bush.pgraph "Bush of components" "Lintermann & Deussen 1997"
+entry models/pgraph/palm.pgraph "Palm" "Lintermann & Deussen 1997"
+entry models/pgraph/weeping-willow.pgraph "Weeping willow" "Lintermann & Deussen 1997"
+entry models/pgraph/wind-pine.pgraph "Mountain pine in the wind" "Lintermann & Deussen 1997"
+entry models/sdl/tree.sdl "Broad-leaved tree" "after Szemla 1999"
+entry models/sdl/spruce.sdl "Spruce" "Szemla 1999"
+entry models/sdl/palm.sdl "Palm" "after Szemla 1999"
+entry models/sdl/bush.sdl "Fractal bush" "after Szemla 1999"
+entry environments/wind.toml "Aspen in the wind" "Weber & Penn 1995"
+entry environments/life-of-a-tree.toml "The life of a tree" "" --steps 30
+entry environments/aono-kunii-field.toml "Tree between attractor and inhibitor" "Aono & Kunii 1984"
+grown_by environments/aono-kunii-field.toml models/environment/aono-kunii-field.l "Forks between attractors and inhibitors" "Aono & Kunii 1984"
+entry environments/towards-light.toml "Tree beside an awning" "Lintermann & Deussen 1997"
+grown_by environments/towards-light.toml models/environment/towards-light.pgraph "Tree that bends towards the light" "Lintermann & Deussen 1997"
+entry models/environment/awning.l "Leaf of an awning" "" -- --elevation 35
+grown_by environments/self-organizing.toml models/colonization/self-organizing.l "Self-organizing tree: the model" "Palubicki et al. 2009"
+grown_by environments/tree.toml models/colonization/tree.l "Tree from a cloud of points: the model" "Runions, Lane & Prusinkiewicz 2007"
+entry models/stochastic/random-tree.l "Random angles and lengths" "after Prusinkiewicz & Lindenmayer 1990, section 1.7"
+entry models/brackets/bush.l "Bush" "Prusinkiewicz & Lindenmayer 1990"
+entry models/brackets/bush-finished.l "Bush without the remains of its apices" "Prusinkiewicz & Lindenmayer 1990, figure 1.25"
+entry models/brackets/plant-a.l "Plant a: segments that branch" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 a"
+entry models/brackets/plant-b.l "Plant b: two places of branching" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 b"
+entry models/brackets/plant-c-bent.l "Plant c with other angles" "after Prusinkiewicz & Lindenmayer 1990, figure 1.24 c"
+entry models/brackets/plant-c.l "Plant c: branches of three segments" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 c"
+entry models/brackets/plant-d.l "Plant d: an apex and its axes" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 d"
+entry models/brackets/plant-e.l "Plant e: opposite branches" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 e"
+entry models/brackets/plant-f.l "Plant f: a plant that leans" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 f"
+entry models/brackets/growing-tree.l "Tree that grows everywhere" "Prusinkiewicz & Lindenmayer 1990, section 1.10.3" --steps 5
 
-section "Herbs, leaves and flowers"
-system bush "Bush" "Prusinkiewicz & Lindenmayer 1990" models/brackets/bush.l
-system flowering "Flowering plant" "Prusinkiewicz & Lindenmayer 1990" models/brackets/flowering-plant.l
-system lychnis "Lychnis" "Robinson 1986" models/herbs/lychnis.l
-system mycelis "Wall lettuce" "Janssen & Lindenmayer 1987" models/herbs/mycelis.l
-system lilac "Lilac" "Prusinkiewicz & Lindenmayer 1990" models/herbs/lilac.l
-system carrot "Wild carrot" "Prusinkiewicz & Lindenmayer 1990" models/herbs/wild-carrot.l
-system lily "Lily of the valley" "Prusinkiewicz & Lindenmayer 1990" models/herbs/lily-of-the-valley.l
-system crocus "Crocus" "Prusinkiewicz & Lindenmayer 1990" models/herbs/crocus.l
-system fern "Fern that unrolls" "after Prusinkiewicz & Lindenmayer 1990" models/leaves/fern.l
-system compound "Compound leaf" "Prusinkiewicz & Lindenmayer 1990" models/leaves/compound-leaf.l
-system rose-leaf "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990" models/leaves/rose-leaf.l
-system field "Field of flowers" "Prusinkiewicz & Lindenmayer 1990" models/stochastic/flower-field.l
-system timed-leaf "Leaf in continuous time" "Prusinkiewicz & Lindenmayer 1990" models/leaves/compound-leaf-timed.l --define TIME=11
-end_row
+shelf "Flowers and inflorescences"
+entry models/herbs/crocus.l "Crocus" "Prusinkiewicz & Lindenmayer 1990"
+entry models/herbs/dibotryoid.l "Raceme of racemes" "Prusinkiewicz & Lindenmayer 1990, chapter 3"
+entry models/herbs/dichasium.l "Dichasium" "Prusinkiewicz & Lindenmayer 1990, chapter 3"
+entry models/herbs/lilac.l "Lilac" "Prusinkiewicz & Lindenmayer 1990"
+entry models/herbs/lily-of-the-valley.l "Lily of the valley" "Prusinkiewicz & Lindenmayer 1990"
+entry models/herbs/lychnis.l "Lychnis" "Robinson 1986"
+entry models/herbs/monochasium.l "Bostryx and cincinnus" "Prusinkiewicz & Lindenmayer 1990, chapter 3"
+entry models/herbs/mycelis-delays.l "Wall lettuce by delays" "Prusinkiewicz & Lindenmayer 1990, chapter 3"
+entry models/herbs/mycelis.l "Wall lettuce" "Janssen & Lindenmayer 1987"
+entry models/herbs/shepherds-purse.l "Shepherd's purse" "Prusinkiewicz & Lindenmayer 1990, chapter 3"
+entry models/herbs/wild-carrot.l "Wild carrot" "Prusinkiewicz & Lindenmayer 1990"
+entry models/brackets/flowering-plant.l "Flowering plant" "Prusinkiewicz & Lindenmayer 1990"
+entry models/stochastic/flower-field.l "Field of flowers" "Prusinkiewicz & Lindenmayer 1990"
+entry models/organs/flower.l "A flower composed of surfaces" "Prusinkiewicz & Lindenmayer 1990, section 5.1" --view models/organs/flower.v
+entry models/phyllotaxis/rose.l "Rose" "after Prusinkiewicz & Lindenmayer 1990, section 4.1" -- --elevation 35
+entry models/phyllotaxis/zinnia.l "Zinnia" "Prusinkiewicz & Lindenmayer 1990" -- --elevation 35
+entry models/pgraph/sunflower.pgraph "Sunflower" "Lintermann & Deussen 1997"
+entry models/pgraph/dandelion.pgraph "Dandelion" "Lintermann & Deussen 1997"
+entry models/sdl/daisy.sdl "Daisies" "after Szemla 1999"
+entry models/sdl/agave.sdl "Agave" "after Szemla 1999"
+entry models/sdl/grass.sdl "Tuft of grass" "after Szemla 1999"
+entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999"
+entry models/signals/acropetal-flowering.l "Flowering from below" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
+entry models/signals/basipetal-flowering.l "Flowering from above" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 
-section "Phyllotaxis"
-system vogel "Disc" "Vogel 1979" models/phyllotaxis/disc.l
-system sunflower "Sunflower head" "Vogel 1979" models/phyllotaxis/sunflower-head.l
-system zinnia "Zinnia" "Prusinkiewicz & Lindenmayer 1990" models/phyllotaxis/zinnia.l
-system pineapple "Pineapple" "Ridley 1986" models/phyllotaxis/pineapple.l
-system collision "Organs that touch" "Fowler, Prusinkiewicz & Battjes 1992" models/phyllotaxis/collision.l -- --elevation 25
-system gourd "Organs on a drawn profile" "Fowler, Prusinkiewicz & Battjes 1992" models/phyllotaxis/collision.l --view models/phyllotaxis/gourd.v --define SHAPE=4 -- --elevation 15
-system pressure "Contact pressure" "Adler 1974" models/phyllotaxis/contact-pressure.l
-system meinhardt "Reaction and diffusion" "Meinhardt 1982" environments/reaction-diffusion.toml
-system veins "Nets" "Meinhardt 1976" environments/vein-net.toml
-end_row
+shelf "Leaves and organs"
+entry models/leaves/compound-leaf-alternate.l "Compound leaf, alternate" "Prusinkiewicz & Lindenmayer 1990, figure 5.12"
+entry models/leaves/compound-leaf-timed.l "Compound leaf in continuous time" "Prusinkiewicz & Lindenmayer 1990" --define TIME=11
+entry models/leaves/compound-leaf.l "Compound leaf" "Prusinkiewicz & Lindenmayer 1990"
+entry models/leaves/contour-leaf.l "Leaf traced along its edge" "Prusinkiewicz & Lindenmayer 1990, section 5.1"
+entry models/leaves/cordate-leaf.l "Heart-shaped leaf" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
+entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990"
+entry models/leaves/framework-leaf.l "Leaf on a growing framework" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
+entry models/leaves/rose-leaf.l "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990"
+entry models/leaves/simple-leaf.l "Leaf with midrib and ribs" "Prusinkiewicz & Lindenmayer 1990, figure 5.6"
+entry models/organs/horn.l "Horn" "Lintermann & Deussen 1999"
+entry models/organs/patch-leaf.l "Leaf as a patch" "Prusinkiewicz & Lindenmayer 1990, section 5.1"
+entry models/organs/shoot.l "A leafy shoot" "Prusinkiewicz & Lindenmayer 1990, section 5.1" --view models/organs/shoot.v
+entry models/organs/trunk.l "Trunk as a generalized cylinder" "Prusinkiewicz & Lindenmayer 1990, section 5.1" --view models/organs/trunk.v
+entry models/sdl/fern.sdl "Fern" "after Szemla 1999"
+entry environments/vein-net.toml "Veins that close meshes" "Meinhardt 1976"
+grown_by environments/vein-net.toml models/environment/vein-net.l "Net of veins" "Meinhardt 1976"
 
-section "Trees"
-system honda "Two branches" "Honda 1971" models/trees/honda.l
-system aono "Constant angles" "Aono & Kunii 1984" models/trees/aono-kunii.l
-system oppenheimer "Fractal tree" "Oppenheimer 1986" models/trees/oppenheimer.l
-system maple "Bark, saddles and roots" "Bloomenthal 1985" models/trees/maple.l --view models/trees/maple.v -- --skin smooth
-system particles "Structured particles" "Reeves & Blau 1985" models/trees/structured-particles.l
-system amap "Buds that die, rest or grow" "de Reffye et al. 1988" models/trees/buds.l
-system viennot "Ramification matrix" "Viennot et al. 1989" models/trees/ramification.l
-system holton "Strands" "Holton 1994" models/trees/holton.l
-system aspen "Quaking aspen" "Weber & Penn 1995" models/species/quaking-aspen.species
-system palm "Palm" "Weber & Penn 1995" models/species/coconut-palm.species
-system willow "Weeping willow" "Lintermann & Deussen 1997" models/pgraph/weeping-willow.pgraph
-system dandelion "Dandelion" "Lintermann & Deussen 1997" models/pgraph/dandelion.pgraph -- --background light
-system spruce "Skeleton with fibres" "Szemla 1999" models/sdl/spruce.sdl
-system borchert "Apical control" "Borchert & Honda 1984" models/trees/vigour.l
-system ternary "Bent by a tropism" "Prusinkiewicz & Lindenmayer 1990" models/trees/ternary.l
-system colonization "Space colonization" "Runions, Lane & Prusinkiewicz 2007" environments/tree.toml
-system palubicki "Self-organizing tree" "Palubicki et al. 2009" environments/self-organizing.toml --set plant.0.define.YEARS=16
-system wind "Wind" "Weber & Penn 1995" environments/wind.toml
-end_row
+shelf "Phyllotaxis"
+entry models/phyllotaxis/disc.l "Vogel's disc" "Vogel 1979"
+entry models/phyllotaxis/sunflower-head.l "Sunflower head" "Vogel 1979"
+entry models/phyllotaxis/collision.l "Organs that touch" "Fowler, Prusinkiewicz & Battjes 1992" -- --elevation 25
+entry models/phyllotaxis/cone.l "Pine cone" "Ridley 1986"
+entry models/phyllotaxis/contact-pressure.l "Leaves that push each other" "Adler 1974"
+entry models/phyllotaxis/cylinder.l "Phyllotaxis on a cylinder" "Prusinkiewicz & Lindenmayer 1990, figure 4.6"
+entry models/phyllotaxis/pineapple.l "Pineapple" "Ridley 1986"
+entry models/phyllotaxis/ridley.l "Organs of equal area on a cylinder" "Ridley 1986"
+entry models/pgraph/pineapple.pgraph "Pineapple" "Lintermann & Deussen 1997"
+entry environments/canalisation.toml "Fibonacci numbers at a rim" "Vogel 1979" -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/canalisation.toml models/environment/canalisation.l "Fibonacci numbers at a rim: the model" "Vogel 1979"
+entry environments/reaction-diffusion.toml "Leaves by reaction and diffusion" "Meinhardt 1982"
+grown_by environments/reaction-diffusion.toml models/environment/reaction-diffusion.l "Leaves where an activator is greatest" "Gierer & Meinhardt 1972"
 
-section "Plants and their environment"
-system two-trees "Competition for light" "Mech & Prusinkiewicz 1996, Takenaka 1994" environments/two-trees.toml
-system forest "Forest patch" "Mech & Prusinkiewicz 1996" environments/forest-patch.toml -- --azimuth 20
-system roots "Roots and water" "Clausnitzer & Hopmans 1994" environments/two-roots.toml -- --field water:volume --no-legend
-system topiary "Topiary" "Prusinkiewicz, James & Mech 1994" environments/topiary-3d.toml -- --azimuth 25
-system terminalia "Tiers that keep apart" "Honda, Tomlinson & Fisher 1981" environments/terminalia.toml -- --azimuth 0 --elevation 90
-system cohen "Growth in a field" "Cohen 1967" environments/cohen.toml
-system vines "Voxel vines" "Greene 1989" environments/vines.toml -- --azimuth 25
-system climber "Climber" "Arvo & Kirk 1988" environments/climber.toml
-system thinning "Self-thinning" "Deussen et al. 1998" environments/self-thinning.toml -- --elevation 90
-for species in species/black-oak.species species/european-larch.species pgraph/bush.pgraph; do
-    "$espalier" run "models/$species" --every 1000000 --output "$work/planted/$(basename "${species%.*}")" --quiet 2>/dev/null
-done
-landscape landscape "Landscape" "Deussen et al. 1998" environments/landscapes/hills.toml \
-    --set stand.run="$work/thinning" --set species.0.run="$work/planted/black-oak" \
-    --set species.1.run="$work/planted/european-larch" --set species.2.run="$work/planted/bush" --set camera.angle=25
+shelf "Forests and competition"
+entry environments/two-trees.toml "Two trees compete for light" "Mech & Prusinkiewicz 1996"
+entry environments/two-trees-apart.toml "Two trees far apart" "Mech & Prusinkiewicz 1996"
+entry environments/two-trees-long.toml "Two trees for 24 cycles" "Mech & Prusinkiewicz 1996"
+entry environments/two-trees-unshaded.toml "Two trees without shadows" "Mech & Prusinkiewicz 1996"
+entry environments/lone-tree.toml "The tree alone" "Mech & Prusinkiewicz 1996"
+grown_by environments/default-process.toml models/light/bush.l "Bush that avoids its own shade" "after Mech & Prusinkiewicz 1996"
+grown_by environments/two-trees.toml models/light/competing-tree.l "Tree that grows on light" "Mech & Prusinkiewicz 1996"
+grown_by environments/forest-patch.toml models/light/conifer.l "Conifer that grows on light" "Mech & Prusinkiewicz 1996"
+entry environments/forest-patch.toml "Nine conifers" "Mech & Prusinkiewicz 1996" -- --azimuth 20
+entry environments/forest.toml "Stand of young trees" "Mech & Prusinkiewicz 1996"
+entry environments/default-process.toml "Bush in its own shade" "after Mech & Prusinkiewicz 1996"
+entry environments/self-thinning.toml "Stand that thins itself" "Deussen et al. 1998" -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/self-thinning.toml models/environment/self-thinning.l "Self-thinning of three species" "Deussen et al. 1998"
+entry environments/terminalia-two-tiers.toml "Two tiers of Terminalia" "Honda, Tomlinson & Fisher 1981" -- --azimuth 0 --elevation 90 --no-ground
+entry environments/terminalia.toml "Tier of Terminalia" "Honda, Tomlinson & Fisher 1981" -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/terminalia.toml models/environment/terminalia.l "Tiers that end where they meet" "Honda, Tomlinson & Fisher 1981"
+
+shelf "Roots and water"
+entry environments/two-roots.toml "Two roots in one soil" "Clausnitzer & Hopmans 1994" -- --field water:volume --no-legend
+entry environments/two-roots-apart.toml "Two roots far apart" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
+entry environments/two-roots-long.toml "Two roots, twice as deep" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
+entry environments/two-roots-no-depletion.toml "Two roots in soil that stays wet" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
+entry environments/one-root.toml "One root" "Mech & Prusinkiewicz 1996" -- --field water:volume --no-legend
+entry environments/root-2d-blind.toml "Root without hydrotropism" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+grown_by environments/root-2d.toml models/water/root.l "Root that takes up water" "Mech & Prusinkiewicz 1996"
+entry environments/root-flare.toml "Tree with its roots" "Runions, Lane & Prusinkiewicz 2007"
+entry environments/pot.toml "Plant in a pot" ""
+grown_by environments/pot.toml models/together/potted-plant.l "Potted plant: shoot and root" ""
+
+shelf "Topiary, climbers and shapes"
+entry environments/topiary-3d.toml "Topiary dinosaur" "Prusinkiewicz, James & Mech 1994" -- --azimuth 25
+entry environments/topiary-ellipse.toml "Plant pruned to an ellipse" "Prusinkiewicz, James & Mech 1994"
+entry environments/topiary-free.toml "The topiary without a shape" "Prusinkiewicz, James & Mech 1994"
+entry environments/topiary-shrinking.toml "Hedge that is clipped twice" "Prusinkiewicz, James & Mech 1994"
+entry environments/topiary-square-shape.toml "Plant pruned to a box of the scene" "Prusinkiewicz, James & Mech 1994"
+entry environments/topiary-square.toml "Plant pruned to a square" "Prusinkiewicz, James & Mech 1994"
+grown_by environments/topiary-ellipse.toml models/topiary/ellipse.l "Pruning to an ellipse" "Prusinkiewicz, James & Mech 1994"
+grown_by environments/topiary-shrinking.toml models/topiary/hedge.l "Clipped hedge" "Prusinkiewicz, James & Mech 1994"
+grown_by environments/topiary-square-shape.toml models/topiary/square-shape.l "Pruning to a box of the scene" "Prusinkiewicz, James & Mech 1994"
+grown_by environments/topiary-square.toml models/topiary/square.l "Pruning to a square" "Prusinkiewicz, James & Mech 1994"
+entry environments/hedge.toml "Hedge without shears" "Runions, Lane & Prusinkiewicz 2007"
+entry environments/ivy.toml "Ivy on a wall with a window" "Runions, Lane & Prusinkiewicz 2007"
+entry environments/two-processes.toml "Ivy on a pillar" ""
+grown_by environments/two-processes.toml models/together/ivy.l "Ivy that feels its wall" ""
+entry environments/vines.toml "Vines on a house" "Greene 1989" -- --azimuth 25
+grown_by environments/vines.toml models/environment/vines.l "Vines in search of light" "Greene 1989"
+entry environments/climber.toml "Climbers on a column" "Arvo & Kirk 1988"
+grown_by environments/climber.toml models/environment/climber.l "Climber that winds up" "Arvo & Kirk 1988"
+entry models/pgraph/ivy.pgraph "Ivy on a pole" "Lintermann & Deussen 1997"
+
+shelf "Signals in plants"
+entry models/signals/acropetal.l "A signal towards the tips" "Prusinkiewicz & Lindenmayer 1990, figure 1.30 a"
+entry models/signals/apical-dominance.l "Apical dominance" "after Prusinkiewicz & Lindenmayer 1990, section 3.2"
+entry models/signals/basipetal.l "A signal towards the root" "Prusinkiewicz & Lindenmayer 1990, figure 1.30 b"
+entry models/signals/hogeweg-hesper-a.l "Hogeweg and Hesper's pattern a" "Hogeweg & Hesper 1974"
+entry models/signals/hogeweg-hesper-b.l "Hogeweg and Hesper's pattern b" "Hogeweg & Hesper 1974"
+entry models/signals/hogeweg-hesper-c.l "Hogeweg and Hesper's pattern c" "Hogeweg & Hesper 1974"
+entry models/signals/hogeweg-hesper-d.l "Hogeweg and Hesper's pattern d" "Hogeweg & Hesper 1974"
+entry models/signals/hogeweg-hesper-e.l "Hogeweg and Hesper's pattern e" "Hogeweg & Hesper 1974"
+entry models/signals/neighbours.l "Neighbours in a string with branches" "after Prusinkiewicz & Lindenmayer 1990, section 1.8"
+entry models/signals/travelling-signal.l "A signal that travels" "Prusinkiewicz & Lindenmayer 1990, section 1.8"
+entry models/signals/two-speeds.l "Two signals that meet" "after Prusinkiewicz & Lindenmayer 1990, section 3.2"
+
+shelf "Patterns and curves"
+entry models/curves/dragon.l "Dragon curve" "Davis & Knuth 1970"
+entry models/curves/gosper.l "Gosper's hexagonal curve" "Gosper, in Gardner 1976"
+entry models/curves/hilbert-3d.l "Hilbert's curve in space" "Hilbert 1891, Voorhies 1991"
+entry models/curves/hilbert.l "Hilbert's curve" "Hilbert 1891"
+entry models/curves/islands-and-lakes.l "Islands and lakes" "Mandelbrot 1982"
+entry models/curves/koch-gaps.l "Koch's curve with gaps" "after Mandelbrot 1982" --steps 3
+entry models/curves/koch-snowflake.l "Koch's snowflake" "von Koch 1904"
+entry models/curves/koch-variations.l "Six variations of Koch" "Prusinkiewicz & Lindenmayer 1990, figure 1.9"
+entry models/curves/koch.l "Koch curve" "von Koch 1904" --steps 3
+entry models/curves/levy.l "Levy's C curve" "Levy 1938"
+entry models/curves/macrotile.l "Curve without long straight runs" "Prusinkiewicz, Lindenmayer & Fracchia 1991"
+entry models/curves/moore.l "Moore's curve" "Moore 1900"
+entry models/curves/peano.l "Peano's curve" "Peano 1890"
+entry models/curves/penrose.l "Penrose's tiling by two rhombs" "Penrose 1974"
+entry models/curves/quadratic-gosper.l "E-curve" "Dekking 1982"
+entry models/curves/quadratic-island-18.l "Quadratic Koch island of eighteen" "Mandelbrot 1982"
+entry models/curves/quadratic-island.l "Quadratic Koch island" "Mandelbrot 1982"
+entry models/curves/quadratic-snowflake.l "Quadratic snowflake" "Prusinkiewicz & Lindenmayer 1990, figure 1.7 b"
+entry models/curves/row-of-trees.l "Row of trees" "Prusinkiewicz & Lindenmayer 1990, figure 1.37" --steps 6
+entry models/curves/sierpinski.l "Sierpinski's gasket as one line" "Sierpinski 1915"
+entry models/brackets/pythagoras.l "Pythagoras' tree" "Bosman 1942"
+entry environments/cohen-sources.toml "Branching between attractor and inhibitor" "Cohen 1967"
+entry environments/cohen-vertical.toml "Branching that strives upwards" "Cohen 1967"
+entry environments/cohen.toml "Branching in a field of density" "Cohen 1967"
+grown_by environments/cohen.toml models/environment/cohen.l "Branching patterns: the model" "Cohen 1967"
+
+shelf "Cells"
+entry models/cells/anabaena-timed.l "Anabaena catenula in continuous time" "Prusinkiewicz & Lindenmayer 1990" --define TIME=4
+entry models/cells/anabaena.l "Filament of Anabaena catenula" "Lindenmayer 1968" --steps 5
+entry models/cells/cantor.l "Cantor's set" "Cantor 1883" --steps 4
+entry models/cells/elementary-automaton.l "Elementary cellular automata" "Wolfram 1983"
+entry models/cells/fibonacci.l "Fibonacci's cells" "Prusinkiewicz & Lindenmayer 1990, section 1.2" --steps 6
+entry models/cells/heterocysts.l "Heterocysts of Anabaena" "Lindenmayer 1974" --steps 90
+entry models/cells/pascal.l "Pascal's triangle" "Pascal 1654"
+entry models/cells/ring.l "Ring of cells" ""
+entry models/cells/thue-morse.l "The sequence of Thue and Morse" "Thue 1906"
+entry environments/cells.toml "Cells on a lattice" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/cells.toml models/environment/cells.l "Cells on a lattice: the model" "Ulam 1962"
+entry environments/ulam-branching.toml "Ulam's cells: branching pattern" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
+entry environments/ulam.toml "Ulam's cells: simple pattern" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/ulam-branching.toml models/environment/ulam-branching.l "Ulam's cells that keep their distance" "Ulam 1962"
+grown_by environments/ulam.toml models/environment/ulam.l "Ulam's cells: collision" "Ulam 1962"
+
+shelf "The course"
+entry models/course/01-curve.l "01 A curve" "von Koch 1904" --steps 2
+entry models/course/02-branching.l "02 Branching" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 d"
+entry models/course/03-parameters.l "03 Parameters" "Honda 1971"
+entry models/course/04-signals.l "04 Context and signals" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
+entry models/course/05-stochastic.l "05 Chance" "Prusinkiewicz & Lindenmayer 1990, figure 1.27"
+entry models/course/06-decomposition-homomorphism.l "06 Decomposition and homomorphism" "Prusinkiewicz, Hanan & Mech 1999"
+entry models/course/07-queries.l "07 Queries" "Prusinkiewicz, James & Mech 1994"
+grown_by environments/course-light.toml models/course/08-light.l "08 Light" "Mech & Prusinkiewicz 1996"
+grown_by environments/course-water.toml models/course/09-water.l "09 Water" "Mech & Prusinkiewicz 1996"
+grown_by environments/course-shape.toml models/course/10-shape.l "10 A shape" "Prusinkiewicz, James & Mech 1994"
+entry environments/course-light.toml "Light: the scene" "Mech & Prusinkiewicz 1996"
+entry environments/course-shape.toml "A shape: the scene" "Prusinkiewicz, James & Mech 1994"
+entry environments/course-water.toml "Water: the scene" "Mech & Prusinkiewicz 1996"
+
+shelf "The language"
+entry models/language/binary-counter.l "Predecessor of several modules" ""
+entry models/language/blocks.l "Blocks before, between and after the steps" ""
+entry models/language/conditions.l "Parameters and conditions" "after Prusinkiewicz & Lindenmayer 1990, section 1.10"
+entry models/language/contexts.l "Contexts that name branches" ""
+entry models/language/cut.l "Cutting branches off" "after Prusinkiewicz & Lindenmayer 1990, section 1.10"
+entry models/language/decomposition.l "Decomposition" "Prusinkiewicz, Hanan & Mech 1999"
+entry models/language/homomorphism.l "Homomorphism" "Prusinkiewicz, Hanan & Mech 1999"
+entry models/language/labels.l "Labels" ""
+entry models/language/named-modules.l "Modules with names" ""
+entry models/language/parametric-turtle.l "The turtle's parameters" "Prusinkiewicz & Lindenmayer 1990, section 1.10.2"
+entry models/language/protocol.l "Writing files" ""
+entry models/language/queries.l "Queries of the turtle" ""
+entry models/language/scale.l "Scale" ""
+entry models/language/shared/twig.l "The preprocessor" ""
+entry models/language/shoot/shoot.l "Growth by functions" "Prusinkiewicz et al. 2001" --view models/language/shoot/shoot.v
+entry models/language/species/compound-leaf.l "Compound leaf inside a plant" "after Prusinkiewicz & Lindenmayer 1990, section 5.3"
+entry models/language/species/grove.l "Sub-L-systems" "Hanan 1992"
+entry models/language/spiral/liana.l "A curve in space as a guide" "" --view models/language/spiral/liana.v
+entry models/language/statements.l "Statements: a sieve" ""
+entry models/language/stopping.l "Derivation that stops by itself" ""
+entry models/language/table/growth.l "Data from a file" ""
+entry models/brackets/first-branches.l "Branches and branches of branches" "Prusinkiewicz & Lindenmayer 1990, section 1.6"
+entry models/brackets/widths-and-colours.l "Widths and colours along a path" "Prusinkiewicz & Lindenmayer 1990, section 1.6.5"
+entry models/stochastic/branching.l "Random choice in every segment" "Prusinkiewicz & Lindenmayer 1990, figure 1.27"
+entry models/stochastic/distributions.l "Four distributions" ""
+entry models/stochastic/galton.l "Galton's board" "Galton 1889"
+entry models/stochastic/weights.l "Weights that depend on a parameter" "Prusinkiewicz & Lindenmayer 1990, section 1.7" -- --azimuth 0 --elevation 0 --no-ground
+entry models/environment/queries.l "Queries of position and orientation" "Prusinkiewicz, James & Mech 1994"
 end_row
+wait
