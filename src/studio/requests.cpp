@@ -79,20 +79,16 @@ Json Session::hello(Viewer&, const Json&) {
 }
 
 Json Session::library(Viewer&, const Json&) {
-    Json models = Json::array(), scenes = Json::array(), files = Json::array();
+    Json shipped = Json::array(), files = Json::array();
     for (const LibraryEntry& entry : options_.library()) {
-        Json json = {{"path", entry.path.string()},
-                     {"folder", entry.path.parent_path().filename().string()},
-                     {"name", entry.name},
-                     {"summary", entry.summary},
-                     {"picture", entry.picture.empty() ? Json() : Json(files_.number(entry.picture))}};
-        if (entry.is_own) {
-            files.push_back(std::move(json));
-        } else {
-            (entry.is_scene ? scenes : models).push_back(std::move(json));
-        }
+        (entry.is_own ? files : shipped)
+            .push_back({{"path", entry.path.string()},
+                        {"shelf", entry.shelf},
+                        {"name", entry.name},
+                        {"summary", entry.summary},
+                        {"picture", entry.picture.empty() ? Json() : Json(files_.number(entry.picture))}});
     }
-    return {{"models", models}, {"scenes", scenes}, {"files", files}};
+    return {{"library", shipped}, {"files", files}};
 }
 
 Json Session::help(Viewer&, const Json&) {

@@ -1,11 +1,13 @@
 // What pages are told of the document, and the numbers that they may change in its texts.
 #include "espalier/base/file.h"
+#include "espalier/base/read_log.h"
 
 #include "base/text.h"
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
 #include "studio/plain_name.h"
 #include "studio/session.h"
+#include "studio/sharing.h"
 
 #include <fmt/format.h>
 
@@ -88,6 +90,8 @@ std::set<fs::path> Session::texts() const {
 
 std::map<std::string, std::pair<fs::path, WrittenNumber>> Session::numbers(const DocumentState& state) const {
     std::map<std::string, std::pair<fs::path, WrittenNumber>> all;
+    // Their words are read from other files too.
+    const ReadLog reads(0, state.unsaved, permission_of(state.opened.path, options_.library_folder));
     for (const fs::path& file : texts()) {
         const std::string role = role_of(file, state.opened.path);
         if (role != "main" && role != "model") continue;

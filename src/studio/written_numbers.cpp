@@ -4,6 +4,8 @@
 #include "espalier/language/model_settings.h"
 #include "espalier/language/notation.h"
 
+#include "studio/scene_words.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -129,26 +131,50 @@ public:
     explicit SceneNumbers(const std::string& text) : text_(text), lines_(text) {}
 
     std::vector<WrittenNumber> of(const Settings& scene) {
-        add(scene, "", "");
+        add(scene, "", "", "");
         return std::move(numbers_);
     }
 
 private:
-    // `group`: how people call the table.
-    void add(const Settings& table, const std::string& path, const std::string& group) {
+    // `group`: how people call the table; `help`: the documentation of its keys.
+    void add(const Settings& table, const std::string& path, const std::string& group, const std::string& help) {
         for (const std::string& key : table.keys()) {
             const std::string name = path.empty() ? key : path + "." + key;
             const std::string inner = group.empty() ? key : group + ", " + key;
             if (table.is_table(key)) {
-                add(table.table(key), name, inner);
-            } else if (!add_tables(table, key, name, inner)) {
-                add(table.place(key), name, group);
+                const std::size_t first = numbers_.size();
+                add(table.table(key), name, inner, help_of_table(table.table(key), key, help));
+                if (key == "define" && table.has("model")) describe_defines(table.path("model"), first);
+            } else if (!add_tables(table, key, name, inner, help)) {
+                add(table.place(key), name, group, words_of_key(help, key));
             }
         }
     }
 
+    // Numbers that replace those of a model, from the first on, are what its settings are.
+    void describe_defines(const std::filesystem::path& model, std::size_t first) {
+        std::vector<ModelSetting> settings;
+        try {
+            settings = ModelSettings::read(model).list();
+        } catch (const UserError&) {
+            return;
+        }
+        for (std::size_t i = first; i < numbers_.size(); ++i) {
+            WrittenNumber& number = numbers_[i];
+            const auto is_it = [&](const ModelSetting& setting) { return number.name.ends_with("." + setting.name); };
+            const auto known = std::find_if(settings.begin(), settings.end(), is_it);
+            if (known == settings.end()) continue;
+            number.label = known->summary;
+            number.unit = known->unit;
+            number.whole = known->whole;
+            number.lowest = known->lowest;
+            number.highest = known->highest;
+        }
+    }
+
     // False if the key has no list of tables.
-    bool add_tables(const Settings& table, const std::string& key, const std::string& name, const std::string& group) {
+    bool add_tables(const Settings& table, const std::string& key, const std::string& name, const std::string& group,
+                    const std::string& help) {
         std::vector<Settings> tables;
         try {
             tables = table.tables(key);
@@ -156,7 +182,8 @@ private:
             return false;
         }
         for (std::size_t i = 0; i < tables.size(); ++i) {
-            add(tables[i], fmt::format("{}.{}", name, i), group + name_of(tables[i], i, tables.size()));
+            add(tables[i], fmt::format("{}.{}", name, i), group + name_of(tables[i], i, tables.size()),
+                help_of_table(tables[i], key, help));
         }
         return true;
     }
@@ -169,8 +196,8 @@ private:
         return count > 1 ? fmt::format(" {}", place + 1) : "";
     }
 
-    // `place` is the key's.
-    void add(const Place& place, const std::string& name, const std::string& group) {
+    // `place` is the key's; `words` are those of its documentation, which a comment behind it replaces.
+    void add(const Place& place, const std::string& name, const std::string& group, const std::string& words) {
         if (!lines_.has(place.line)) return;
         const std::size_t end = lines_.end(place.line);
         const std::size_t key = lines_.begin(place.line) + static_cast<std::size_t>(std::max(place.column, 1)) - 1;
@@ -181,7 +208,7 @@ private:
         const std::optional<double> value = is_switch ? std::optional(text == "true" ? 1.0 : 0.0) : number(text);
         if (!value) return;
         WrittenNumber found{.name = name, .label = comment(behind, end), .group = group, .text = text};
-        if (found.label.empty()) found.label = name.substr(name.rfind('.') + 1);
+        if (found.label.empty()) found.label = words;
         found.is_switch = is_switch;
         found.whole = !is_switch && text.find_first_of(".eE") == std::string::npos;
         found.value = *value;

@@ -4,12 +4,8 @@ import type { Library, LibraryEntry } from "./protocol.js";
 import { openLink } from "./links.js";
 import type { Studio } from "./state.js";
 
-type Shelf = keyof Library;
-const shelves: { key: Shelf; name: string }[] = [
-  { key: "models", name: "Models" },
-  { key: "scenes", name: "Scenes" },
-  { key: "files", name: "My files" },
-];
+const everything = "All";
+const ownFiles = "My files";
 
 export class Gallery {
   readonly element = h("section", "gallery", { "aria-label": "Gallery", hidden: true });
@@ -21,19 +17,17 @@ export class Gallery {
   private readonly list = h("div", "cards");
   private readonly close: HTMLButtonElement;
   private library: Library | null = null;
-  private shelf: Shelf = "models";
+  private shelf = everything;
   private readonly pictures = new Map<number, Promise<string>>();
   private readonly lazily: IntersectionObserver;
-  private readonly buttons: Map<Shelf, HTMLButtonElement>;
+  private readonly tabs = h("div", "tabs");
+  private buttons = new Map<string, HTMLButtonElement>();
 
   constructor(
     private readonly studio: Studio,
     private readonly opened: () => void,
   ) {
     this.close = iconButton("close", "Back to the plant", () => this.hide());
-    this.buttons = new Map(
-      shelves.map(({ key, name }) => [key, h("button", "tab", { type: "button", onclick: () => this.choose(key) }, name)]),
-    );
     this.element.append(
       h(
         "header",
@@ -52,7 +46,7 @@ export class Gallery {
         "div",
         "gallery-bar",
         {},
-        h("div", "tabs", {}, ...this.buttons.values()),
+        this.tabs,
         h("label", "search-box", {}, icon("search"), this.search),
       ),
       this.list,
@@ -76,6 +70,9 @@ export class Gallery {
     this.element.hidden = false;
     this.close.hidden = !this.studio.document;
     this.library = (await this.studio.ask("library", {})) ?? this.library;
+    const shelves = new Set(this.library?.library.map(({ shelf }) => shelf));
+    this.buttons = new Map([everything, ...shelves, ownFiles].map((shelf) => [shelf, this.tab(shelf)]));
+    this.tabs.replaceChildren(...this.buttons.values());
     this.draw();
     this.search.focus({ preventScroll: true });
   }
@@ -84,40 +81,45 @@ export class Gallery {
     this.element.hidden = true;
   }
 
-  private choose(shelf: Shelf): void {
+  private choose(shelf: string): void {
     this.shelf = shelf;
     this.search.value = "";
     this.draw();
+    this.element.scrollTop = 0;
   }
 
   private draw(): void {
-    for (const [key, button] of this.buttons) button.setAttribute("aria-selected", String(key === this.shelf));
+    const { library, files } = this.library ?? { library: [], files: [] };
+    for (const [shelf, button] of this.buttons) button.setAttribute("aria-selected", String(shelf === this.shelf));
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const fits = (entry: LibraryEntry) => {
-      const text = `${entry.name} ${entry.summary} ${entry.path}`.toLowerCase();
+    const fits = ({ name, summary, path, shelf }: LibraryEntry) => {
+      const text = `${name} ${summary} ${path} ${shelf}`.toLowerCase();
       return words.every((word) => text.includes(word));
     };
+    const onShelf = this.shelf === ownFiles ? files : library.filter(({ shelf }) => [everything, shelf].includes(this.shelf));
     // A search looks on every shelf.
-    const all = this.library ?? { models: [], scenes: [], files: [] };
-    const entries = words.length > 0 ? [...all.models, ...all.scenes, ...all.files].filter(fits) : all[this.shelf];
-    const folders = new Map<string, LibraryEntry[]>();
-    for (const entry of entries) folders.set(entry.folder, [...(folders.get(entry.folder) ?? []), entry]);
-    const pictured = (list: LibraryEntry[]) => list.filter(({ picture }) => picture !== null);
-    const ordered = [...folders].sort(([, a], [, b]) => Number(pictured(b).length > 0) - Number(pictured(a).length > 0));
-    this.list.replaceChildren(
-      ...ordered.map(([folder, inside]) =>
-        h(
-          "section",
-          "",
-          {},
-          h("h2", "", {}, folder || "Folder"),
-          h("div", "card-grid", {}, ...pictured(inside).map((entry) => this.card(entry))),
-          h("div", "card-grid plain", {}, ...inside.filter(({ picture }) => picture === null).map((entry) => this.card(entry))),
-        ),
-      ),
-    );
+    const entries = words.length > 0 ? [...library, ...files].filter(fits) : onShelf;
+    const sections = new Map<string, LibraryEntry[]>();
+    for (const entry of entries) sections.set(entry.shelf, [...(sections.get(entry.shelf) ?? []), entry]);
+    this.list.replaceChildren(...[...sections].map(([shelf, inside]) => this.section(shelf, inside)));
     if (entries.length === 0)
       this.list.append(h("p", "hint", {}, words.length > 0 ? "Nothing has these words." : "There is nothing here."));
+  }
+
+  private tab(shelf: string): HTMLButtonElement {
+    return h("button", "tab", { type: "button", onclick: () => this.choose(shelf) }, shelf);
+  }
+
+  private section(shelf: string, entries: LibraryEntry[]): HTMLElement {
+    const plain = entries.filter(({ picture }) => picture === null);
+    return h(
+      "section",
+      "",
+      {},
+      h("h2", "", {}, shelf || "Folder"),
+      h("div", "card-grid", {}, ...entries.filter(({ picture }) => picture !== null).map((entry) => this.card(entry))),
+      h("div", "card-grid plain", {}, ...plain.map((entry) => this.card(entry))),
+    );
   }
 
   private card(entry: LibraryEntry): HTMLElement {

@@ -69,15 +69,15 @@ export interface FieldName {
 
 export interface LibraryEntry {
   path: string;
-  folder: string;
+  /** The heading under which people find it. */
+  shelf: string;
   name: string;
   summary: string;
   picture: number | null;
 }
 
 export interface Library {
-  models: LibraryEntry[];
-  scenes: LibraryEntry[];
+  library: LibraryEntry[];
   files: LibraryEntry[];
 }
 

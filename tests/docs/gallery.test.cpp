@@ -1,6 +1,5 @@
 // The gallery has every model and scene of the library, with a title and a picture that shows something.
 #include "base/picture_file.h"
-
 #include "catch.h"
 #include "page.h"
 

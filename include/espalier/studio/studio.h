@@ -25,9 +25,9 @@ struct Opened {
 struct LibraryEntry {
     std::filesystem::path path;
     std::string name, summary;
+    std::string shelf = {};              ///< the heading under which people find it
     std::filesystem::path picture = {};  ///< empty: there is none
-    bool is_scene = false;
-    bool is_own = false;  ///< a file of the opened folder, not of the library
+    bool is_own = false;                 ///< a file of the opened folder, not of the library
 };
 
 struct StudioOptions {

@@ -6,6 +6,7 @@
 
 #include "app/child.h"
 #include "app/command.h"
+#include "app/look/gallery_page.h"
 #include "app/model_arguments.h"
 #include "app/model_library.h"
 #include "app/program_data.h"
@@ -19,7 +20,6 @@
 #include <filesystem>
 #include <map>
 #include <random>
-#include <regex>
 #include <set>
 #include <system_error>
 
@@ -59,53 +59,37 @@ fs::path state_file(const fs::path& folder) {
     return base / "espalier" / fmt::format("studio-{:016x}.json", digest(folder.string()));
 }
 
-/// The pictures and names of docs/gallery.md, by the files they show.
-struct GalleryPicture {
-    std::string name;
-    fs::path file;
-};
-
-std::map<fs::path, GalleryPicture> gallery(const fs::path& data) {
-    std::map<fs::path, GalleryPicture> pictures;
-    const fs::path page = data / "docs/gallery.md";
-    if (!fs::is_regular_file(page)) return pictures;
-    const std::string text = read_text(page);
-    static const std::regex cell(R"(!\[([^\]]*)\]\(([^)]*)\)<br>\*\*[^*]*\*\*<br>([^<]*)<br>`espalier run ([^ `]+))");
-    for (std::sregex_iterator at(text.begin(), text.end(), cell), end; at != end; ++at) {
-        const std::smatch& match = *at;
-        pictures[fs::path(match[4].str())] = {fmt::format("{} ({})", match[1].str(), match[3].str()),
-                                              data / "docs" / match[2].str()};
-    }
-    return pictures;
-}
-
 class Library {
 public:
     explicit Library(fs::path folder) : folder_(std::move(folder)), models_(model_library({})) {}
 
     std::vector<LibraryEntry> entries() const {
-        std::vector<LibraryEntry> entries;
         const fs::path data = fs::absolute(models_).lexically_normal().parent_path();
-        const auto pictures = gallery(data);
+        std::map<fs::path, LibraryEntry> shipped;
         const auto add = [&](const fs::path& file) {
             const fs::path path = fs::absolute(file).lexically_normal();
-            const PartDescription description = describe_file(path);
-            const auto known = pictures.find(path.lexically_relative(data));
-            LibraryEntry entry{path, path.stem().string(), description.summary};
-            entry.is_scene = path.extension() == ".toml";
-            if (known != pictures.end()) {
-                entry.name = known->second.name;
-                if (fs::exists(known->second.file)) entry.picture = known->second.file;
-            }
-            entries.push_back(std::move(entry));
+            shipped[path] = {path, describe_file(path).summary, "", path.parent_path().filename().string()};
         };
         for (const PartDescription& model : models_of(data / "models")) add(model.name);
         for (const fs::path& scene : scenes_below(data / "environments")) add(scene);
+        std::vector<LibraryEntry> entries;
+        for (const GalleryEntry& shown : gallery_of(data)) {
+            if (const auto entry = shipped.extract(shown.file)) entries.push_back(on_shelf(entry.mapped(), shown));
+        }
+        for (const auto& [path, entry] : shipped) entries.push_back(entry);
         add_own(data, entries);
         return entries;
     }
 
 private:
+    // What the file says of itself is beside the title, unless it is the title.
+    static LibraryEntry on_shelf(const LibraryEntry& entry, const GalleryEntry& shown) {
+        const bool says_more = entry.name != shown.title;
+        const std::string between = says_more && !shown.source.empty() ? " - " : "";
+        return {entry.path, shown.title, (says_more ? entry.name : "") + between + shown.source, shown.shelf,
+                fs::exists(shown.picture) ? shown.picture : fs::path()};
+    }
+
     static std::vector<fs::path> scenes_below(const fs::path& folder) {
         std::vector<fs::path> scenes;
         if (!fs::is_directory(folder)) return scenes;
@@ -129,10 +113,13 @@ private:
         std::error_code ignored;
         for (const auto& file : fs::directory_iterator(folder, ignored)) {
             if (!file.is_regular_file(ignored)) continue;
-            const bool is_scene = describes_scene(file.path());
-            if (!is_scene && !describes_model(file.path())) continue;
-            entries.push_back(
-                {file.path(), file.path().stem().string(), describe_file(file.path()).summary, {}, is_scene, true});
+            if (!describes_scene(file.path()) && !describes_model(file.path())) continue;
+            entries.push_back({file.path(),
+                               file.path().stem().string(),
+                               describe_file(file.path()).summary,
+                               folder.filename().string(),
+                               {},
+                               true});
         }
     }
 
@@ -143,7 +130,7 @@ private:
             if (fs::is_regular_file(inside.path() / "run.json", ignored)) runs.insert(inside.path());
         }
         for (const fs::path& run : runs) {
-            entries.push_back({run, run.filename().string(), "a recorded run", {}, false, true});
+            entries.push_back({run, run.filename().string(), "a recorded run", folder.filename().string(), {}, true});
         }
     }
 

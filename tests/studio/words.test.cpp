@@ -1,0 +1,92 @@
+// Sliders say what they move: the numbers of the library have words, ranges and units, not only names.
+#include "espalier/base/file.h"
+#include "espalier/environment/environment_process.h"
+
+#include "catch.h"
+#include "studio/scene_words.h"
+#include "studio/written_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+using namespace espalier;
+using namespace espalier::studio;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<WrittenNumber> numbers_of(const fs::path& file) {
+    return written_numbers(file, read_text(file));
+}
+
+std::vector<fs::path> files_below(const char* folder, const std::vector<std::string>& kinds) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / folder)) {
+        const bool fits = std::count(kinds.begin(), kinds.end(), entry.path().extension()) > 0;
+        if (entry.is_regular_file() && fits) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string name_of(const WrittenNumber& number) {
+    return number.name.substr(number.name.rfind('.') + 1);
+}
+
+}  // namespace
+
+TEST_CASE("every slider of every model has words and a range", "[studio]") {
+    int sliders = 0;
+    for (const fs::path& file : files_below("models", {".l", ".species", ".pgraph", ".sdl"})) {
+        for (const WrittenNumber& number : numbers_of(file)) {
+            INFO(file.string() << ": " << number.name);
+            ++sliders;
+            CHECK_FALSE(number.label.empty());
+            CHECK(number.label != number.name);
+            CHECK((std::isfinite(number.lowest) || std::isfinite(number.highest)));
+        }
+    }
+    CHECK(sliders > 800);
+}
+
+TEST_CASE("the sliders of a scene say what the model and the documentation say of them", "[studio]") {
+    int sliders = 0, described = 0;
+    for (const fs::path& file : files_below("environments", {".toml"})) {
+        for (const WrittenNumber& number : numbers_of(file)) {
+            ++sliders;
+            std::string name = name_of(number);
+            std::replace(name.begin(), name.end(), '_', ' ');
+            if (number.label != name)
+                ++described;
+            else
+                UNSCOPED_INFO(file.filename() << " " << number.name);
+        }
+    }
+    CHECK(described == sliders);
+}
+
+TEST_CASE("a number that replaces one of a model has its words, range and unit", "[studio]") {
+    const fs::path file = fs::path(ESPALIER_SOURCE_DIR) / "environments/one-root.toml";
+    const std::vector<WrittenNumber> numbers = numbers_of(file);
+    const auto azimuth = std::find_if(numbers.begin(), numbers.end(),
+                                      [](const WrittenNumber& number) { return name_of(number) == "AZIMUTH"; });
+    REQUIRE(azimuth != numbers.end());
+    CHECK(azimuth->name == "plant.0.define.AZIMUTH");
+    CHECK(azimuth->label.starts_with("azimuth"));
+    CHECK(azimuth->highest == 360);
+    CHECK(azimuth->unit == "degrees");
+}
+
+TEST_CASE("words of a key are the first sentence of its row, which may go on in the next line", "[studio]") {
+    const std::string help =
+        "What it does.\n\n"
+        "  voxel   m, 0.5; edge of a voxel. Whole voxels cover the domain\n"
+        "  depth   6; number of layers\n"
+        "          below\n"
+        "  voxels  other\n";
+    CHECK(words_of_key(help, "voxel") == "voxel: m, 0.5; edge of a voxel");
+    CHECK(words_of_key(help, "depth") == "depth: 6; number of layers below");
+    CHECK(words_of_key(help, "full_light") == "full light");
+}
