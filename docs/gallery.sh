@@ -52,10 +52,11 @@ name_of() { # FILE
     printf '%s' "${name//\//-}"
 }
 draw() { # NAME FILE NUMBER OPTIONS RENDER-OPTIONS
-    local run="$work/$1" picture="$work/$1.png" palette
-    palette="split[a][b];[a]palettegen=max_colors=32:stats_mode=full[p];[b][p]paletteuse=dither=none"
+    local run="$work/$1" picture="$work/$1.png" size=(--size 180x180) palette
+    [[ $* != *" --size "* ]] || size=()  # what is thinner than a pixel is drawn larger and made smaller
+    palette="scale=180:180:flags=area,split[a][b];[a]palettegen=max_colors=32:stats_mode=full[p];[b][p]paletteuse=dither=none"
     "$espalier" run "$2" "${@:4:$3}" --every 1000000 --output "$run" --quiet 2>/dev/null
-    "$espalier" render "$run" --output "$picture" --size 180x180 --quiet "${@:4+$3}"
+    "$espalier" render "$run" --output "$picture" "${size[@]}" --quiet "${@:4+$3}"
     ffmpeg -nostdin -loglevel error -y -i "$picture" -filter_complex "$palette" -fflags +bitexact "$pictures/$1.png"
     rm -rf "$run"
 }
@@ -85,20 +86,20 @@ entry environments/species/palm.toml "Palm by its age" "Lintermann & Deussen 199
 entry environments/species/willow.toml "Weeping willow by its age" "Lintermann & Deussen 1997"
 entry models/trees/honda.l "Two branches at different angles" "Honda 1971"
 entry models/trees/aono-kunii.l "Two constant angles" "Aono & Kunii 1984"
-entry models/trees/monopodial.l "Trees with one leading axis" "Prusinkiewicz & Lindenmayer 1990, figure 2.6"
-entry models/trees/sympodial.l "Trees whose apices fork" "Prusinkiewicz & Lindenmayer 1990, figure 2.7"
+entry models/trees/monopodial.l "Trees with one leading axis" "Prusinkiewicz & Lindenmayer 1990, figure 2.6" -- --size 360x360
+entry models/trees/sympodial.l "Trees whose apices fork" "Prusinkiewicz & Lindenmayer 1990, figure 2.7" -- --size 360x360
 entry models/trees/ternary.l "Three branches at every fork" "Prusinkiewicz & Lindenmayer 1990" --view models/trees/ternary.v
 entry models/trees/oppenheimer.l "Oppenheimer's fractal tree" "Oppenheimer 1986"
 entry models/trees/maple.l "Bark, saddles and roots" "Bloomenthal 1985" --view models/trees/maple.v -- --skin smooth
 entry models/trees/structured-particles.l "Structured particles" "Reeves & Blau 1985"
-entry models/trees/buds.l "Buds that die, rest or grow" "de Reffye et al. 1988"
-entry models/trees/growth-kinds.l "Kinds of growth" "Barthelemy & Caraglio 2007"
+entry models/trees/buds.l "Buds that die, rest or grow" "de Reffye et al. 1988" -- --size 360x360
+entry models/trees/growth-kinds.l "Kinds of growth" "Barthelemy & Caraglio 2007" -- --size 360x360
 entry models/trees/holton.l "Tree of strands" "Holton 1994"
-entry models/trees/ramification.l "Tree of a ramification matrix" "Viennot et al. 1989"
+entry models/trees/ramification.l "Tree of a ramification matrix" "Viennot et al. 1989" -- --size 360x360
 entry models/trees/vigour.l "Apical control" "Borchert & Honda 1984"
 entry models/trees/pipe-model.l "Pipe model" "Leonardo da Vinci, in Richter 1970"
 entry models/trees/strahler.l "Strahler numbers" "Strahler 1952"
-entry models/trees/tropisms.l "Tropisms" ""
+entry models/trees/tropisms.l "Tropisms" "" -- --size 360x360
 entry models/trees/twisted-stem.l "A stem with helical twist and taper" "Oppenheimer 1986"
 entry models/trees/unequal-flow.l "Growth by unequal flow" "Honda, Tomlinson & Fisher 1981"
 entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v
@@ -154,14 +155,14 @@ entry models/pgraph/dandelion.pgraph "Dandelion" "Lintermann & Deussen 1997"
 entry models/sdl/daisy.sdl "Daisies" "after Szemla 1999"
 entry models/sdl/agave.sdl "Agave" "after Szemla 1999"
 entry models/sdl/grass.sdl "Tuft of grass" "after Szemla 1999"
-entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999"
+entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999" -- --size 360x360
 entry models/signals/acropetal-flowering.l "Flowering from below" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 entry models/signals/basipetal-flowering.l "Flowering from above" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
 
 shelf "Leaves and organs"
-entry models/leaves/compound-leaf-alternate.l "Compound leaf, alternate" "Prusinkiewicz & Lindenmayer 1990, figure 5.12"
-entry models/leaves/compound-leaf-timed.l "Compound leaf in continuous time" "Prusinkiewicz & Lindenmayer 1990" --define TIME=11
-entry models/leaves/compound-leaf.l "Compound leaf" "Prusinkiewicz & Lindenmayer 1990"
+entry models/leaves/compound-leaf-alternate.l "Compound leaf, alternate" "Prusinkiewicz & Lindenmayer 1990, figure 5.12" -- --size 360x360
+entry models/leaves/compound-leaf-timed.l "Compound leaf in continuous time" "Prusinkiewicz & Lindenmayer 1990" --define TIME=11 -- --size 360x360
+entry models/leaves/compound-leaf.l "Compound leaf" "Prusinkiewicz & Lindenmayer 1990" -- --size 360x360
 entry models/leaves/contour-leaf.l "Leaf traced along its edge" "Prusinkiewicz & Lindenmayer 1990, section 5.1"
 entry models/leaves/cordate-leaf.l "Heart-shaped leaf" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
 entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990"
@@ -259,26 +260,26 @@ entry models/signals/travelling-signal.l "A signal that travels" "Prusinkiewicz 
 entry models/signals/two-speeds.l "Two signals that meet" "after Prusinkiewicz & Lindenmayer 1990, section 3.2"
 
 shelf "Patterns and curves"
-entry models/curves/dragon.l "Dragon curve" "Davis & Knuth 1970"
-entry models/curves/gosper.l "Gosper's hexagonal curve" "Gosper, in Gardner 1976"
+entry models/curves/dragon.l "Dragon curve" "Davis & Knuth 1970" -- --size 360x360
+entry models/curves/gosper.l "Gosper's hexagonal curve" "Gosper, in Gardner 1976" -- --size 360x360
 entry models/curves/hilbert-3d.l "Hilbert's curve in space" "Hilbert 1891, Voorhies 1991"
 entry models/curves/hilbert.l "Hilbert's curve" "Hilbert 1891"
-entry models/curves/islands-and-lakes.l "Islands and lakes" "Mandelbrot 1982"
+entry models/curves/islands-and-lakes.l "Islands and lakes" "Mandelbrot 1982" -- --size 360x360
 entry models/curves/koch-gaps.l "Koch's curve with gaps" "after Mandelbrot 1982" --steps 3
 entry models/curves/koch-snowflake.l "Koch's snowflake" "von Koch 1904"
 entry models/curves/koch-variations.l "Six variations of Koch" "Prusinkiewicz & Lindenmayer 1990, figure 1.9"
-entry models/curves/koch.l "Koch curve" "von Koch 1904" --steps 3
-entry models/curves/levy.l "Levy's C curve" "Levy 1938"
+entry models/curves/koch.l "Koch curve" "von Koch 1904" --steps 3 -- --size 360x360
+entry models/curves/levy.l "Levy's C curve" "Levy 1938" -- --size 360x360
 entry models/curves/macrotile.l "Curve without long straight runs" "Prusinkiewicz, Lindenmayer & Fracchia 1991"
 entry models/curves/moore.l "Moore's curve" "Moore 1900"
 entry models/curves/peano.l "Peano's curve" "Peano 1890"
 entry models/curves/penrose.l "Penrose's tiling by two rhombs" "Penrose 1974"
 entry models/curves/quadratic-gosper.l "E-curve" "Dekking 1982"
-entry models/curves/quadratic-island-18.l "Quadratic Koch island of eighteen" "Mandelbrot 1982"
-entry models/curves/quadratic-island.l "Quadratic Koch island" "Mandelbrot 1982"
-entry models/curves/quadratic-snowflake.l "Quadratic snowflake" "Prusinkiewicz & Lindenmayer 1990, figure 1.7 b"
-entry models/curves/row-of-trees.l "Row of trees" "Prusinkiewicz & Lindenmayer 1990, figure 1.37" --steps 6
-entry models/curves/sierpinski.l "Sierpinski's gasket as one line" "Sierpinski 1915"
+entry models/curves/quadratic-island-18.l "Quadratic Koch island of eighteen" "Mandelbrot 1982" -- --size 360x360
+entry models/curves/quadratic-island.l "Quadratic Koch island" "Mandelbrot 1982" -- --size 360x360
+entry models/curves/quadratic-snowflake.l "Quadratic snowflake" "Prusinkiewicz & Lindenmayer 1990, figure 1.7 b" -- --size 360x360
+entry models/curves/row-of-trees.l "Row of trees" "Prusinkiewicz & Lindenmayer 1990, figure 1.37" -- --size 360x360
+entry models/curves/sierpinski.l "Sierpinski's gasket as one line" "Sierpinski 1915" -- --size 360x360
 entry models/brackets/pythagoras.l "Pythagoras' tree" "Bosman 1942"
 entry environments/cohen-sources.toml "Branching between attractor and inhibitor" "Cohen 1967"
 entry environments/cohen-vertical.toml "Branching that strives upwards" "Cohen 1967"
@@ -288,7 +289,7 @@ grown_by environments/cohen.toml models/environment/cohen.l "Branching patterns:
 shelf "Cells"
 entry models/cells/anabaena-timed.l "Anabaena catenula in continuous time" "Prusinkiewicz & Lindenmayer 1990" --define TIME=4
 entry models/cells/anabaena.l "Filament of Anabaena catenula" "Lindenmayer 1968" --steps 5
-entry models/cells/cantor.l "Cantor's set" "Cantor 1883" --steps 4
+entry models/cells/cantor.l "Cantor's set" "Cantor 1883" --steps 4 -- --size 360x360
 entry models/cells/elementary-automaton.l "Elementary cellular automata" "Wolfram 1983"
 entry models/cells/fibonacci.l "Fibonacci's cells" "Prusinkiewicz & Lindenmayer 1990, section 1.2" --steps 6
 entry models/cells/heterocysts.l "Heterocysts of Anabaena" "Lindenmayer 1974" --steps 90
@@ -303,11 +304,11 @@ grown_by environments/ulam-branching.toml models/environment/ulam-branching.l "U
 grown_by environments/ulam.toml models/environment/ulam.l "Ulam's cells: collision" "Ulam 1962"
 
 shelf "The course"
-entry models/course/01-curve.l "01 A curve" "von Koch 1904" --steps 2
-entry models/course/02-branching.l "02 Branching" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 d"
+entry models/course/01-curve.l "01 A curve" "von Koch 1904" --steps 3 --set plant.0.turtle.line_width=0.3
+entry models/course/02-branching.l "02 Branching" "Prusinkiewicz & Lindenmayer 1990, figure 1.24 d" --set plant.0.turtle.line_width=0.4
 entry models/course/03-parameters.l "03 Parameters" "Honda 1971"
 entry models/course/04-signals.l "04 Context and signals" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
-entry models/course/05-stochastic.l "05 Chance" "Prusinkiewicz & Lindenmayer 1990, figure 1.27"
+entry models/course/05-stochastic.l "05 Chance" "Prusinkiewicz & Lindenmayer 1990, figure 1.27" -- --size 360x360
 entry models/course/06-decomposition-homomorphism.l "06 Decomposition and homomorphism" "Prusinkiewicz, Hanan & Mech 1999"
 entry models/course/07-queries.l "07 Queries" "Prusinkiewicz, James & Mech 1994"
 grown_by environments/course-light.toml models/course/08-light.l "08 Light" "Mech & Prusinkiewicz 1996"
@@ -330,7 +331,7 @@ entry models/language/named-modules.l "Modules with names" ""
 entry models/language/parametric-turtle.l "The turtle's parameters" "Prusinkiewicz & Lindenmayer 1990, section 1.10.2"
 entry models/language/protocol.l "Writing files" ""
 entry models/language/queries.l "Queries of the turtle" ""
-entry models/language/scale.l "Scale" ""
+entry models/language/scale.l "Scale" "" -- --size 360x360
 entry models/language/shared/twig.l "The preprocessor" ""
 entry models/language/shoot/shoot.l "Growth by functions" "Prusinkiewicz et al. 2001" --view models/language/shoot/shoot.v
 entry models/language/species/compound-leaf.l "Compound leaf inside a plant" "after Prusinkiewicz & Lindenmayer 1990, section 5.3"
