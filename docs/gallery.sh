@@ -278,7 +278,7 @@ entry models/curves/quadratic-gosper.l "E-curve" "Dekking 1982"
 entry models/curves/quadratic-island-18.l "Quadratic Koch island of eighteen" "Mandelbrot 1982" -- --size 360x360
 entry models/curves/quadratic-island.l "Quadratic Koch island" "Mandelbrot 1982" -- --size 360x360
 entry models/curves/quadratic-snowflake.l "Quadratic snowflake" "Prusinkiewicz & Lindenmayer 1990, figure 1.7 b" -- --size 360x360
-entry models/curves/row-of-trees.l "Row of trees" "Prusinkiewicz & Lindenmayer 1990, figure 1.37" -- --size 360x360
+entry models/curves/row-of-trees.l "Row of trees" "Prusinkiewicz & Lindenmayer 1990, figure 1.37" -- --size 540x540
 entry models/curves/sierpinski.l "Sierpinski's gasket as one line" "Sierpinski 1915" -- --size 360x360
 entry models/brackets/pythagoras.l "Pythagoras' tree" "Bosman 1942"
 entry environments/cohen-sources.toml "Branching between attractor and inhibitor" "Cohen 1967"
