@@ -6,6 +6,7 @@
 #include "espalier/simulation/scene.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace espalier::studio {
@@ -48,6 +49,38 @@ std::string row_of(const std::string& help, const std::string& key) {
     return row;
 }
 
+// Of tables within a row, whose keys have no rows of their own.
+std::string words_of_inner_key(const std::string& key) {
+    static const std::map<std::string, std::string> words{
+        {"attraction", "strength of a source that tips grow to"},
+        {"base_radius", "of a shape at its base, metres"},
+        {"begin", "value at the beginning"},
+        {"below", "share of the height that is cut off below"},
+        {"blend", "shapes that are closer than this merge, metres"},
+        {"columns", "plants along x"},
+        {"crowd", "weight of free space"},
+        {"edge", "distance over which a region fades, metres"},
+        {"end", "value at the end"},
+        {"inhibition", "strength of a source that tips avoid"},
+        {"jitter", "random shift of each plant, metres"},
+        {"light", "weight of light"},
+        {"line_width", "diameter of segments whose width the model does not set, metres"},
+        {"near", "weight of being near the surface"},
+        {"perception", "angle about its heading in which a node sees points, degrees"},
+        {"radius", "of a shape, metres"},
+        {"rows", "plants along z"},
+        {"spacing", "between plants, metres"},
+        {"spline", "values run along a smooth curve"},
+        {"steps", "in which the value changes"},
+        {"straight", "weight of going straight on"},
+        {"tip_radius", "of a shape at its tip, metres"},
+        {"up", "weight of growing upwards"},
+        {"value", "what a region has"},
+    };
+    const auto known = words.find(key);
+    return known == words.end() ? "" : known->second;
+}
+
 }  // namespace
 
 std::string help_of_table(const Settings& table, const std::string& name, const std::string& outer) {
@@ -61,7 +94,8 @@ std::string words_of_key(const std::string& help, const std::string& key) {
     std::string words = key;
     std::replace(words.begin(), words.end(), '_', ' ');
     const std::string row = row_of(help, key);
-    return row.empty() ? words : words + ": " + row.substr(0, row.find(". "));
+    const std::string meaning = row.empty() ? words_of_inner_key(key) : row.substr(0, row.find(". "));
+    return meaning.empty() ? words : words + ": " + meaning;
 }
 
 }  // namespace espalier::studio
