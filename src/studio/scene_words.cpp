@@ -5,6 +5,8 @@
 #include "espalier/geometry/geometry_stage.h"
 #include "espalier/simulation/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -20,7 +22,7 @@ std::string help_of(const std::string& name) {
 
 // From the line behind "[simulation]" or "[[plant]]" to the next such table.
 std::string help_of_scene_table(const std::string& name) {
-    const std::string help = scene_help(), heading = "[" + name + "]";
+    const std::string help = scene_help(), heading = fmt::format("[{}]", name);
     const std::size_t begin = help.find(heading);
     if (begin == std::string::npos) return "";
     const std::size_t first = help.find('\n', begin);
@@ -40,7 +42,7 @@ std::string row_of(const std::string& help, const std::string& key) {
         const std::size_t indent = std::min(indent_of(line), line.size());
         if (!row.empty() && (indent <= margin || indent == line.size())) break;
         if (!row.empty()) {
-            row += " " + line.substr(indent);
+            row += fmt::format(" {}", line.substr(indent));
         } else if (line.compare(indent, key.size() + 2, key + "  ") == 0) {
             margin = indent;
             row = line.substr(std::min(line.find_first_not_of(' ', indent + key.size()), line.size()));
@@ -95,7 +97,7 @@ std::string words_of_key(const std::string& help, const std::string& key) {
     std::replace(words.begin(), words.end(), '_', ' ');
     const std::string row = row_of(help, key);
     const std::string meaning = row.empty() ? words_of_inner_key(key) : row.substr(0, row.find(". "));
-    return meaning.empty() ? words : words + ": " + meaning;
+    return meaning.empty() ? words : fmt::format("{}: {}", words, meaning);
 }
 
 }  // namespace espalier::studio
