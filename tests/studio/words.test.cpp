@@ -48,7 +48,7 @@ TEST_CASE("every slider of every model has words and a range", "[studio]") {
             CHECK((std::isfinite(number.lowest) || std::isfinite(number.highest)));
         }
     }
-    CHECK(sliders > 800);
+    CHECK(sliders > 500);
 }
 
 TEST_CASE("the sliders of a scene say what the model and the documentation say of them", "[studio]") {
