@@ -93,11 +93,9 @@ std::string help_of_table(const Settings& table, const std::string& name, const 
 }
 
 std::string words_of_key(const std::string& help, const std::string& key) {
-    std::string words = key;
-    std::replace(words.begin(), words.end(), '_', ' ');
     const std::string row = row_of(help, key);
-    const std::string meaning = row.empty() ? words_of_inner_key(key) : row.substr(0, row.find(". "));
-    return meaning.empty() ? words : fmt::format("{}: {}", words, meaning);
+    const std::string words = row.empty() ? words_of_inner_key(key) : row.substr(0, row.find(". "));
+    return words.empty() ? key : words;
 }
 
 }  // namespace espalier::studio

@@ -11,8 +11,8 @@ namespace espalier::studio {
 /// `outer`, which is that of the table around it.
 std::string help_of_table(const Settings& table, const std::string& name, const std::string& outer);
 
-/// "depth: q_max, 6; number of layers below", if a row of the documentation begins with the key; else its name in
-/// words.
+/// "q_max, 6; number of layers below", if a row of the documentation begins with the key or it is one of those that
+/// tables within a row have; else the key.
 std::string words_of_key(const std::string& help, const std::string& key);
 
 }  // namespace espalier::studio

@@ -57,9 +57,7 @@ TEST_CASE("the sliders of a scene say what the model and the documentation say o
         if (read_text(file).find("[[plant]]") == std::string::npos) continue;
         for (const WrittenNumber& number : numbers_of(file)) {
             ++sliders;
-            std::string name = name_of(number);
-            std::replace(name.begin(), name.end(), '_', ' ');
-            if (number.label != name)
+            if (number.label != name_of(number))
                 ++described;
             else
                 UNSCOPED_INFO(file.filename() << " " << number.name);
@@ -87,7 +85,7 @@ TEST_CASE("words of a key are the first sentence of its row, which may go on in 
         "  depth   6; number of layers\n"
         "          below\n"
         "  voxels  other\n";
-    CHECK(words_of_key(help, "voxel") == "voxel: m, 0.5; edge of a voxel");
-    CHECK(words_of_key(help, "depth") == "depth: 6; number of layers below");
-    CHECK(words_of_key(help, "full_light") == "full light");
+    CHECK(words_of_key(help, "voxel") == "m, 0.5; edge of a voxel");
+    CHECK(words_of_key(help, "depth") == "6; number of layers below");
+    CHECK(words_of_key(help, "full_light") == "full_light");
 }

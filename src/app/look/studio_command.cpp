@@ -82,11 +82,12 @@ public:
     }
 
 private:
-    // What the file says of itself is beside the title, unless it is the title.
+    // What the file says of itself stands beside the title, unless it is the title with an article.
     static LibraryEntry on_shelf(const LibraryEntry& entry, const GalleryEntry& shown) {
-        const bool says_more = entry.name != shown.title;
-        const std::string between = says_more && !shown.source.empty() ? " - " : "";
-        return {entry.path, shown.title, (says_more ? entry.name : "") + between + shown.source, shown.shelf,
+        constexpr std::size_t article = 3;  // "An "
+        const bool says_more = entry.name.size() > shown.title.size() + article;
+        const std::string between = says_more && !shown.source.empty() ? ". " : "";
+        return {entry.path, shown.title, shown.source + between + (says_more ? entry.name : ""), shown.shelf,
                 fs::exists(shown.picture) ? shown.picture : fs::path()};
     }
 
