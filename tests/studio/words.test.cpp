@@ -73,7 +73,7 @@ TEST_CASE("a number that replaces one of a model has its words, range and unit",
                                       [](const WrittenNumber& number) { return name_of(number) == "AZIMUTH"; });
     REQUIRE(azimuth != numbers.end());
     CHECK(azimuth->name == "plant.0.define.AZIMUTH");
-    CHECK(azimuth->label.starts_with("azimuth"));
+    CHECK(azimuth->label.starts_with("the first rootlet"));
     CHECK(azimuth->highest == 360);
     CHECK(azimuth->unit == "degrees");
 }
