@@ -123,7 +123,7 @@ std::vector<WrittenNumber> numbers_of_model(const fs::path& file, const std::str
     return numbers;
 }
 
-/// The numbers and switches of a scene file's tables, but not those of lists.
+/// The numbers and switches of a scene file's tables; of lists, those of positions alone.
 class SceneNumbers {
 public:
     explicit SceneNumbers(const std::string& text) : text_(text), lines_(text) {}
@@ -141,6 +141,8 @@ private:
             const std::string inner = group.empty() ? key : group + ", " + key;
             if (table.is_table(key)) {
                 add(table.table(key), name, inner);
+            } else if (key == "position" || key == "positions") {
+                add_positions(table.place(key), name, group);
             } else if (!add_tables(table, key, name, inner)) {
                 add(table.place(key), name, group);
             }
@@ -159,6 +161,45 @@ private:
             add(tables[i], fmt::format("{}.{}", name, i), group + name_of(tables[i], i, tables.size()));
         }
         return true;
+    }
+
+    // The numbers of a position, or of each of several.
+    void add_positions(const Place& place, const std::string& name, const std::string& group) {
+        constexpr std::size_t most_positions = 8;  // of more, nobody slides one
+        const std::size_t begin = text_.find('[', lines_.begin(place.line)), end = end_of_list(begin);
+        if (end == std::string::npos) return;
+        const bool is_several = text_[text_.find_first_not_of(" \t\r\n", begin + 1)] == '[';
+        std::vector<WrittenNumber> found;
+        for (std::size_t at = begin; at < end;) {
+            const std::size_t from = text_.find_first_not_of("[], \t\r\n", at);
+            at = std::min(text_.find_first_of("[], \t\r\n", from), end);
+            if (from >= end) break;
+            const std::string text = text_.substr(from, at - from);
+            const std::optional<double> value = number(text);
+            if (!value) return;  // a formula, or a comment
+            const char axis = "xyz"[found.size() % 3];
+            const std::size_t which = found.size() / 3;
+            found.push_back({.name = fmt::format("{}{}.{}", name, is_several ? fmt::format(".{}", which) : "", axis),
+                             .label = fmt::format("{} of {}", axis,
+                                                  is_several ? fmt::format("position {}", which + 1) : "the position"),
+                             .group = group,
+                             .unit = "m",
+                             .text = text,
+                             .value = *value,
+                             .offset = from});
+        }
+        if (found.size() % 3 == 0 && found.size() <= 3 * most_positions)
+            numbers_.insert(numbers_.end(), found.begin(), found.end());
+    }
+
+    // Behind the bracket that closes the list; npos if there is none.
+    std::size_t end_of_list(std::size_t begin) const {
+        int depth = 0;
+        for (std::size_t at = begin; at < text_.size(); ++at) {
+            if (text_[at] == '[') ++depth;
+            if (text_[at] == ']' && --depth == 0) return at + 1;
+        }
+        return std::string::npos;
     }
 
     // What tells it from others of its list: its name, what stage it is, or its number; "" for the only one.
