@@ -1,7 +1,7 @@
 /** The gallery: models and scenes of the library with pictures, one's own files, and a search. */
 import { h, icon, iconButton } from "./elements.js";
 import type { Library, LibraryEntry } from "./protocol.js";
-import { openLink } from "./links.js";
+import { hasModel, openLink } from "./links.js";
 import type { Studio } from "./state.js";
 
 type Shelf = keyof Library;
@@ -18,7 +18,11 @@ export class Gallery {
     placeholder: "Search, or paste a link",
     "aria-label": "Search the gallery",
   });
-  private readonly list = h("div", "cards");
+  private readonly list = h("div", "cards", { role: "tabpanel", "aria-label": "Models and scenes" });
+  /** What had the focus before. */
+  private before: Element | null = null;
+  /** What it covers, which keys must not reach meanwhile. */
+  behind: HTMLElement[] = [];
   private readonly close: HTMLButtonElement;
   private library: Library | null = null;
   private shelf: Shelf = "models";
@@ -32,7 +36,7 @@ export class Gallery {
   ) {
     this.close = iconButton("close", "Back to the plant", () => this.hide());
     this.buttons = new Map(
-      shelves.map(({ key, name }) => [key, h("button", "tab", { type: "button", onclick: () => this.choose(key) }, name)]),
+      shelves.map(({ key, name }) => [key, h("button", "tab", { type: "button", role: "tab", onclick: () => this.choose(key) }, name)]),
     );
     this.element.append(
       h(
@@ -52,13 +56,13 @@ export class Gallery {
         "div",
         "gallery-bar",
         {},
-        h("div", "tabs", {}, ...this.buttons.values()),
+        h("div", "tabs", { role: "tablist", "aria-label": "Shelves" }, ...this.buttons.values()),
         h("label", "search-box", {}, icon("search"), this.search),
       ),
       this.list,
     );
     this.search.addEventListener("input", () => {
-      if (this.search.value.includes("#model=")) void this.openLink(this.search.value);
+      if (hasModel(this.search.value)) void this.openLink(this.search.value);
       else this.draw();
     });
     this.element.addEventListener("keydown", (event) => {
@@ -73,7 +77,9 @@ export class Gallery {
   }
 
   async show(): Promise<void> {
+    if (this.element.hidden) this.before = document.activeElement;
     this.element.hidden = false;
+    for (const element of this.behind) element.inert = true;
     this.close.hidden = !this.studio.document;
     this.library = (await this.studio.ask("library", {})) ?? this.library;
     this.draw();
@@ -82,6 +88,8 @@ export class Gallery {
 
   hide(): void {
     this.element.hidden = true;
+    for (const element of this.behind) element.inert = false;
+    if (this.before instanceof HTMLElement) this.before.focus();
   }
 
   private choose(shelf: Shelf): void {
@@ -149,7 +157,7 @@ export class Gallery {
 
   private async openLink(link: string): Promise<void> {
     this.search.value = "";
-    if (await openLink(this.studio, link.slice(link.indexOf("#")))) this.leave();
+    if (await openLink(this.studio, link)) this.leave();
   }
 
   private leave(): void {
