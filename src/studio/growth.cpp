@@ -172,12 +172,12 @@ void Growth::live() {
         const Scene scene = order_.read(order_.opened);
         note_worn_files(scene);
         GrowthStart start;
-        start.files = reads.files();
         start.warnings = scene.notes.diagnostics;
         if (cancelled_) return;
         const fs::path folder = order_.scratch / fmt::format("files-{}", number());
         fs::create_directories(folder);
         Work work(scene, folder, printed_.printout());
+        start.files = reads.files();  // processes have read theirs, such as meshes
         begin(work, std::move(start));
         grow(work);
     } catch (const Stopped&) {

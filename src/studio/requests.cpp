@@ -285,11 +285,11 @@ Json Session::save(Viewer&, const Json& request) {
         written = save_as(writable(options_.folder / request["path"].get<std::string>()));
     } else {
         written = save_changes();
+        tell(document_json());
     }
     Json files = Json::array();
     for (const fs::path& file : written) files.push_back(file.string());
-    tell(document_json());
-    return {{"path", document_.now().opened.path.string()}, {"files", files}};
+    return {{"version", document_.version()}, {"path", document_.now().opened.path.string()}, {"files", files}};
 }
 
 std::vector<fs::path> Session::save_changes() {

@@ -86,7 +86,7 @@ std::map<fs::path, std::string> Session::contents(const DocumentState& state) co
 std::set<fs::path> Session::texts() const {
     std::set<fs::path> texts;
     for (const auto& [path, file] : read_) {
-        if (file.kept && (is_palette(path) || is_text(file.bytes))) texts.insert(path);
+        if (file.kept && !is_mesh(path) && (is_palette(path) || is_text(file.bytes))) texts.insert(path);
     }
     const DocumentState& now = edited();
     for (const auto& [path, text] : now.unsaved) texts.insert(path);

@@ -62,7 +62,9 @@ double distance_to(const TubeLine& line, const glm::vec3& point) {
 
 std::size_t triangles_of(const std::vector<PlannedTube>& tubes) {
     std::size_t count = 0;
-    for (const PlannedTube& one : tubes) count += swept_triangles(one.line.nodes.size(), one.sides, one.caps);
+    for (const PlannedTube& one : tubes) {
+        if (one.sides > 0) count += swept_triangles(one.line.nodes.size(), one.sides, one.caps);
+    }
     return count;
 }
 

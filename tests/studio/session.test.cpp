@@ -326,6 +326,7 @@ TEST_CASE("nothing is written outside the opened folder", "[studio]") {
     CHECK(page.last("document")["texts"][0]["changed"] == false);
     CHECK_FALSE(studio.ask({{"do", "save"}, {"path", "copies/other.l"}}).contains("error"));
     CHECK(text_of(studio.folder.path() / "copies/other.l") == text_of(studio.file));
+    studio.wait_until_grown();
     CHECK(page.last("document")["name"] == "other.l");
 }
 
