@@ -18,7 +18,8 @@ void KeptFields::add(const Fields& fields, int step) {
         if (!spool_) spool_ = std::make_unique<Spool>(file_);
         History& history = histories_[name];
         const bool is_same = !history.steps.empty() && history.last == message;
-        history.steps[step] = is_same ? history.steps.rbegin()->second : spool_->add(message);
+        const Spool::Place place = is_same ? history.steps.rbegin()->second : spool_->add(message);
+        history.steps[step] = place;
         history.last = std::move(message);
     }
 }
