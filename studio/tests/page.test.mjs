@@ -67,6 +67,7 @@ test("wide and narrow pages show the plant", async () => {
   await page.getByRole("button", { name: "Show or hide the settings" }).click();
   const picture = await page.locator(".viewport canvas").boundingBox();
   const panel = await page.getByRole("complementary", { name: "Settings and measurements" }).boundingBox();
+  await page.waitForTimeout(600);
   assert.ok(panel.y >= picture.y + picture.height - 1 && picture.height > 250);
   await shot(page, "width-390-settings");
   await page.getByRole("button", { name: "Show or hide the settings" }).click();
@@ -145,15 +146,15 @@ test("another program's text is read again, and where this page has changes it a
 });
 
 test("a model of the library is saved with the files of the folder above that it reads", async () => {
-  await openFromGallery("trees honda");
-  await page.waitForFunction(() => document.title.startsWith("honda"));
+  await openFromGallery("herbs/dichasium");
+  await page.waitForFunction(() => document.title.startsWith("dichasium"));
   await grown();
   await page.keyboard.press("Control+s");
   await page.getByRole("dialog", { name: "Save as" }).getByRole("button", { name: "Save" }).click();
-  await page.locator("header [title$='/plants/honda/trees/honda.l']").waitFor();
+  await page.locator("header [title$='/plants/dichasium/herbs/dichasium.l']").waitFor();
   await grown();
-  assert.ok(existsSync(join(place.folder, "honda/plants.map")));
-  assert.match(readFileSync(join(place.folder, "honda/trees/honda.l"), "utf8"), /Honda/);
+  assert.ok(existsSync(join(place.folder, "dichasium/plants.map")));
+  assert.match(readFileSync(join(place.folder, "dichasium/herbs/dichasium.l"), "utf8"), /dichasium/);
 });
 
 test("OBJ comes with its materials and the picture of its leaves", async () => {
