@@ -166,7 +166,8 @@ private:
     // The numbers of a position, or of each of several.
     void add_positions(const Place& place, const std::string& name, const std::string& group) {
         constexpr std::size_t most_positions = 8;  // of more, nobody slides one
-        const std::size_t begin = text_.find('[', lines_.begin(place.line)), end = end_of_list(begin);
+        if (!lines_.has(place.line)) return;
+        const std::size_t begin = value_of(place), end = end_of_list(begin);
         if (end == std::string::npos) return;
         const bool is_several = text_[text_.find_first_not_of(" \t\r\n", begin + 1)] == '[';
         std::vector<WrittenNumber> found;
@@ -192,9 +193,16 @@ private:
             numbers_.insert(numbers_.end(), found.begin(), found.end());
     }
 
-    // Behind the bracket that closes the list; npos if there is none.
+    // Where the value of a key begins.
+    std::size_t value_of(const Place& key) const {
+        const std::size_t at = lines_.begin(key.line) + static_cast<std::size_t>(std::max(key.column, 1)) - 1;
+        return text_.find_first_not_of("= \t", text_.find('=', at));
+    }
+
+    // Behind the bracket that closes the list; npos if none begins there, or if it is not closed.
     std::size_t end_of_list(std::size_t begin) const {
         int depth = 0;
+        if (begin >= text_.size() || text_[begin] != '[') return std::string::npos;
         for (std::size_t at = begin; at < text_.size(); ++at) {
             if (text_[at] == '[') ++depth;
             if (text_[at] == ']' && --depth == 0) return at + 1;
@@ -213,9 +221,7 @@ private:
     // `place` is the key's.
     void add(const Place& place, const std::string& name, const std::string& group) {
         if (!lines_.has(place.line)) return;
-        const std::size_t end = lines_.end(place.line);
-        const std::size_t key = lines_.begin(place.line) + static_cast<std::size_t>(std::max(place.column, 1)) - 1;
-        const std::size_t at = std::min(text_.find_first_not_of("= \t", text_.find('=', key)), end);
+        const std::size_t end = lines_.end(place.line), at = std::min(value_of(place), end);
         const std::size_t behind = std::min(text_.find_first_of(" \t\r,}]#", at), end);
         const std::string text = at < behind ? text_.substr(at, behind - at) : "";
         const bool is_switch = text == "true" || text == "false";
