@@ -36,7 +36,8 @@ std::string field_bytes(const Field& field, std::uint32_t growth, int step) {
     for (int k = 0; k < 3; ++k) counts[std::size_t(k)] = std::uint32_t(std::clamp(box.dim()[k], 0, most_voxels));
 
     // The nearest voxel, which is the one itself where all of them are sent.
-    std::vector<float> values(std::size_t(counts[0]) * counts[1] * counts[2]);
+    const std::size_t voxels = std::size_t{counts[0]} * counts[1] * counts[2];
+    std::vector<float> values(voxels);
     const auto sample_layer = [&](std::uint32_t z) {
         const openvdb::FloatGrid::ConstAccessor accessor = grid.getConstAccessor();
         float* at = values.data() + std::size_t(z) * counts[1] * counts[0];

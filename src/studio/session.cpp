@@ -185,7 +185,8 @@ void Session::restore() {
         try {
             const Json state = Json::parse(read_text(options_.state));
             document_ = Document::from_json(state);
-            for (const auto& [file, digest] : state.value("on_disk", Json::object()).items()) watch_.know(file, digest);
+            const Json on_disk = state.value("on_disk", Json::object());
+            for (const auto& [file, digest] : on_disk.items()) watch_.know(file, digest);
         } catch (const std::exception&) {
             say("warning", fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
         }
