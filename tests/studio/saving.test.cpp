@@ -157,9 +157,10 @@ TEST_CASE("a text that was changed here and by another program is saved only onc
 TEST_CASE("what was written while no studio ran is not overwritten by unsaved work of the last one", "[studio]") {
     Written studio;
     studio.options.state = studio.scratch.path() / "state.json";
+    studio.page.texts.clear();
     studio.begin();
     studio.wait_until_grown();
-    studio.change({{"texts", {{studio.part.string(), "#define LENGTH 4\n"}}}});
+    REQUIRE_FALSE(studio.change({{"texts", {{studio.part.string(), "#define LENGTH 4\n"}}}}).contains("error"));
     studio.session->tick();
     studio.session.reset();
     studio.folder.write("part.h", "#define LENGTH 40\n");
