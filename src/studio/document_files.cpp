@@ -25,6 +25,11 @@ bool is_palette(const fs::path& file) {
     return file.extension() == ".map" || file.extension() == ".mat";
 }
 
+bool is_mesh(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    return extension == ".obj" || extension == ".ply" || extension == ".stl";
+}
+
 std::string content_of(const fs::path& file, const std::string& bytes) {
     return is_palette(file) ? base64(bytes) : bytes;
 }

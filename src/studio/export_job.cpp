@@ -7,11 +7,30 @@
 #include "studio/worn_pictures.h"
 
 #include <exception>
+#include <set>
 #include <utility>
 
 namespace espalier::studio {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Materials and textures, which the files that are reported name.
+void add_companions(const fs::path& folder, std::vector<fs::path>& files) {
+    std::set<fs::path> others;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) others.insert(entry.path());
+    }
+    for (const fs::path& file : files) others.erase(file);
+    files.insert(files.end(), others.begin(), others.end());
+}
+
+}  // namespace
+
+fs::path export_folder(const fs::path& scratch) {
+    return scratch / "export";
+}
 
 ExportRun::ExportRun(ExportOrder order, Progressed progressed, Done done)
     : order_(std::move(order)),
@@ -68,8 +87,13 @@ std::vector<fs::path> ExportRun::write() {
         end_if_asked();
         files.push_back(file.path);
     };
-    const ExportJob job{recorded, frames, {}, order_.scratch / "export", report};
+    ExportJob job{recorded, frames, {}, export_folder(order_.scratch), report};
+    job.options.triangles = order_.triangles;
+    job.options.skin.smooth = job.mesh_axes = order_.is_smooth;
+    job.options.skin.folder = recorded.folder();
+    job.instances = order_.has_instances;
     export_run(job, std::vector{order_.format});
+    add_companions(job.folder, files);
     return files;
 }
 

@@ -3,7 +3,6 @@
 #include "espalier/simulation/simulation.h"
 
 #include "studio/derivation_length.h"
-#include "studio/field_bytes.h"
 #include "studio/inquiry.h"
 #include "studio/likeness.h"
 
@@ -42,7 +41,6 @@ std::string rows_behind(const fs::path& file, std::size_t offset) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-constexpr int most_steps = 100000000;  ///< more than anybody sees
 /// Seconds that a growth may go on before it shows a step.
 constexpr double most_unseen = 0.3;
 
@@ -99,6 +97,7 @@ Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
           if (!cancelled_) listener_.printed(number(), std::move(text));
       }),
       steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
+      fields_(order_.number, order_.scratch / fmt::format("fields-{}", order_.number)),
       version_(order_.version),
       wanted_(order_.looked_at),
       ended_(workers.run([this] { live(); })) {}
@@ -154,16 +153,6 @@ nlohmann::ordered_json Growth::what_is_known(int step, std::uint32_t module) con
     return studio::what_is_known(*scene(), *steps_, step, module);
 }
 
-// The field is read between two steps, or after the last, where it does not change meanwhile.
-void Growth::ask_field(const std::string& name, std::function<void(std::string bytes)> answer) {
-    const std::lock_guard lock(mutex_);
-    questions_.push_back([this, name, answer = std::move(answer)](const World& world) {
-        const Field* found = world.environment().fields().find(name);
-        if (found) answer(field_bytes(*found, number(), world.steps_done()));
-    });
-    changed_.notify_all();
-}
-
 void Growth::rest(bool rests) {
     const std::lock_guard lock(mutex_);
     rests_ = rests;
@@ -183,12 +172,12 @@ void Growth::live() {
         const Scene scene = order_.read(order_.opened);
         note_worn_files(scene);
         GrowthStart start;
-        start.files = reads.files();
         start.warnings = scene.notes.diagnostics;
         if (cancelled_) return;
         const fs::path folder = order_.scratch / fmt::format("files-{}", number());
         fs::create_directories(folder);
         Work work(scene, folder, printed_.printout());
+        start.files = reads.files();  // processes have read theirs, such as meshes
         begin(work, std::move(start));
         grow(work);
     } catch (const Stopped&) {
@@ -229,7 +218,6 @@ void Growth::begin(Work& work, GrowthStart start) {
 
 void Growth::grow(Work& work) {
     while (!cancelled_) {
-        answer(work);
         printed_.tell();
         try {
             if (advance(work)) continue;
@@ -306,6 +294,7 @@ void Growth::step(Work& work) {
     note_derived(work);
     const Frame frame = work.world.frame();
     std::string rows = work.record(frame);
+    fields_.add(work.world.environment().fields(), work.at);
     note_grown(work, steps_->add(frame), std::move(rows));
 }
 
@@ -393,22 +382,10 @@ void Growth::note_grown(Work& work, std::size_t internodes, std::string statisti
     if (!cancelled_) listener_.grown(number(), std::move(step));
 }
 
-void Growth::answer(const Work& work) {
-    std::deque<std::function<void(const World&)>> questions;
-    {
-        const std::lock_guard lock(mutex_);
-        questions.swap(questions_);
-    }
-    if (!work.is_whole) return;
-    for (const auto& question : questions) question(work.world);
-}
-
-// A question, an end, or steps to grow or to draw.
+// An end, or steps to grow or to draw.
 void Growth::wait_for_more(const Work& work) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] {
-        return cancelled_ || !questions_.empty() || !wanted_.empty() || may_grow(work) || may_draw_in_order(work);
-    });
+    changed_.wait(lock, [&] { return cancelled_ || !wanted_.empty() || may_grow(work) || may_draw_in_order(work); });
 }
 
 }  // namespace espalier::studio

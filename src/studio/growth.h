@@ -6,6 +6,7 @@
 #include "espalier/simulation/world.h"
 #include "espalier/studio/studio.h"
 
+#include "studio/kept_fields.h"
 #include "studio/kept_steps.h"
 #include "studio/printed_text.h"
 #include "studio/shown.h"
@@ -15,7 +16,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <future>
 #include <map>
@@ -27,6 +27,8 @@
 #include <vector>
 
 namespace espalier::studio {
+
+constexpr int most_steps = 100000000;  ///< of a growth: more than anybody sees
 
 struct GrowthOrder {
     std::uint32_t number = 0;   ///< names the growth
@@ -69,7 +71,7 @@ public:
     std::vector<std::string> column_names() const override;
     std::string column(int step, const std::string& name) const override;
     nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const override;
-    void ask_field(const std::string& name, std::function<void(std::string bytes)> answer) override;
+    std::string field(int step, const std::string& name) const override { return fields_.message(step, name); }
 
     void cancel() override;
     bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
@@ -99,13 +101,13 @@ private:
     void draw_in_order(Work& work);
     Frame frame_at(Work& work, int step);
     void note_grown(Work& work, std::size_t internodes, std::string statistics);
-    void answer(const Work& work);
     void wait_for_more(const Work& work);
 
     const GrowthOrder order_;
     GrowthListener& listener_;
     PrintedText printed_;
     const std::shared_ptr<KeptSteps> steps_;
+    KeptFields fields_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     std::uint64_t version_ = 0;
     std::atomic<int> last_step_ = -1;
@@ -115,7 +117,6 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::shared_ptr<const Scene> scene_;
-    std::deque<std::function<void(const World&)>> questions_;
     std::set<int> wanted_;     ///< steps to be drawn before others
     std::future<void> ended_;  ///< the last: its work uses all others
 };

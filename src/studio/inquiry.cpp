@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "studio/packet_parts.h"
+#include "timeline/meshes/chosen_parameters.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -236,6 +237,24 @@ const std::vector<std::pair<std::string, ColumnOfPlant>>& columns() {
     return all;
 }
 
+// The names that the scene gives to parameters. What `run` would refuse is told when it is run.
+std::vector<timeline::ChosenParameter> named_parameters(const Scene& scene) {
+    try {
+        return timeline::read_chosen_parameters(scene.timeline.table("parameters"));
+    } catch (const UserError&) {
+        return {};
+    }
+}
+
+void put_named(const timeline::ChosenParameter& chosen, const PlantString& plant, std::vector<float>& values) {
+    const timeline::ParameterSlots slots(chosen, plant.model.alphabet);
+    for (std::size_t i = 0; i < plant.string.size(); ++i) {
+        const int slot = slots.find(plant.string, i);
+        values.push_back(slot < 0 ? no_number
+                                  : static_cast<float>(plant.parameters(i)[static_cast<std::size_t>(slot)]));
+    }
+}
+
 int most_parameters(const Scene& scene) {
     int most = 0;
     for (const Plant& plant : scene.plants) {
@@ -257,6 +276,10 @@ std::vector<std::string> column_names(const Scene& scene) {
     for (const auto& [name, put] : columns()) {
         if (names.size() < of_all_models + parameters) names.push_back(name);
     }
+    const std::vector<timeline::ChosenParameter> chosen = named_parameters(scene);
+    for (auto named = chosen.rbegin(); named != chosen.rend(); ++named) {
+        if (std::find(names.begin(), names.end(), named->name) == names.end()) names.insert(names.begin(), named->name);
+    }
     return names;
 }
 
@@ -265,11 +288,18 @@ std::string column(const Scene& scene, const KeptSteps& steps, std::uint32_t gro
     require_step(steps, step);
     const auto known =
         std::find_if(columns().begin(), columns().end(), [&](const auto& entry) { return entry.first == name; });
-    if (known == columns().end()) throw UserError(fmt::format("modules have no '{}'", name));
+    const std::vector<timeline::ChosenParameter> chosen = named_parameters(scene);
+    const auto named = std::find_if(chosen.begin(), chosen.end(), [&](const auto& one) { return one.name == name; });
+    if (known == columns().end() && named == chosen.end()) throw UserError(fmt::format("modules have no '{}'", name));
     std::vector<float> values;
     std::vector<ModuleString> strings = steps.strings(step);
     for (std::size_t i = 0; i < strings.size(); ++i) {
-        known->second({std::move(strings[i]), source_of(*scene.plants[i].model)}, i, step, values);
+        const PlantString plant{std::move(strings[i]), source_of(*scene.plants[i].model)};
+        if (known == columns().end()) {
+            put_named(*named, plant, values);
+        } else {
+            known->second(plant, i, step, values);
+        }
     }
     return column_message(growth, step, name, values);
 }

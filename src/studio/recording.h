@@ -47,7 +47,7 @@ public:
     std::vector<std::string> column_names() const override { return columns_; }
     std::string column(int step, const std::string& name) const override;
     nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const override;
-    void ask_field(const std::string&, std::function<void(std::string bytes)>) override {}
+    std::string field(int step, const std::string& name) const override;
 
     void cancel() override;
     bool has_ended() const override { return ended_.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }

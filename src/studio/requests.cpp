@@ -13,10 +13,12 @@
 #include "studio/graph_text.h"
 #include "studio/notation_help.h"
 #include "studio/request_text.h"
+#include "studio/saved_places.h"
 #include "studio/session.h"
 #include "studio/session_viewer.h"
 #include "studio/sharing.h"
 
+#include <climits>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr int most_steps = 100000000;
 
 template <class Kind>
 Json parts() {
@@ -67,7 +67,7 @@ Session::Request Session::request_named(const std::string& name) {
         {"column", &Session::column},     {"pick", &Session::pick},           {"field", &Session::field},
         {"graph", &Session::graph},       {"save", &Session::save},           {"export", &Session::export_run},
         {"new-file", &Session::new_file}, {"limbs", &Session::limbs},         {"dismiss", &Session::dismiss},
-        {"share", &Session::share},       {"read-link", &Session::read_link},
+        {"share", &Session::share},       {"read-link", &Session::read_link}, {"settle", &Session::settle},
     };
     const auto found = requests.find(name);
     if (found == requests.end()) throw UserError(fmt::format("there is no request '{}'", name));
@@ -75,7 +75,7 @@ Session::Request Session::request_named(const std::string& name) {
 }
 
 Json Session::hello(Viewer&, const Json&) {
-    return {{"version", ESPALIER_VERSION}, {"folder", options_.folder.string()}};
+    return {{"version", ESPALIER_VERSION}, {"opened", document_.now().opened.path.string()}};
 }
 
 Json Session::library(Viewer&, const Json&) {
@@ -142,11 +142,7 @@ Json Session::open_text(Viewer&, const Json& request) {
 Json Session::share(Viewer&, const Json&) {
     const DocumentState& state = edited();
     if (fs::is_directory(state.opened.path)) throw UserError("a link holds a model or a scene, not a folder of files");
-    std::map<fs::path, std::string> files;
-    for (const auto& [file, read] : read_) files[file] = text_of(file, state);
-    for (const auto& [file, text] : state.unsaved) files[file] = text;
-    files.try_emplace(state.opened.path, text_of(state.opened.path, state));
-    Json shared = shared_files(state.opened.path, files, options_.library_folder);
+    Json shared = shared_files(state.opened.path, contents(state), options_.library_folder);
     shared.update(
         {{"seed", state.opened.seed.value_or(own_seed_)}, {"steps", state.opened.steps.value_or(own_steps_)}});
     return shared;
@@ -260,10 +256,7 @@ Json Session::pick(Viewer&, const Json& request) {
 }
 
 Json Session::field(Viewer& viewer, const Json& request) {
-    const Page* const page = &viewer.page;
-    grown_by(request).ask_field(request.at("name").get<std::string>(), [this, page](std::string bytes) {
-        send_later(page, [bytes = std::move(bytes)](Page& to) { to.send_bytes(bytes); });
-    });
+    viewer.page.send_bytes(grown_by(request).field(whole<int>(request, "step"), request.at("name").get<std::string>()));
     return Json::object();
 }
 
@@ -283,44 +276,68 @@ Json Session::new_file(Viewer&, const Json& request) {
 
 Json Session::save(Viewer&, const Json& request) {
     if (!document_.is_open()) throw UserError("nothing is open");
+    std::vector<fs::path> written;
     if (request.contains("path")) {
-        save_as(writable(options_.folder / request["path"].get<std::string>()));
+        written = save_as(writable(options_.folder / request["path"].get<std::string>()));
     } else {
-        for (const auto& [file, text] : document_.now().unsaved) {
-            const std::optional<std::string> before = text_on_disk(file);
-            if (before == text) continue;
-            writable(file);
-            if (before) document_.keep_text(file, *before);
-            write_text(file, text);
-        }
+        written = save_changes();
+        tell(document_json());
     }
-    tell(document_json());
-    return {{"path", document_.now().opened.path.string()}};
+    Json files = Json::array();
+    for (const fs::path& file : written) files.push_back(file.string());
+    return {{"version", document_.version()}, {"path", document_.now().opened.path.string()}, {"files", files}};
 }
 
-// With the files below its folder that it reads, at the same places beside it.
-void Session::save_as(const fs::path& path) {
-    const DocumentState now = edited();
-    const fs::path main = now.opened.path, folder = main.parent_path();
-    if (kind_of(main) == "object") throw UserError("save the folder of an object under its own name");
-    if (fs::exists(path)) throw UserError(fmt::format("{} is there already", path.string()));
-    for (const auto& [file, read] : read_) {
-        const fs::path beside = file.lexically_relative(folder);
-        if (file == main || folder == path.parent_path()) continue;
-        if (beside.empty() || *beside.begin() == "..") {
-            throw UserError(
-                fmt::format("it reads {}, which is not below {}: save it there", file.string(), folder.string()));
-        }
-        const fs::path copy = writable(path.parent_path() / beside);
-        if (fs::exists(copy)) continue;
-        fs::create_directories(copy.parent_path());
-        write_text(copy, text_of(file, now));
+std::vector<fs::path> Session::save_changes() {
+    const UnsavedTexts unsaved = document_.now().unsaved;
+    std::vector<fs::path> written;
+    for (const auto& [file, text] : unsaved) {
+        if (text_on_disk(file) != text) written.push_back(writable(file));
     }
-    fs::create_directories(path.parent_path());
-    write_text(path, text_of(main, now));
-    Opened opened = now.opened;
-    opened.path = path;
-    apply({opened, {}}, fmt::format("save as {}", path.filename().string()), false);
+    look_at_disk();
+    for (const fs::path& file : written) {
+        if (!disputed_.contains(file)) continue;
+        throw UserError(
+            fmt::format("another program has written {}: say first which text is to stay", file.filename().string()));
+    }
+    for (const fs::path& file : written) {
+        if (const std::optional<std::string> before = text_on_disk(file)) document_.keep_text(file, *before);
+        write_text(file, unsaved.at(file));
+        watch_.know(file, digest(unsaved.at(file)));
+    }
+    return written;
+}
+
+// With the files that it reads, at the same places beside it.
+std::vector<fs::path> Session::save_as(const fs::path& path) {
+    const DocumentState now = edited();
+    const fs::path main = now.opened.path;
+    if (kind_of(main) == "object") throw UserError("save the folder of an object under its own name");
+    const std::map<fs::path, std::string> files = contents(now);
+    const std::map<fs::path, fs::path> places = saved_places(main, files, path, options_.folder);
+    if (!places.contains(main)) throw UserError(fmt::format("{} is there already", path.string()));
+    std::vector<fs::path> written;
+    for (const auto& [file, place] : places) {
+        const std::optional<std::string> there = text_on_disk(writable(place));
+        if (fs::exists(place) && (file == main || there != files.at(file))) {
+            throw UserError(fmt::format("{} is there already{}", place.string(),
+                                        file == main ? "" : ", and is another file: save into another folder"));
+        }
+        if (!there) written.push_back(file);
+    }
+    for (fs::path& file : written) {
+        const fs::path place = places.at(file);
+        fs::create_directories(place.parent_path());
+        write_text(place, files.at(file));
+        file = place;
+    }
+    DocumentState saved{now.opened, {}};
+    saved.opened.path = places.at(main);
+    for (const auto& [file, text] : now.unsaved) {
+        if (!places.contains(file)) saved.unsaved[file] = text;
+    }
+    apply(std::move(saved), fmt::format("save as {}", path.filename().string()), false);
+    return written;
 }
 
 Json Session::export_run(Viewer&, const Json& request) {
@@ -334,24 +351,30 @@ Json Session::export_run(Viewer&, const Json& request) {
     if (!registered<ExporterType>().contains(order.format)) throw UserError("there is no such format");
     if (has_number(request, "step")) order.step = whole<int>(request, "step");
     order.is_film = request.value("film", false);
+    order.is_smooth = request.value("smooth", false);
+    order.has_instances = request.value("instances", false);
+    if (has_number(request, "triangles")) order.triangles = whole(request, "triangles", 1, INT_MAX);
+    if (order.is_smooth && order.triangles) throw UserError("a smooth skin has as many triangles as it needs");
     order.scratch = scratch;
     order.read = options_.read;
     order.permission = permission_of(order.opened.path, options_.library_folder);
     const auto progressed = [this](double share) {
         post_([this, share] { tell({{"say", "progress"}, {"what", "export"}, {"done", share}}); });
     };
-    const auto done = [this](std::vector<fs::path> files, std::string why) {
-        post_([this, files = std::move(files), why = std::move(why)] { note_exported(files, why); });
+    const auto done = [this, scratch](std::vector<fs::path> files, std::string why) {
+        post_([this, scratch, files = std::move(files), why = std::move(why)] {
+            note_exported(files, export_folder(scratch), why);
+        });
     };
     export_ = std::make_unique<ExportRun>(std::move(order), progressed, done);
     return Json::object();
 }
 
-void Session::note_exported(const std::vector<fs::path>& files, const std::string& why) {
+void Session::note_exported(const std::vector<fs::path>& files, const fs::path& folder, const std::string& why) {
     Json list = Json::array();
     for (const fs::path& file : files) {
         list.push_back({{"number", files_.number(file)},
-                        {"name", file.filename().string()},
+                        {"name", file.lexically_relative(folder).generic_string()},
                         {"bytes", static_cast<std::uint64_t>(fs::file_size(file))}});
     }
     tell({{"say", "exported"}, {"files", list}});

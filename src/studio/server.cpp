@@ -129,7 +129,8 @@ private:
     void receive() {
         const std::string text = beast::buffers_to_string(buffer_.data());
         buffer_.consume(buffer_.size());
-        if (!joined_ && !greets(text)) return close();
+        if (!joined_ && !greets(text)) return close("the key is not that of this studio");
+        if (!joined_ && state_.pages >= most_pages) return close("too many pages are open");
         if (!joined_) join();
         state_.session->receive(*this, text);
         read();
@@ -148,11 +149,12 @@ private:
     bool greets(const std::string& text) const {
         const nlohmann::ordered_json request = read_request(text);
         const std::string token = request.value("token", "");
-        return request.value("do", "") == "hello" && is_token(token, state_.token) && state_.pages < most_pages;
+        return request.value("do", "") == "hello" && is_token(token, state_.token);
     }
 
-    void close() {
-        socket_.async_close(websocket::close_code::policy_error, [self = shared_from_this()](beast::error_code) {});
+    void close(const char* why) {
+        socket_.async_close({websocket::close_code::policy_error, why},
+                            [self = shared_from_this()](beast::error_code) {});
     }
 
     void send(Message message) {

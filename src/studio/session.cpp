@@ -108,6 +108,7 @@ void Session::tick() {
         begin_next_growth();
         forget_ended();
         begin_limbs();
+        look_at_disk_sometimes();
         if (unkept_) keep();
     });
 }
@@ -135,6 +136,8 @@ void Session::document_changed(const fs::path& before, std::optional<int> follow
         read_.clear();
         problems_.clear();
         recorded_from_.reset();
+        watch_.forget();
+        disputed_.clear();
     }
     follow_from_ = follow_from.value_or(is_other ? 0 : INT_MAX);
     unkept_ = true;
@@ -167,7 +170,11 @@ void Session::keep() {
     if (options_.state.empty()) return;
     try {
         fs::create_directories(options_.state.parent_path());
-        write_private_text(options_.state, document_.to_json().dump());
+        Json state = document_.to_json();
+        for (const auto& [file, text] : document_.now().unsaved) {
+            if (watch_.knows(file)) state["on_disk"][file.string()] = watch_.digest_of(file);
+        }
+        write_private_text(options_.state, state.dump());
     } catch (const std::exception& error) {
         say("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
     }
@@ -176,7 +183,10 @@ void Session::keep() {
 void Session::restore() {
     if (!options_.state.empty() && fs::exists(options_.state)) {
         try {
-            document_ = Document::from_json(Json::parse(read_text(options_.state)));
+            const Json state = Json::parse(read_text(options_.state));
+            document_ = Document::from_json(state);
+            const Json on_disk = state.value("on_disk", Json::object());
+            for (const auto& [file, digest] : on_disk.items()) watch_.know(file, digest);
         } catch (const std::exception&) {
             say("warning", fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
         }
@@ -185,6 +195,7 @@ void Session::restore() {
     Opened opened = options_.opened;
     opened.path = fs::absolute(opened.path).lexically_normal();
     if (document_.now().opened.path == opened.path) return;
+    watch_.forget();
     document_.change({opened, {}}, fmt::format("open {}", opened.path.filename().string()), false);
 }
 
@@ -267,6 +278,7 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     const bool is_known =
         is_document_told_ && same_files(read_, start_.files) && own_seed_ == seed && own_steps_ == steps;
     read_ = start_.files;
+    watch(read_);
     recorded_from_ = start_.recorded_from;
     own_seed_ = seed;
     own_steps_ = steps;

@@ -3,6 +3,7 @@
 
 #include "espalier/studio/studio.h"
 
+#include "studio/disk_watch.h"
 #include "studio/document.h"
 #include "studio/export_job.h"
 #include "studio/growth.h"
@@ -81,6 +82,7 @@ private:
     Json limbs(Viewer& viewer, const Json& request);
     Json new_file(Viewer& viewer, const Json& request);
     Json save(Viewer& viewer, const Json& request);
+    Json settle(Viewer& viewer, const Json& request);
     Json export_run(Viewer& viewer, const Json& request);
     Json dismiss(Viewer& viewer, const Json& request);
 
@@ -91,7 +93,6 @@ private:
     void apply(DocumentState state, const std::string& label, bool transient);
     /// `before`: what was open. Pages that look at the last step see every one from `follow_from` on.
     void document_changed(const std::filesystem::path& before, std::optional<int> follow_from = {});
-    std::string text_of(const std::filesystem::path& file) const;
     std::string text_of(const std::filesystem::path& file, const DocumentState& state) const;
     /// Those that pages may edit: what was read, and what has unsaved changes.
     std::set<std::filesystem::path> texts() const;
@@ -103,8 +104,18 @@ private:
     std::filesystem::path below_folder(const std::filesystem::path& path) const;
     /// The same for what the studio does not write.
     std::filesystem::path writable(const std::filesystem::path& path) const;
-    void save_as(const std::filesystem::path& path);
-    void note_exported(const std::vector<std::filesystem::path>& files, const std::string& why);
+    /// What the document reads, itself among it, as it is now; by absolute paths.
+    std::map<std::filesystem::path, std::string> contents(const DocumentState& state) const;
+    /// Both return the files that they have written.
+    std::vector<std::filesystem::path> save_changes();
+    std::vector<std::filesystem::path> save_as(const std::filesystem::path& path);
+    // What other programs write.
+    void watch(const std::map<std::filesystem::path, ReadLog::File>& files);
+    void look_at_disk_sometimes();
+    void look_at_disk();
+    void read_again(const std::vector<std::filesystem::path>& files);
+    void note_exported(const std::vector<std::filesystem::path>& files, const std::filesystem::path& folder,
+                       const std::string& why);
     void guard(const std::function<void()>& work);
     void keep();
     void restore();
@@ -166,7 +177,11 @@ private:
     Document document_;
     std::map<std::filesystem::path, ReadLog::File> read_;  ///< what the last growth that started has read
     std::optional<DocumentState> recorded_from_;           ///< of the run that is open
-    bool is_document_told_ = true;                         ///< pages know the newest version
+    DiskWatch watch_;
+    std::set<std::filesystem::path> disputed_;  ///< written by another program while they had unsaved changes
+    std::uint32_t read_again_message_ = 0;      ///< 0: none so far
+    std::chrono::steady_clock::time_point looked_at_disk_{};
+    bool is_document_told_ = true;  ///< pages know the newest version
     std::vector<Diagnostic> problems_;
     bool unkept_ = false;  ///< the newest state is not on disk
 

@@ -77,10 +77,18 @@ fs::path Session::writable(const fs::path& path) const {
     return place;
 }
 
+std::map<fs::path, std::string> Session::contents(const DocumentState& state) const {
+    std::map<fs::path, std::string> files;
+    for (const auto& [file, read] : read_) files[file] = text_of(file, state);
+    for (const auto& [file, text] : state.unsaved) files[file] = text;
+    files.try_emplace(state.opened.path, text_of(state.opened.path, state));
+    return files;
+}
+
 std::set<fs::path> Session::texts() const {
     std::set<fs::path> texts;
     for (const auto& [path, file] : read_) {
-        if (file.kept && (is_palette(path) || is_text(file.bytes))) texts.insert(path);
+        if (file.kept && !is_mesh(path) && (is_palette(path) || is_text(file.bytes))) texts.insert(path);
     }
     const DocumentState& now = edited();
     for (const auto& [path, text] : now.unsaved) texts.insert(path);
@@ -166,7 +174,8 @@ Json Session::texts_json() const {
                      {"role", role_of(file, now.opened.path)},
                      {"language", language_of(file)},
                      {"content", content_of(file, text_of(file, now))},
-                     {"changed", now.unsaved.contains(file) && text_on_disk(file) != now.unsaved.at(file)}};
+                     {"changed", now.unsaved.contains(file) && text_on_disk(file) != now.unsaved.at(file)},
+                     {"disputed", disputed_.contains(file)}};
         const bool is_main = text["role"] == "main";
         list.insert(is_main ? list.begin() : list.end(), std::move(text));
     }

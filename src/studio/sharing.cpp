@@ -102,15 +102,19 @@ void read_file(const Json& file, const fs::path& library, SharedDocument& shared
 
 }  // namespace
 
-Json shared_files(const fs::path& main, const std::map<fs::path, std::string>& files, const fs::path& library) {
-    const fs::path folder = main.parent_path();
+fs::path common_folder(const fs::path& main, const std::map<fs::path, std::string>& files) {
+    fs::path folder = main.parent_path();
     int above = 0;
     for (const auto& [file, bytes] : files) above = std::max(above, folders_above(file, folder));
     if (above > most_above || files.size() > most_files) {
         throw UserError("the document reads files that lie too far from it, or too many: share the files themselves");
     }
-    fs::path root = folder;
-    for (int i = 0; i < above; ++i) root = root.parent_path();
+    for (int i = 0; i < above; ++i) folder = folder.parent_path();
+    return folder;
+}
+
+Json shared_files(const fs::path& main, const std::map<fs::path, std::string>& files, const fs::path& library) {
+    const fs::path root = common_folder(main, files);
     Json list = Json::array();
     for (const auto& [file, bytes] : files) list.push_back(file_json(file, bytes, root, library));
     return {{"main", main.lexically_relative(root).generic_string()}, {"files", list}};

@@ -13,6 +13,11 @@
 
 namespace espalier::studio {
 
+/// The folder below which a document and all files that it reads lie: its own or one above.
+/// Throws UserError if they lie too far from each other, or are too many.
+std::filesystem::path common_folder(const std::filesystem::path& main,
+                                    const std::map<std::filesystem::path, std::string>& files);
+
 /// `files`: what the document reads, by absolute paths, as it is now. `library`: the folder of the models that come
 /// with the program; may be empty. The part of `open-text` in docs/studio-protocol.md that tells the files.
 /// Throws UserError for files that a link cannot carry.

@@ -12,7 +12,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -87,8 +86,8 @@ public:
     virtual std::vector<std::string> column_names() const = 0;
     virtual std::string column(int step, const std::string& name) const = 0;
     virtual nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const = 0;
-    /// Calls `answer` on another thread with the message; not at all if there is no such field.
-    virtual void ask_field(const std::string& name, std::function<void(std::string bytes)> answer) = 0;
+    /// Throws UserError if there is no such field at this step.
+    virtual std::string field(int step, const std::string& name) const = 0;
 
     /// As it grows; null of a recorded run, and before a growth has started.
     virtual std::shared_ptr<const Scene> scene() const { return nullptr; }

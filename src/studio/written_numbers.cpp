@@ -125,7 +125,7 @@ std::vector<WrittenNumber> numbers_of_model(const fs::path& file, const std::str
     return numbers;
 }
 
-/// The numbers and switches of a scene file's tables, but not those of lists.
+/// The numbers and switches of a scene file's tables; of lists, those of positions alone.
 class SceneNumbers {
 public:
     explicit SceneNumbers(const std::string& text) : text_(text), lines_(text) {}
@@ -145,6 +145,8 @@ private:
                 const std::size_t first = numbers_.size();
                 add(table.table(key), name, inner, help_of_table(table.table(key), key, help));
                 if (key == "define" && table.has("model")) describe_defines(table.path("model"), first);
+            } else if (key == "position" || key == "positions") {
+                add_positions(table.place(key), name, group);
             } else if (!add_tables(table, key, name, inner, help)) {
                 add(table.place(key), name, group, words_of_key(help, key));
             }
@@ -188,6 +190,53 @@ private:
         return true;
     }
 
+    // The numbers of a position, or of each of several.
+    void add_positions(const Place& place, const std::string& name, const std::string& group) {
+        constexpr std::size_t most_positions = 8;  // of more, nobody slides one
+        if (!lines_.has(place.line)) return;
+        const std::size_t begin = value_of(place), end = end_of_list(begin);
+        if (end == std::string::npos) return;
+        const bool is_several = text_[text_.find_first_not_of(" \t\r\n", begin + 1)] == '[';
+        std::vector<WrittenNumber> found;
+        for (std::size_t at = begin; at < end;) {
+            const std::size_t from = text_.find_first_not_of("[], \t\r\n", at);
+            at = std::min(text_.find_first_of("[], \t\r\n", from), end);
+            if (from >= end) break;
+            const std::string text = text_.substr(from, at - from);
+            const std::optional<double> value = number(text);
+            if (!value) return;  // a formula, or a comment
+            const char axis = "xyz"[found.size() % 3];
+            const std::size_t which = found.size() / 3;
+            found.push_back({.name = fmt::format("{}{}.{}", name, is_several ? fmt::format(".{}", which) : "", axis),
+                             .label = fmt::format("{} of {}", axis,
+                                                  is_several ? fmt::format("position {}", which + 1) : "the position"),
+                             .group = group,
+                             .unit = "m",
+                             .text = text,
+                             .value = *value,
+                             .offset = from});
+        }
+        if (found.size() % 3 == 0 && found.size() <= 3 * most_positions)
+            numbers_.insert(numbers_.end(), found.begin(), found.end());
+    }
+
+    // Where the value of a key begins.
+    std::size_t value_of(const Place& key) const {
+        const std::size_t at = lines_.begin(key.line) + static_cast<std::size_t>(std::max(key.column, 1)) - 1;
+        return text_.find_first_not_of("= \t", text_.find('=', at));
+    }
+
+    // Behind the bracket that closes the list; npos if none begins there, or if it is not closed.
+    std::size_t end_of_list(std::size_t begin) const {
+        int depth = 0;
+        if (begin >= text_.size() || text_[begin] != '[') return std::string::npos;
+        for (std::size_t at = begin; at < text_.size(); ++at) {
+            if (text_[at] == '[') ++depth;
+            if (text_[at] == ']' && --depth == 0) return at + 1;
+        }
+        return std::string::npos;
+    }
+
     // What tells it from others of its list: its name, what stage it is, or its number; "" for the only one.
     static std::string name_of(const Settings& table, std::size_t place, std::size_t count) {
         for (const char* key : {"name", "stage"}) {
@@ -199,9 +248,7 @@ private:
     // `place` is the key's; `words` are those of its documentation, which a comment behind it replaces.
     void add(const Place& place, const std::string& name, const std::string& group, const std::string& words) {
         if (!lines_.has(place.line)) return;
-        const std::size_t end = lines_.end(place.line);
-        const std::size_t key = lines_.begin(place.line) + static_cast<std::size_t>(std::max(place.column, 1)) - 1;
-        const std::size_t at = std::min(text_.find_first_not_of("= \t", text_.find('=', key)), end);
+        const std::size_t end = lines_.end(place.line), at = std::min(value_of(place), end);
         const std::size_t behind = std::min(text_.find_first_of(" \t\r,}]#", at), end);
         const std::string text = at < behind ? text_.substr(at, behind - at) : "";
         const bool is_switch = text == "true" || text == "false";

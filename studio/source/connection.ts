@@ -12,6 +12,7 @@ interface Waiting {
 }
 
 export interface ConnectionEvents {
+  greeted: (greeting: Requests["hello"]["get"]) => void;
   state: (state: ConnectionState, tryAgainIn: number) => void;
   said: (message: Said) => void;
   binary: (message: BinaryMessage) => void;
@@ -20,9 +21,12 @@ export interface ConnectionEvents {
 }
 
 const longestPause = 8; // seconds between two tries
+const refusal = 1008; // the server closes a socket so that did not show the right key
 
 export class Connection {
   state: ConnectionState = "connecting";
+  /** Why the server refused this page. */
+  why = "";
   private socket: WebSocket | null = null;
   private next = 1;
   private pause = 0.5;
@@ -30,7 +34,7 @@ export class Connection {
   private readonly waiting = new Map<number, Waiting>();
 
   constructor(
-    private readonly token: string,
+    private token: string,
     private readonly events: ConnectionEvents,
   ) {}
 
@@ -41,9 +45,15 @@ export class Connection {
     this.socket = socket;
     socket.addEventListener("open", () => void this.greet());
     socket.addEventListener("message", (event: MessageEvent<string | ArrayBuffer>) => this.receive(event.data));
-    socket.addEventListener("close", () => {
-      if (this.socket === socket) this.lose();
+    socket.addEventListener("close", ({ code, reason }) => {
+      if (this.socket === socket) this.lose(code === refusal ? reason : null);
     });
+  }
+
+  /** Tries again with another key. */
+  connectWith(token: string): void {
+    this.token = token;
+    this.connect();
   }
 
   request<Name extends keyof Requests>(name: Name, fields: Requests[Name]["send"]): Promise<Requests[Name]["get"]> {
@@ -64,22 +74,24 @@ export class Connection {
 
   private async greet(): Promise<void> {
     try {
-      await this.request("hello", { token: this.token });
+      const greeting = await this.request("hello", { token: this.token });
       this.pause = 0.5;
+      this.events.greeted(greeting);
       this.become("open");
-    } catch (error) {
-      if (error instanceof RequestError && this.socket?.readyState === WebSocket.OPEN) {
-        this.become("refused");
-        this.socket.close();
-      }
+    } catch {
+      // The socket closes, and says why.
     }
   }
 
-  private lose(): void {
+  private lose(refused: string | null): void {
     this.socket = null;
     for (const { reject } of this.waiting.values()) reject(new RequestError("The connection to the studio's program was lost."));
     this.waiting.clear();
-    if (this.state === "refused") return;
+    if (refused !== null) {
+      this.why = refused;
+      this.become("refused");
+      return;
+    }
     this.become("lost");
     this.timer = window.setTimeout(() => this.connect(), this.pause * 1000);
     this.pause = Math.min(longestPause, this.pause * 1.6);

@@ -100,6 +100,16 @@ export function whole(value: number): string {
   return numberFormat.format(value);
 }
 
+/** A field for a number, which may be written with a decimal comma; `numberIn` reads it. */
+export function decimalField(attributes: Attributes): HTMLInputElement {
+  return h("input", "number", { type: "text", inputmode: "decimal", ...attributes });
+}
+
+/** What a field says, with a decimal point. */
+export function numberIn(field: HTMLInputElement): string {
+  return field.value.trim().replace(/^([-+]?\d*),(\d+)$/, "$1.$2");
+}
+
 /** A number with about four digits that matter. */
 export function short(value: number): string {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "none" : String(value);

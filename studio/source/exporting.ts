@@ -1,7 +1,9 @@
 /** The dialog that exports the run in one of the program's formats. */
 import { openDialog } from "./dialog.js";
 import { download, h } from "./elements.js";
+import type { ExportRequest, HandedFile } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
+import { zip } from "./zip.js";
 
 export class Exporting {
   private asked = false;
@@ -11,17 +13,13 @@ export class Exporting {
     studio.on("exported", (files) => {
       if (!this.asked) return;
       this.asked = false;
-      for (const file of files)
-        studio.connection.file(file.number).then(
-          (blob) => download(blob, file.name),
-          (error: unknown) => studio.tell("error", errorText(error)),
-        );
-      if (files.length > 0) studio.tell("note", `Exported ${files.map(({ name }) => name).join(", ")}.`);
+      if (files.length > 0) this.take(files).catch((error: unknown) => studio.tell("error", errorText(error)));
     });
   }
 
   open(): void {
-    const formats = this.studio.help?.exporters ?? [];
+    const { studio } = this;
+    const formats = studio.help?.exporters ?? [];
     const select = h(
       "select",
       "wide",
@@ -31,33 +29,51 @@ export class Exporting {
       ),
     );
     const about = h("pre", "about");
-    const film = h("input", "", { type: "checkbox", id: "export-film" });
+    const film = check("film");
+    const smooth = check("smooth", studio.limbs?.smooth ?? false);
+    const instances = check("instances");
+    const triangles = h("input", "number", { type: "number", min: 1, step: 1, id: "export-triangles", placeholder: "all" });
     const state = h("p", "hint", { role: "status" });
-    const describe = () => (about.textContent = formats.find(({ name }) => name === select.value)?.help ?? "");
+    const describe = () => {
+      about.textContent = formats.find(({ name }) => name === select.value)?.help ?? "";
+      triangles.disabled = smooth.checked;
+    };
     select.addEventListener("change", describe);
+    smooth.addEventListener("change", describe);
     describe();
+    const wanted = (): ExportRequest => ({
+      format: select.value,
+      step: studio.frames.step,
+      film: film.checked,
+      smooth: smooth.checked,
+      instances: instances.checked,
+      ...(triangles.value && !triangles.disabled ? { triangles: Number(triangles.value) } : {}),
+    });
     const form = h(
       "form",
       "form",
       {
         onsubmit: (event) => {
           event.preventDefault();
-          void this.run(select.value, film.checked, state).then((begun) => begun && dialog.close());
+          void this.run(wanted(), state).then((begun) => begun && dialog.close());
         },
       },
       h("label", "", { for: "export-format" }, "Format"),
       select,
       about,
-      h("label", "check", { for: "export-film" }, film, `All steps, not only step ${this.studio.frames.step}`),
+      labelled(film, `All steps, not only step ${studio.frames.step}`),
+      labelled(smooth, "Limbs with one smooth skin"),
+      labelled(instances, "Organs that look alike as instances of one shape (gltf of one step, usd)"),
+      h("label", "check", { for: "export-triangles" }, "At most so many triangles (obj, ply, stl, gltf, usd)", triangles),
       h("div", "form-end", {}, state, h("button", "button primary", { type: "submit" }, "Export")),
     );
     const dialog = openDialog("Export", form);
   }
 
-  private async run(format: string, film: boolean, state: HTMLElement): Promise<boolean> {
+  private async run(wanted: ExportRequest, state: HTMLElement): Promise<boolean> {
     this.asked = true;
     try {
-      await this.studio.connection.request("export", { format, step: this.studio.frames.step, ...(film ? { film } : {}) });
+      await this.studio.connection.request("export", wanted);
       return true;
     } catch (error) {
       this.asked = false;
@@ -65,4 +81,23 @@ export class Exporting {
       return false;
     }
   }
+
+  /** A file that needs others comes with them, at the places where it looks for them. */
+  private async take(files: HandedFile[]): Promise<void> {
+    const blobs = await Promise.all(files.map(({ number }) => this.studio.connection.file(number)));
+    if (files.length === 1) download(blobs[0], files[0].name);
+    else {
+      const entries = files.map(({ name }, index) => ({ name, blob: blobs[index] }));
+      download(await zip(entries), `${files[0].name.replace(/\.\w+$/, "")}.zip`);
+    }
+    this.studio.tell("note", `Exported ${files.map(({ name }) => name).join(", ")}.`);
+  }
+}
+
+function check(name: string, checked = false): HTMLInputElement {
+  return h("input", "", { type: "checkbox", id: `export-${name}`, checked });
+}
+
+function labelled(box: HTMLInputElement, words: string): HTMLElement {
+  return h("label", "check", { for: box.id }, box, words);
 }

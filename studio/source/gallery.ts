@@ -1,7 +1,7 @@
 /** The gallery: models and scenes of the library with pictures, one's own files, and a search. */
 import { h, icon, iconButton } from "./elements.js";
 import type { Library, LibraryEntry } from "./protocol.js";
-import { openLink } from "./links.js";
+import { hasModel, openLink } from "./links.js";
 import type { Studio } from "./state.js";
 
 const everything = "All";
@@ -14,13 +14,17 @@ export class Gallery {
     placeholder: "Search, or paste a link",
     "aria-label": "Search the gallery",
   });
-  private readonly list = h("div", "cards");
+  private readonly list = h("div", "cards", { role: "tabpanel", "aria-label": "Models and scenes" });
+  /** What had the focus before. */
+  private before: Element | null = null;
+  /** What it covers, which keys must not reach meanwhile. */
+  behind: HTMLElement[] = [];
   private readonly close: HTMLButtonElement;
   private library: Library | null = null;
   private shelf = everything;
   private readonly pictures = new Map<number, Promise<string>>();
   private readonly lazily: IntersectionObserver;
-  private readonly tabs = h("div", "tabs");
+  private readonly tabs = h("div", "tabs", { role: "tablist", "aria-label": "Shelves" });
   private buttons = new Map<string, HTMLButtonElement>();
 
   constructor(
@@ -52,7 +56,7 @@ export class Gallery {
       this.list,
     );
     this.search.addEventListener("input", () => {
-      if (this.search.value.includes("#model=")) void this.openLink(this.search.value);
+      if (hasModel(this.search.value)) void this.openLink(this.search.value);
       else this.draw();
     });
     this.element.addEventListener("keydown", (event) => {
@@ -67,7 +71,9 @@ export class Gallery {
   }
 
   async show(): Promise<void> {
+    if (this.element.hidden) this.before = document.activeElement;
     this.element.hidden = false;
+    for (const element of this.behind) element.inert = true;
     this.close.hidden = !this.studio.document;
     this.library = (await this.studio.ask("library", {})) ?? this.library;
     const shelves = new Set(this.library?.library.map(({ shelf }) => shelf));
@@ -79,6 +85,8 @@ export class Gallery {
 
   hide(): void {
     this.element.hidden = true;
+    for (const element of this.behind) element.inert = false;
+    if (this.before instanceof HTMLElement) this.before.focus();
   }
 
   private choose(shelf: string): void {
@@ -107,7 +115,7 @@ export class Gallery {
   }
 
   private tab(shelf: string): HTMLButtonElement {
-    return h("button", "tab", { type: "button", onclick: () => this.choose(shelf) }, shelf);
+    return h("button", "tab", { type: "button", role: "tab", onclick: () => this.choose(shelf) }, shelf);
   }
 
   private section(shelf: string, entries: LibraryEntry[]): HTMLElement {
@@ -151,7 +159,7 @@ export class Gallery {
 
   private async openLink(link: string): Promise<void> {
     this.search.value = "";
-    if (await openLink(this.studio, link.slice(link.indexOf("#")))) this.leave();
+    if (await openLink(this.studio, link)) this.leave();
   }
 
   private leave(): void {

@@ -1,7 +1,7 @@
 /** The panel of graphs of components: the graph, and a form of the chosen component. */
 import type { Changes } from "./changes.js";
 import type { Editor } from "./editor/editor.js";
-import { fillSlider, h, iconButton } from "./elements.js";
+import { fillSlider, h, iconButton, numberIn } from "./elements.js";
 import { graphPicture } from "./graph-picture.js";
 import type { ComponentGraph, ComponentKey, ComponentType, GraphComponent, GraphEdit, GraphLink } from "./protocol.js";
 import type { Studio } from "./state.js";
@@ -131,7 +131,7 @@ export class GraphPanel {
     };
     const field = h("input", plain ? "number" : "wide", { type: "text", id, placeholder: standard, "data-key": key.name });
     field.value = value ?? "";
-    field.addEventListener("change", () => send(field.value.trim() || null, true));
+    field.addEventListener("change", () => send((plain ? numberIn(field) : field.value.trim()) || null, true));
     const control = h("div", "control slider", {}, field, h("span", "unit", {}, key.unit));
     if (plain) control.prepend(this.slider(key, value ?? standard, field, send));
     const reset = iconButton("reset", `Back to ${standard || "the usual value"}`, () => send(null, true));

@@ -22,7 +22,7 @@ export class Header {
   readonly element: HTMLElement;
   /** Called when what can be shared is looked at. */
   shared: () => void = () => undefined;
-  private readonly name = h("span", "document-name");
+  private readonly name = h("h1", "document-name");
   private readonly exporting: Exporting;
   private readonly undoButton = iconButton("undo", "Undo", () => void this.step("undo"));
   private readonly redoButton = iconButton("redo", "Redo", () => void this.step("redo"));
@@ -90,7 +90,7 @@ export class Header {
     this.parts.editor.sendLasting();
     await this.parts.changes.settle();
     const saved = await this.parts.studio.ask("save", path ? { path } : {});
-    if (saved) this.parts.studio.tell("note", `Saved as ${saved.path}.`);
+    if (saved) this.parts.studio.tell("note", savedText(saved));
   }
 
   private show(): void {
@@ -141,6 +141,11 @@ export class Header {
     const dialog = openDialog("Save as", form);
     field.focus();
   }
+}
+
+function savedText({ path, files }: { path: string; files: string[] }): string {
+  const others = files.filter((file) => file !== path).length;
+  return `Saved as ${path}${others > 0 ? `, with ${others === 1 ? "a file" : `${others} files`} that it reads` : ""}.`;
 }
 
 const keys: [string, string][] = [

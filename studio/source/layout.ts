@@ -8,6 +8,11 @@ interface Sizes {
   rightOpen: boolean;
 }
 
+/** Where the page is too narrow for panels beside the picture, one may stand below it, none at first. */
+const narrow = matchMedia("(max-width: 720px)");
+
+const narrowest = 220; // pixels of a panel
+
 const usual: Sizes = { left: 400, right: 330, leftOpen: true, rightOpen: true };
 
 export class Layout {
@@ -16,11 +21,14 @@ export class Layout {
   readonly right = h("aside", "panel right", { "aria-label": "Settings and measurements" });
   readonly centre = h("main", "centre");
   private sizes: Sizes = { ...usual, ...remembered<Partial<Sizes>>("sizes", {}) };
+  private readonly handles: { left?: HTMLElement; right?: HTMLElement } = {};
+  private below: "left" | "right" | null = null;
   /** Called when the picture may have another size. */
   changed: () => void = () => undefined;
 
   constructor() {
     this.element = h("div", "columns", {}, this.left, this.handle("left"), this.centre, this.handle("right"), this.right);
+    narrow.addEventListener("change", () => this.apply());
     this.apply();
   }
 
@@ -29,34 +37,47 @@ export class Layout {
   }
 
   isOpen(side: "left" | "right"): boolean {
+    if (narrow.matches) return this.below === side;
     return side === "left" ? this.sizes.leftOpen : this.sizes.rightOpen;
   }
 
   setOpen(side: "left" | "right", open: boolean): void {
-    if (side === "left") this.sizes.leftOpen = open;
+    if (narrow.matches) this.below = open ? side : null;
+    else if (side === "left") this.sizes.leftOpen = open;
     else this.sizes.rightOpen = open;
     this.apply();
   }
 
   private apply(): void {
-    const { left, right, leftOpen, rightOpen } = this.sizes;
-    this.element.style.setProperty("--left", leftOpen ? `${left}px` : "0px");
-    this.element.style.setProperty("--right", rightOpen ? `${right}px` : "0px");
-    this.left.hidden = !leftOpen;
-    this.right.hidden = !rightOpen;
+    const { left, right } = this.sizes;
+    this.left.hidden = !this.isOpen("left");
+    this.right.hidden = !this.isOpen("right");
+    // The picture keeps two fifths of the width.
+    this.element.style.setProperty("--left", this.left.hidden ? "0px" : `min(${left}px, 32vw)`);
+    this.element.style.setProperty("--right", this.right.hidden ? "0px" : `min(${right}px, 28vw)`);
     remember("sizes", this.sizes);
     this.changed();
   }
 
   private resize(side: "left" | "right", width: number): void {
     const most = Math.max(240, window.innerWidth - (side === "left" ? this.sizes.right : this.sizes.left) - 320);
-    this.sizes[side] = Math.round(Math.min(most, Math.max(220, width)));
+    const size = Math.round(Math.min(most, Math.max(narrowest, width)));
+    this.sizes[side] = size;
+    this.handles[side]?.setAttribute("aria-valuenow", String(size));
     this.apply();
   }
 
   private handle(side: "left" | "right"): HTMLElement {
     const label = side === "left" ? "Width of the texts" : "Width of the settings";
-    const handle = h("div", "handle", { role: "separator", tabindex: 0, "aria-orientation": "vertical", "aria-label": label });
+    const handle = h("div", "handle", {
+      role: "separator",
+      tabindex: 0,
+      "aria-orientation": "vertical",
+      "aria-label": label,
+      "aria-valuemin": narrowest,
+      "aria-valuenow": this.sizes[side],
+    });
+    this.handles[side] = handle;
     handle.addEventListener("pointerdown", (event) => handle.setPointerCapture(event.pointerId));
     handle.addEventListener("pointermove", (event) => {
       if (!handle.hasPointerCapture(event.pointerId)) return;

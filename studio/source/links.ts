@@ -8,12 +8,18 @@ import { errorText, type Studio } from "./state.js";
 /** Links of the studio have 8,000 characters; what is packed in more could fill the memory. */
 const longestPacked = 20000;
 
-export async function modelOfLink(fragment: string): Promise<SharedModel | null> {
-  const packed = new URLSearchParams(fragment.replace(/^#/, "")).get("model");
+/** Links of every port, as they are shared, with the words around them, or as a fragment of this page's address. */
+const link = /(?:espalier:|[#&])model=([\w-]+)/;
+
+export function hasModel(text: string): boolean {
+  return link.test(text);
+}
+
+export async function modelOfLink(text: string): Promise<SharedModel | null> {
+  const packed = link.exec(text)?.[1];
   if (!packed) return null;
   if (packed.length > longestPacked) throw new Error(`it has ${whole(packed.length)} characters, too many for a link`);
-  const text = new TextDecoder().decode(await decompress(fromBase64(packed)));
-  return JSON.parse(text) as SharedModel;
+  return JSON.parse(new TextDecoder().decode(await decompress(fromBase64(packed)))) as SharedModel;
 }
 
 function fileList(contents: LinkContents): HTMLElement {
@@ -44,9 +50,9 @@ function agreed(contents: LinkContents): Promise<boolean> {
 }
 
 /** True if the link's model is open now; false if there is none in it, or somebody thought better of it. */
-export async function openLink(studio: Studio, fragment: string): Promise<boolean> {
+export async function openLink(studio: Studio, text: string): Promise<boolean> {
   try {
-    const model = await modelOfLink(fragment);
+    const model = await modelOfLink(text);
     const contents = model && (await studio.ask("read-link", model));
     if (!model || !contents || !(await agreed(contents))) return false;
     return (await studio.ask("open-text", model)) !== undefined;

@@ -5,22 +5,16 @@ import { Editor } from "./editor/editor.js";
 import { Gallery } from "./gallery.js";
 import { GraphPanel } from "./graph.js";
 import { Header } from "./header.js";
+import { takeKey } from "./key.js";
 import { Layout, Tabs } from "./layout.js";
 import { Messages } from "./messages.js";
 import { PickPanel } from "./pick.js";
 import { SettingsPanel } from "./settings.js";
-import { openLink } from "./links.js";
+import { hasModel, openLink } from "./links.js";
 import { Studio } from "./state.js";
 import { StatusLine } from "./status.js";
 import { Timeline } from "./timeline.js";
 import { Viewport } from "./viewport.js";
-
-/** The token stands in the address, and stays for a reload after the fragment has been used. */
-function takeToken(): string {
-  const token = new URLSearchParams(location.hash.slice(1)).get("token");
-  if (token) sessionStorage.setItem("espalier.token", token);
-  return token ?? sessionStorage.getItem("espalier.token") ?? "";
-}
 
 function useTheme(studio: Studio): void {
   const apply = () => (document.documentElement.dataset.theme = studio.theme);
@@ -57,12 +51,13 @@ function keysOfThePage(header: Header, timeline: Timeline, forget: () => void): 
 /** A link that was opened as the address of this page. */
 async function openAddress(studio: Studio): Promise<boolean> {
   const fragment = location.hash;
-  if (fragment.includes("model=")) history.replaceState(null, "", location.pathname);
+  if (!hasModel(fragment)) return false;
+  history.replaceState(null, "", location.pathname);
   return openLink(studio, fragment);
 }
 
 function start(): void {
-  const studio = new Studio(takeToken());
+  const studio = new Studio(takeKey());
   useTheme(studio);
   const changes = new Changes(studio);
   const layout = new Layout();
@@ -106,21 +101,24 @@ function start(): void {
     messages.banner,
     layout.element,
     timeline.element,
-    new StatusLine(studio).element,
+    new StatusLine(studio, viewport.scene).element,
     messages.element,
     gallery.element,
   );
   keysOfThePage(header, timeline, () => void picked.pick(null));
+  gallery.behind = [layout.element, timeline.element];
   let first = true;
   studio.on("connection", (state) => {
     if (state !== "open" || !first) return;
     first = false;
     void openAddress(studio).then((opened) => {
-      // The document of the server follows its greeting.
-      setTimeout(() => {
-        if (!opened && !studio.document?.path) void gallery.show();
-      }, 250);
+      if (!opened && !studio.opened) void gallery.show();
     });
+  });
+  // Another address in the same tab.
+  window.addEventListener("hashchange", () => {
+    if (studio.connection.state === "open") void openAddress(studio).then((opened) => opened && gallery.hide());
+    else studio.connection.connectWith(takeKey());
   });
   studio.connection.connect();
 }

@@ -1,5 +1,6 @@
 /** Messages that stay until they are dismissed, and the banner of a lost connection. */
 import { h, iconButton } from "./elements.js";
+import { keepKey, keyIn } from "./key.js";
 import type { Studio } from "./state.js";
 
 const titles = { error: "Error", warning: "Warning", note: "Note" } as const;
@@ -13,15 +14,46 @@ export class Messages {
     studio.on("connection", (state) => {
       this.banner.hidden = state === "open" || state === "connecting";
       if (state === "refused")
-        this.banner.replaceChildren(
-          "The program did not accept this address. Open the address that `espalier studio` printed last.",
-        );
+        this.banner.replaceChildren(...this.refusal());
       if (state === "lost")
         this.banner.replaceChildren(
           "There is no connection to the program. Your texts are kept on this page, and it tries again. If the program has ended, start espalier studio again. ",
           h("button", "button small", { type: "button", onclick: () => studio.connection.connect() }, "Try now"),
         );
     });
+  }
+
+  /** Says what to do, and takes another address. */
+  private refusal(): Node[] {
+    const { connection } = this.studio;
+    if (!connection.why.includes("key")) return [document.createTextNode(`The studio does not let this page in: ${connection.why}.`)];
+    const field = h("input", "wide", { type: "text", "aria-label": "Address or key", placeholder: "http://127.0.0.1:…/#token=…" });
+    const form = h(
+      "form",
+      "key-form",
+      {
+        onsubmit: (event) => {
+          event.preventDefault();
+          const key = keyIn(field.value);
+          if (!key) return;
+          keepKey(key);
+          connection.connectWith(key);
+        },
+      },
+      field,
+      h("button", "button small", { type: "submit" }, "Open"),
+    );
+    return [
+      h(
+        "span",
+        "",
+        {},
+        "The key in this page's address is not that of the studio that runs here. Each start has a new one: it stands in the address that ",
+        h("code", "", {}, "espalier studio"),
+        " has printed in its terminal. Open that address, or paste it here.",
+      ),
+      form,
+    ];
   }
 
   private draw(): void {

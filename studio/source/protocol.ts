@@ -5,6 +5,8 @@ export interface TextFile {
   role: "main" | "model" | "view" | "side";
   content: string;
   changed: boolean;
+  /** Another program has written the file since it was changed here. */
+  disputed: boolean;
   language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "view" | "map" | "materials" | "plain";
 }
 
@@ -239,9 +241,18 @@ export interface LinkContents {
   files: { path: string; bytes: number; library: string | null }[];
 }
 
+export interface ExportRequest {
+  format: string;
+  step: number;
+  film: boolean;
+  smooth: boolean;
+  instances: boolean;
+  triangles?: number;
+}
+
 /** What each request sends and gets. */
 export interface Requests {
-  hello: { send: { token: string }; get: { version: string } };
+  hello: { send: { token: string }; get: { version: string; opened: string } };
   library: { send: object; get: Library };
   help: { send: object; get: Help };
   open: { send: { path: string }; get: object };
@@ -258,11 +269,12 @@ export interface Requests {
   frame: { send: { growth: number; step: number }; get: object };
   column: { send: { growth: number; step: number; name: string }; get: object };
   pick: { send: { growth: number; step: number; module: number }; get: Picked };
-  field: { send: { growth: number; name: string }; get: object };
+  field: { send: { growth: number; step: number; name: string }; get: object };
   limbs: { send: { skin: null } | { growth: number; step: number; skin: "tubes" | "smooth" }; get: object };
   "new-file": { send: { name: string; content: string }; get: { path: string } };
-  save: { send: { path?: string }; get: { path: string } };
-  export: { send: { format: string; step?: number; film?: boolean }; get: object };
+  save: { send: { path?: string }; get: { path: string; files: string[] } };
+  settle: { send: { path: string; take: "disk" | "mine" }; get: { version: number } };
+  export: { send: ExportRequest; get: object };
   dismiss: { send: { message: number }; get: object };
 }
 

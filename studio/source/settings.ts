@@ -1,6 +1,6 @@
 /** The settings of the document: sliders, switches, choices and numbers, in groups. */
 import type { Changes } from "./changes.js";
-import { fillSlider, h, icon, iconButton, short } from "./elements.js";
+import { decimalField, fillSlider, h, icon, iconButton, numberIn, short } from "./elements.js";
 import type { Setting, StudioDocument } from "./protocol.js";
 import type { Studio } from "./state.js";
 
@@ -27,8 +27,10 @@ function isSwitch(setting: Setting): boolean {
 function span(setting: Setting): { lowest: number; highest: number; step: number } {
   const usual = Number(setting.default);
   const base = Number.isFinite(usual) && usual !== 0 ? usual : setting.value || 1;
-  const lowest = setting.lowest ?? Math.min(0, 2 * base);
-  const highest = setting.highest ?? Math.max(lowest + 1e-9, 2 * base, 0);
+  // A place may lie on either side of the origin.
+  const reach = /\bpositions?(\.\d+)?\.[xyz]$/.test(setting.name) ? Math.max(5, 2 * Math.abs(base)) : null;
+  const lowest = setting.lowest ?? (reach === null ? Math.min(0, 2 * base) : -reach);
+  const highest = setting.highest ?? reach ?? Math.max(lowest + 1e-9, 2 * base, 0);
   const step = setting.whole ? 1 : 10 ** Math.floor(Math.log10((highest - lowest) / 150));
   return { lowest, highest, step };
 }
@@ -37,7 +39,7 @@ function sliderRow(setting: Setting, send: Send): Row {
   const { lowest, highest, step } = span(setting);
   const id = `setting-${setting.name}`;
   const slider = h("input", "", { type: "range", min: lowest, max: highest, step, id });
-  const number = h("input", "number", { type: "text", inputmode: "decimal", "aria-label": `${setting.label}, as a number` });
+  const number = decimalField({ "aria-label": `${setting.label}, as a number` });
   const show = (now: Setting) => {
     if (document.activeElement !== number) number.value = now.text;
     if (!slider.matches(":active")) slider.value = String(now.value);
@@ -49,7 +51,7 @@ function sliderRow(setting: Setting, send: Send): Row {
     send(number.value, false);
   });
   slider.addEventListener("change", () => send(String(Number(Number(slider.value).toPrecision(8))), true));
-  number.addEventListener("change", () => send(number.value.trim() || null, true));
+  number.addEventListener("change", () => send(numberIn(number) || null, true));
   show(setting);
   return { element: h("div", "control slider", {}, slider, number, unitOf(setting)), update: show };
 }
@@ -126,6 +128,7 @@ export class SettingsPanel {
     const send: Send = (text, lasting) => {
       const change = { settings: { [setting.name]: text } };
       const label = text === null ? `Reset ${setting.label}` : `${setting.label} = ${text}`;
+      this.studio.emit("sliding", !lasting);
       if (lasting) this.changes.lasting(`setting ${setting.name}`, change, label);
       else this.changes.transient(`setting ${setting.name}`, change, label);
     };

@@ -143,9 +143,9 @@ async function sharedModel(studio: Studio): Promise<SharedModel> {
   return { main, files, seed, steps };
 }
 
-/** As a fragment of an address. */
-async function fragmentOf(model: SharedModel): Promise<string> {
-  return `model=${urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))))}`;
+/** Without the address of a studio: whoever opens it runs one of their own, at another port. */
+async function linkOf(model: SharedModel): Promise<string> {
+  return `espalier:model=${urlSafe(toBase64(await compress(new TextEncoder().encode(JSON.stringify(model)))))}`;
 }
 
 /** Which texts leave this machine with the link. */
@@ -163,13 +163,13 @@ function whatItTakesAlong(model: SharedModel): HTMLElement {
 export async function shareLinkDialog(studio: Studio): Promise<void> {
   try {
     const model = await sharedModel(studio);
-    const address = `${location.origin}/#${await fragmentOf(model)}`;
-    if (address.length > longestLink)
+    const link = await linkOf(model);
+    if (link.length > longestLink)
       throw new Error(
-        `This is too long for a link: ${whole(address.length)} characters of ${whole(longestLink)}. Save the files and send them, or share the growth as HTML.`,
+        `This is too long for a link: ${whole(link.length)} characters of ${whole(longestLink)}. Save the files and send them, or share the growth as HTML.`,
       );
-    const field = h("textarea", "wide", { readonly: true, rows: 6, "aria-label": "Link" });
-    field.value = address;
+    const field = h("textarea", "wide", { readonly: true, rows: 8, "aria-label": "Link" });
+    field.value = `${model.main}, for Espalier ${studio.version}. To open it, start "espalier studio" and paste this whole text into the search field of its gallery:\n${link}`;
     const copy = h(
       "button",
       "button primary",
@@ -177,7 +177,7 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
         type: "button",
         onclick: () => {
           field.select();
-          void navigator.clipboard.writeText(address).then(() => (copy.textContent = "Copied"));
+          void navigator.clipboard.writeText(field.value).then(() => (copy.textContent = "Copied"));
         },
       },
       "Copy",
@@ -188,7 +188,7 @@ export async function shareLinkDialog(studio: Studio): Promise<void> {
         "p",
         "",
         {},
-        "The link holds the texts that did not come with Espalier, the seed and the steps. Whoever runs a studio opens it by pasting it into the search field of the gallery.",
+        "The link holds the texts that did not come with Espalier, the seed and the steps. The text around it says how to open it: in a studio of the same version, by pasting it into the search field of the gallery.",
       ),
       whatItTakesAlong(model),
       field,

@@ -47,6 +47,8 @@ interface Events {
   help: Help;
   exported: HandedFile[];
   theme: "light" | "dark";
+  /** Whether a slider of a setting is being moved. */
+  sliding: boolean;
 }
 
 type Listener<Name extends keyof Events> = (event: Events[Name]) => void;
@@ -55,6 +57,10 @@ export class Studio {
   readonly connection: Connection;
   readonly frames: Frames;
   document: StudioDocument | null = null;
+  /** Of the program, once it has greeted. */
+  version = "";
+  /** What the program had open when it greeted; "" if nothing. */
+  opened = "";
   problems: Problem[] = [];
   growth: Growth | null = null;
   statistics: Statistics = { growth: 0, columns: [], rows: [] };
@@ -76,6 +82,7 @@ export class Studio {
   constructor(readonly token: string) {
     this.theme = remembered("theme", matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     this.connection = new Connection(token, {
+      greeted: ({ version, opened }) => Object.assign(this, { version, opened }),
       state: (state) => this.connected(state),
       said: (message) => this.hear(message),
       binary: (message) => this.take(message),

@@ -2,7 +2,7 @@
 import { h, whole } from "./elements.js";
 import type { Growth } from "./protocol.js";
 import type { Studio } from "./state.js";
-import { triangleCount } from "./view/index.js";
+import type { PlantScene } from "./view/index.js";
 
 const names: Record<Growth["state"], string> = {
   reading: "reading",
@@ -20,17 +20,24 @@ function duration(seconds: number): string {
 
 export class StatusLine {
   readonly element = h("footer", "status");
-  private readonly state = h("span", "state");
+  /** Told as it changes; how far it is and the counts are there to be read. */
+  private readonly state = h("span", "state", { role: "status" });
   private readonly progress = h("progress", "", { max: 1, value: 0, hidden: true, "aria-label": "Progress" });
   private readonly counts = h("span", "counts");
   private readonly what = h("span", "what");
   private began = { growth: -1, step: 0, at: 0 };
 
-  constructor(private readonly studio: Studio) {
+  constructor(
+    private readonly studio: Studio,
+    private readonly scene: PlantScene,
+  ) {
     this.element.append(this.state, this.progress, this.what, this.counts);
     studio.on("growth", (growth) => this.showGrowth(growth));
     studio.on("problems", () => this.showGrowth(studio.growth));
     studio.on("shown", () => this.showCounts());
+    studio.on("statistics", () => this.showCounts());
+    studio.on("shapes", () => this.showCounts());
+    studio.on("limbs", () => this.showCounts());
     studio.on("progress", ({ what, done }) => {
       this.progress.hidden = done >= 1;
       this.progress.value = done;
@@ -45,10 +52,11 @@ export class StatusLine {
     const busy = growth.state === "growing" || growth.state === "reading";
     if (growth.growth !== this.began.growth) this.began = { growth: growth.growth, step: growth.step, at: performance.now() };
     const recorded = growth.state === "done" && this.studio.document?.kind === "run";
-    this.state.textContent =
+    const state =
       wrong > 0
         ? `${wrong} ${wrong === 1 ? "error" : "errors"} in the text: the plant before it stays`
         : `${recorded ? "recorded" : names[growth.state]}${growth.reason ? `: ${growth.reason}` : ""}`;
+    if (this.state.textContent !== state) this.state.textContent = state;
     this.element.dataset.state = wrong > 0 ? "failed" : growth.state;
     this.progress.hidden = !busy;
     this.progress.value = growth.last > 0 ? Math.max(0, growth.step) / growth.last : 0;
@@ -65,16 +73,26 @@ export class StatusLine {
     return `${text}, about ${duration((spent / grown) * (growth.last - growth.step))} left`;
   }
 
+  /** As the statistics of all plants say; null while they are on their way. */
+  private modulesAt(step: number): number | null {
+    const { columns, rows } = this.studio.statistics;
+    const at = columns.indexOf("modules");
+    const own = rows.filter((row) => row[0] === step);
+    return at < 0 || own.length === 0 ? null : own.reduce((sum, row) => sum + Number(row[at]), 0);
+  }
+
   private showCounts(): void {
     const packet = this.studio.frames.shown;
     const growth = this.studio.growth;
     if (!packet) return;
-    const triangles = triangleCount(packet);
+    const { vertices, triangles } = this.scene.sizeOf(packet, this.studio.limbs);
     let organs = 0;
     for (const { count } of packet.groups) organs += count;
-    const parts = [`${whole(growth?.modules ?? 0)} modules`, `${whole(packet.internodeCount)} internodes`];
+    const parts = [`${whole(packet.internodeCount)} internodes`];
+    const modules = packet.step === growth?.step ? growth.modules : this.modulesAt(packet.step);
+    if (modules !== null) parts.unshift(`${whole(modules)} modules`);
     if (organs > 0) parts.push(`${whole(organs)} organs`);
-    if (triangles > 0) parts.push(`${whole(packet.positions.length / 3)} vertices`, `${whole(triangles)} triangles`);
+    if (triangles > 0) parts.push(`${whole(vertices)} vertices`, `${whole(triangles)} triangles`);
     this.counts.textContent = parts.join("  ·  ");
   }
 }

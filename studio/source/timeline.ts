@@ -12,7 +12,7 @@ export class Timeline {
   private readonly play = iconButton("play", "Play (P)", () => this.toggle());
   private readonly slider = h("input", "scrub", { type: "range", min: 0, max: 0, step: 1, value: 0, "aria-label": "Step" });
   private readonly grown = h("div", "grown");
-  private readonly label = h("output", "step-label", {}, "0");
+  private readonly label = h("output", "step-label", { "aria-live": "off" }, "0");
   private readonly rate = h("select", "", { "aria-label": "Steps a second", title: "Steps a second" });
   private readonly more = h("input", "number", { type: "number", min: 1, value: 5, "aria-label": "Steps to grow on by" });
   private readonly stopButton = iconButton("stop", "Stop the growth", () => void this.studio.ask("stop", {}));
@@ -34,7 +34,7 @@ export class Timeline {
     this.element = h(
       "div",
       "timeline",
-      { role: "group", "aria-label": "Timeline" },
+      { role: "region", "aria-label": "Timeline" },
       iconButton("first", "First step", () => this.goTo(0)),
       iconButton("back", "One step back", () => this.goTo(this.step - 1)),
       this.play,

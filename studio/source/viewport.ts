@@ -15,6 +15,7 @@ import type { AuthorView } from "./protocol.js";
 import { errorText, type Studio } from "./state.js";
 import type { Timeline } from "./timeline.js";
 import { menuButton } from "./dialog.js";
+import { CloudLook } from "./cloud.js";
 import { Film } from "./film.js";
 import { Hints } from "./hints.js";
 import { LimbLook } from "./limbs.js";
@@ -36,6 +37,8 @@ export class Viewport {
   readonly hints: Hints;
   private colouring = remembered("colouring", "");
   private fieldName = "";
+  private askedField = "";
+  private fieldIsAsked = false;
   private fieldLook: FieldLook = { mode: "slice", axis: 1, at: 0.5 };
   private askedColumn = "";
   private hasAuthorLight = false;
@@ -50,6 +53,7 @@ export class Viewport {
     this.scene.theme = themes[studio.theme];
     steer(this.scene, { clicked: (x, y) => clicked(this.scene.pick(x, y)) });
     this.hints = new Hints(studio);
+    new CloudLook(studio, this.scene, () => this.chooseField(this.fieldName));
     this.canvas.addEventListener("pointerup", () => this.hints.did("turned"));
     this.limbs = new LimbLook(studio, this.scene);
     const film = new Film(this.studio, this.scene, timeline, this.limbs);
@@ -87,9 +91,6 @@ export class Viewport {
       if (document.path !== this.documentPath) this.scene.reframe();
       this.documentPath = document.path;
     });
-    studio.on("growth", (growth) => {
-      if (growth.state === "done" && this.fieldName) this.askField();
-    });
   }
 
   private followAuthor(view: AuthorView | null): void {
@@ -110,6 +111,7 @@ export class Viewport {
     this.element.dataset.growth = String(packet.growth);
     this.element.dataset.triangles = String(triangleCount(packet));
     if (this.colouring && this.colouring !== "order") this.askColumn(packet);
+    if (this.fieldName) this.askField();
   }
 
   private toolbar(film: Film): HTMLElement {
@@ -259,18 +261,32 @@ export class Viewport {
     this.fieldName = name;
     this.fieldSelect.value = name;
     this.fieldTools.hidden = name === "";
+    this.askedField = "";
     if (name === "") this.scene.showField(null, this.fieldLook);
     else this.askField();
   }
 
+  /** That of the step that shows; one request is under way at a time. */
   private askField(): void {
-    const { growth } = this.studio;
-    if (growth) this.studio.connection.request("field", { growth: growth.growth, name: this.fieldName }).catch(() => undefined);
+    const { shown } = this.studio.frames;
+    if (!shown || this.fieldName === "") return;
+    const wanted = `${shown.growth} ${shown.step} ${this.fieldName}`;
+    if (this.fieldIsAsked || wanted === this.askedField) return;
+    this.askedField = wanted;
+    this.fieldIsAsked = true;
+    this.studio.connection
+      .request("field", { growth: shown.growth, step: shown.step, name: this.fieldName })
+      .catch(() => undefined)
+      .finally(() => {
+        this.fieldIsAsked = false;
+        this.askField();
+      });
   }
 
   private paintField(field: Field): void {
-    if (field.name !== this.fieldName) return;
+    if (`${field.growth} ${field.step} ${field.name}` !== this.askedField) return;
     this.field = field;
+    this.element.dataset.field = `${field.name} ${field.step}`;
     this.scene.showField(field, this.fieldLook);
     this.showFieldValue();
     const unit = this.studio.fields.find(({ name }) => name === field.name)?.unit ?? "";

@@ -73,7 +73,7 @@ describe("editors of side files", () => {
   const grown = () => page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
   const open = async (name) => {
     await page.getByRole("button", { name: "Gallery", exact: true }).click();
-    await page.getByRole("button", { name: "My files" }).click();
+    await page.getByRole("tab", { name: "My files" }).click();
     await page.locator(`.card[title$="/${name}"]`).click();
     await page.waitForFunction((title) => document.title.startsWith(title), name);
     await grown();

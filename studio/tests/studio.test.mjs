@@ -66,7 +66,7 @@ test("the gallery offers models with pictures, and a search finds one that grows
 
 test("one's own file opens and grows step after step", async () => {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
-  await page.getByRole("button", { name: "My files" }).click();
+  await page.getByRole("tab", { name: "My files" }).click();
   await page.locator('.card[title$="/plants/tree.l"]').click();
   await shows(8);
   await grown();
@@ -227,7 +227,7 @@ test("a link opens the same model in a studio", async () => {
   await page.getByRole("button", { name: "Share" }).click();
   await page.getByRole("menuitem", { name: /^Share as a link/ }).click();
   const link = await page.getByRole("textbox", { name: "Link" }).inputValue();
-  assert.ok(link.length < 8000 && link.includes("#model="));
+  assert.ok(link.length < 8000 && link.includes("\nespalier:model="));
   assert.match(await page.locator(".shared-files").textContent(), /tree\.l/);
   await page.keyboard.press("Escape");
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
@@ -249,7 +249,7 @@ test("a recorded run opens from the gallery, is scrubbed and picked, and a slide
     cwd: base,
   });
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
-  await page.getByRole("button", { name: "My files" }).click();
+  await page.getByRole("tab", { name: "My files" }).click();
   await page.locator('.card[title$="/recorded"]').click();
   await page.waitForFunction(() => document.title.startsWith("recorded"));
   await grown();
@@ -296,7 +296,7 @@ test("points of a function are dragged, and the text follows", async () => {
   writeFileSync(join(place.folder, "curved.v"), "function: bend.func\n");
   writeFileSync(join(place.folder, "curved.toml"), '[simulation]\nsteps = 7\n[[plant]]\nmodel = "curved.l"\nview = "curved.v"\n');
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
-  await page.getByRole("button", { name: "My files" }).click();
+  await page.getByRole("tab", { name: "My files" }).click();
   await page.locator('.card[title$="/curved.toml"]').click();
   await page.getByRole("tab", { name: /bend\.func/ }).click();
   await grown();
@@ -405,7 +405,7 @@ function contrasts({ theme, pairs }) {
 
 test("the work is found again after the program was killed in the middle of a growth", async () => {
   await page.getByRole("button", { name: "Gallery", exact: true }).click();
-  await page.getByRole("button", { name: "My files" }).click();
+  await page.getByRole("tab", { name: "My files" }).click();
   await page.locator('.card[title$="/plants/tree.l"]').click();
   await page.waitForFunction(() => document.title.startsWith("tree.l"));
   await page.locator(".cm-content").click();

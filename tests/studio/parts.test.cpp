@@ -56,6 +56,13 @@ position = [1, 2, 3]
 [[plant]]
 model = "b.l"
 define = { HEIGHT = 1e1 }
+positions = [
+    [0, 0, 0],
+    [1.5, 0, -2],
+]
+[[plant]]
+model = "c.l"
+position = ["= A", 0, 0]
 )";
     const std::vector<WrittenNumber> numbers = written_numbers("scene.toml", scene);
     std::vector<std::string> names;
@@ -64,15 +71,22 @@ define = { HEIGHT = 1e1 }
         CHECK(scene.substr(number.offset, number.text.size()) == number.text);
     }
     REQUIRE(names == std::vector<std::string>{"simulation.steps", "environment.light.voxel", "environment.light.depth",
-                                              "environment.light.on", "plant.1.define.HEIGHT"});
+                                              "environment.light.on", "plant.0.position.x", "plant.0.position.y",
+                                              "plant.0.position.z", "plant.1.define.HEIGHT", "plant.1.positions.0.x",
+                                              "plant.1.positions.0.y", "plant.1.positions.0.z", "plant.1.positions.1.x",
+                                              "plant.1.positions.1.y", "plant.1.positions.1.z"});
     CHECK(numbers[0].whole);
     CHECK(numbers[1].label == "metres");
     CHECK_FALSE(numbers[1].whole);
     CHECK(numbers[2].value == -3);
     CHECK(numbers[3].is_switch);
-    CHECK(numbers[4].value == 10);
+    CHECK(numbers[6].label == "z of the position");
+    CHECK(numbers[6].unit == "m");
+    CHECK(numbers[7].value == 10);
+    CHECK(numbers[13].value == -2);
+    CHECK(numbers[13].label == "z of position 2");
     CHECK(numbers[1].group == "environment, light");
-    CHECK(numbers[4].group == "plant 2, define");
+    CHECK(numbers[7].group == "plant 2, define");
     CHECK(with_number(scene, numbers[1], "0.25").find("voxel = 0.25   # metres") != std::string::npos);
 }
 

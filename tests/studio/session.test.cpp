@@ -168,6 +168,21 @@ TEST_CASE("modules can be coloured by their age", "[studio]") {
     CHECK(bytes.size() == 24 + 4 + 4 + 4 * modules);
 }
 
+TEST_CASE("modules are coloured by the names that the scene gives to their parameters", "[studio]") {
+    OpenStudio studio("[[plant]]\nmodel = \"plant.l\"\n[timeline]\nparameters = { generation = \"A.1\" }\n",
+                      "scene.toml");
+    studio.folder.write("plant.l", tree);
+    ListeningPage& page = studio.begin();
+    studio.wait_until_grown();
+    CHECK(page.last("columns")["columns"] == Json({"generation", "age", "plant", "symbol", "parameter 1"}));
+    studio.ask({{"do", "column"}, {"growth", page.last("growth")["growth"]}, {"step", 4}, {"name", "generation"}});
+    const std::string& bytes = page.packets.back();
+    REQUIRE(bytes.substr(0, 4) == "ESC1");
+    // Only apices have one, and all are of the fifth generation; F(LENGTH) has another parameter.
+    CHECK(number_at<float>(bytes, 16) == 5);
+    CHECK(number_at<float>(bytes, 20) == 5);
+}
+
 TEST_CASE("the same step is shown again after an edit, and none is grown twice", "[studio]") {
     OpenStudio studio(tree);
     ListeningPage& page = studio.begin();
@@ -311,6 +326,7 @@ TEST_CASE("nothing is written outside the opened folder", "[studio]") {
     CHECK(page.last("document")["texts"][0]["changed"] == false);
     CHECK_FALSE(studio.ask({{"do", "save"}, {"path", "copies/other.l"}}).contains("error"));
     CHECK(text_of(studio.folder.path() / "copies/other.l") == text_of(studio.file));
+    studio.wait_until_grown();
     CHECK(page.last("document")["name"] == "other.l");
 }
 
@@ -445,9 +461,18 @@ TEST_CASE("a scene with a process grows with its fields, which pages can see", "
     CHECK(page.last("document")["texts"].size() == 2);
     REQUIRE(!page.last("fields")["fields"].empty());
     CHECK(page.last("fields")["fields"][0]["name"] == "light");
-    studio.ask({{"do", "field"}, {"growth", page.last("growth")["growth"]}, {"name", "light"}});
-    studio.wait([&] { return page.packets.back().substr(0, 4) == "ESF1"; });
-    const std::string& field = page.packets.back();
+    const auto field_at = [&](int step) {
+        studio.ask({{"do", "field"}, {"growth", page.last("growth")["growth"]}, {"step", step}, {"name", "light"}});
+        REQUIRE(page.packets.back().substr(0, 4) == "ESF1");
+        return page.packets.back();
+    };
+    // The lowest light: the more there is to cast shade, the less.
+    const std::string first = field_at(1), field = field_at(5);
+    CHECK(number_at<std::int32_t>(first, 8) == 1);
+    CHECK(number_at<std::int32_t>(field, 8) == 5);
+    CHECK(number_at<float>(first, 48) > number_at<float>(field, 48));
+    const Json later = {{"do", "field"}, {"growth", page.last("growth")["growth"]}, {"step", 6}, {"name", "light"}};
+    CHECK(studio.ask(later)["error"] == "step 6 has not been grown");
     const auto voxels =
         number_at<std::uint32_t>(field, 12) * number_at<std::uint32_t>(field, 16) * number_at<std::uint32_t>(field, 20);
     CHECK(voxels > 0);

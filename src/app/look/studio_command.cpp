@@ -146,12 +146,25 @@ void open_browser(const std::string& address) {
     }
 }
 
+// What a shared link holds; empty if the text is none. Pages show it and ask before anything is written.
+std::string link_in(const std::string& text) {
+    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+    for (const std::string_view mark : {"espalier:model=", "#model=", "&model="}) {
+        const std::size_t at = text.find(mark);
+        if (at == std::string::npos) continue;
+        const std::size_t begin = at + mark.size();
+        return text.substr(begin, text.find_first_not_of(letters, begin) - begin);
+    }
+    return "";
+}
+
 class Studio final : public Command {
 public:
     explicit Studio(CLI::App& program)
         : Command(program, "studio", "edit, grow, watch and measure plants in the browser") {
         app().add_option("what", what_,
-                         "a model, a scene, the folder of an object or of a recorded run; default: a random tree");
+                         "a model, a scene, the folder of an object or of a recorded run, or a shared link; default: a "
+                         "random tree");
         app().add_option("--folder", folder_,
                          "files are read and written below it; default: this folder, or the one of a file outside it");
         app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
@@ -171,6 +184,8 @@ Examples:
         const platform::EndSignals signals([](int) { ended = true; }, /*only_once=*/true);
         const TemporaryFolder scratch("studio");
         studio::StudioOptions options;
+        const std::string link = link_in(what_.string());
+        if (!link.empty()) what_.clear();
         options.opened = opened();
         options.is_named = !what_.empty();
         if (!what_.empty() && !fs::exists(options.opened.path)) {
@@ -186,7 +201,8 @@ Examples:
         options.read = read;
         options.library = [library = Library(options.folder)] { return library.entries(); };
         options.interrupt = &ended;
-        options.ready = [this](const std::string& address) {
+        options.ready = [this, &link](const std::string& own) {
+            const std::string address = link.empty() ? own : own + "&model=" + link;
             fmt::print("{}\n", address);
             std::fflush(stdout);
             if (!no_browser_) open_browser(address);

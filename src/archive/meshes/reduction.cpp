@@ -42,6 +42,41 @@ double outline_area(const TubeLine& line) {
     return area;
 }
 
+struct PositionOrder {
+    bool operator()(const glm::vec3& a, const glm::vec3& b) const {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    }
+};
+
+/// The tube that each stands on: it has a node where that begins. A tube that stands on none has its own number.
+std::vector<std::size_t> bearers(const std::vector<PlannedTube>& tubes) {
+    std::map<glm::vec3, std::size_t, PositionOrder> passed;
+    for (std::size_t i = 0; i < tubes.size(); ++i) {
+        const std::vector<TubeNode>& nodes = tubes[i].line.nodes;
+        for (std::size_t k = 1; k < nodes.size(); ++k) passed.try_emplace(nodes[k].position, i);
+    }
+    std::vector<std::size_t> result(tubes.size());
+    for (std::size_t i = 0; i < tubes.size(); ++i) {
+        const auto place = passed.find(tubes[i].line.nodes.front().position);
+        result[i] = place == passed.end() || tubes[i].line.stands_free ? i : place->second;
+    }
+    return result;
+}
+
+/// The outline of each tube with all that stand on it.
+std::vector<double> borne_areas(const std::vector<PlannedTube>& tubes) {
+    constexpr int most_orders = 100;  // of branching: crossing lines may seem to bear each other
+    const std::vector<std::size_t> bearer = bearers(tubes);
+    std::vector<double> areas(tubes.size(), 0);
+    for (std::size_t i = 0; i < tubes.size(); ++i) {
+        const double own = outline_area(tubes[i].line);
+        std::size_t at = i;
+        areas[at] += own;
+        for (int order = 0; order < most_orders && bearer[at] != at; ++order) areas[at = bearer[at]] += own;
+    }
+    return areas;
+}
+
 double area_of(const FrameMesh& mesh, const MeshPart& organ) {
     double area = 0;
     for (std::size_t i = 0; i < organ.triangles; ++i) {
@@ -57,12 +92,14 @@ public:
     struct Limits {
         int fewest_sides;
         double longest_growth;  ///< of organs that stay
+        bool keeps_bearers;     ///< an axis counts for all that stands on it
     };
 
     Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
               const Limits& limits)
         : tubes_(tubes), organs_(organs), limits_(limits) {
-        for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points);
+        const std::vector<double> areas = limits_.keeps_bearers ? borne_areas(tubes_) : std::vector<double>();
+        for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points, areas);
         for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
         add_removals();
     }
@@ -118,7 +155,7 @@ private:
         bool gone = false;
     };
 
-    void add_tube(std::size_t i, const RecordedAttributes& of_points) {
+    void add_tube(std::size_t i, const RecordedAttributes& of_points, const std::vector<double>& borne) {
         const TubeLine& line = tubes_[i].line;
         TubeState& state = states_.emplace_back();
         state.nodes = line.nodes.size();
@@ -127,13 +164,18 @@ private:
         state.thickest = 0;
         for (const TubeNode& node : line.nodes) state.thickest = std::max(state.thickest, node.radius);
         const std::vector<double> errors = node_errors(line, of_points);
-        for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(errors[k], k);
+        // A bearer that leaves its place by its own width leaves all that stands on it in the air.
+        const auto weighed = [&](double error) {
+            if (borne.empty()) return error;
+            return std::max(error, outline_error(borne[i] * std::min(1.0, error / (2 * state.thickest))));
+        };
+        for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(weighed(errors[k]), k);
         std::sort(state.leaving.rbegin(), state.leaving.rend());
         count_ += triangles_of_tube(i);
         if (tubes_[i].caps == Caps::round) push(0, Effect::caps, i);
         push_node(i);
         push_side(i);
-        push(outline_error(outline_area(line)), Effect::tube, i);
+        push(outline_error(borne.empty() ? outline_area(line) : borne[i]), Effect::tube, i);
     }
 
     void add_organ(std::size_t i) {
@@ -321,12 +363,12 @@ private:
 
 void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
             std::size_t triangles) {
-    Reduction(tubes, organs, of_points, {fewest_sides, longest_growth}).run_to_count(triangles);
+    Reduction(tubes, organs, of_points, {fewest_sides, longest_growth, true}).run_to_count(triangles);
 }
 
 void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
              double tolerance) {
-    Reduction(tubes, organs, of_points, {sides_of_line, std::numeric_limits<double>::infinity()})
+    Reduction(tubes, organs, of_points, {sides_of_line, std::numeric_limits<double>::infinity(), false})
         .run_to_error(tolerance);
     std::erase_if(tubes, [](const PlannedTube& tube) { return tube.sides == 0; });
 }

@@ -20,8 +20,9 @@ struct PlannedTube {
 inline constexpr double smallest_angle = 1e-3;
 
 /// Leaves out middles of caps, nodes, sides, vertices of organs and at last thin tubes and whole organs, always where
-/// the shape moves by the fewest metres, until `triangles` are left, or a few per cent less. Of organs that look alike,
-/// those that stay grow by the area of those that went, up to twice their length (Cook et al. 2007).
+/// the shape moves by the fewest metres, until `triangles` are left, or a few per cent less. An axis counts for all
+/// that stands on it: it goes after that, and keeps its foot and its course as long as it bears something. Of organs
+/// that look alike, those that stay grow by the area of those that went, up to twice their length (Cook et al. 2007).
 void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
             std::size_t triangles);
 

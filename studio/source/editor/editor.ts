@@ -32,6 +32,7 @@ import type { Problem, StudioDocument, TextFile } from "../protocol.js";
 import { sideEditor, type SideEditor } from "../side/side.js";
 import type { Studio } from "../state.js";
 import { cpfg } from "./cpfg.js";
+import { Disputes } from "./disputes.js";
 import { completion, hoverHelp } from "./help.js";
 import { newFileEntries } from "./new-file.js";
 import { notation } from "./notation.js";
@@ -90,7 +91,8 @@ export class Editor {
       iconButton("plus", "New side file: function, contour, surface, colours and more", () => undefined),
       () => newFileEntries(studio, this.fileHolder),
     );
-    this.element = h("div", "editor", {}, h("div", "tab-row", {}, this.tabs, add), this.sideTools, place);
+    const disputes = new Disputes(studio, () => this.settle()).element;
+    this.element = h("div", "editor", {}, h("div", "tab-row", {}, this.tabs, add), disputes, this.sideTools, place);
     this.view.contentDOM.addEventListener("blur", () => this.sendLasting());
     studio.on("document", (document) => this.hear(document));
     studio.on("problems", (problems) => this.underline(problems));
@@ -175,6 +177,12 @@ export class Editor {
       text.agreement.send(content);
       this.changes.lasting(`text ${path}`, { texts: { [path]: content } }, `Edit ${shortName(path)}`);
     }
+  }
+
+  /** Done when the server has all that was typed. */
+  private settle(): Promise<void> {
+    this.sendLasting();
+    return this.changes.settle();
   }
 
   private readonly pending = new Set<string>();
@@ -386,7 +394,7 @@ export class Editor {
         indentWithTab,
       ]),
       EditorView.lineWrapping,
-      EditorView.contentAttributes.of({ "aria-label": "Text of the model" }),
+      EditorView.contentAttributes.of({ "aria-label": "Text of the model", tabindex: "0" }),
       EditorView.updateListener.of((update) => {
         const own = update.transactions.some((one) => one.docChanged && !one.annotation(fromServer));
         if (update.docChanged && own) this.typed();

@@ -1,5 +1,5 @@
 /** A plane with a curve and points that are dragged with the pointer or moved with keys. */
-import { h } from "../elements.js";
+import { decimalField, h, numberIn } from "../elements.js";
 import type { PointFile } from "./files.js";
 import type { Point } from "./spline.js";
 
@@ -53,16 +53,15 @@ export class PointPlane {
   ) {
     this.points = file.points.map((point) => ({ ...point }));
     this.view = viewOf(file);
-    const field = (label: string, step: number) =>
-      h("input", "number", { type: "number", step, "aria-label": label, title: label });
+    const field = (label: string) => decimalField({ "aria-label": label, title: label });
     this.fields = {
-      x: field("x of the point", 0.01),
-      y: field("y of the point", 0.01),
-      z: field("z of the point", 0.01),
-      times: field("How often the point counts: 3 makes a corner", 1),
+      x: field("x of the point"),
+      y: field("y of the point"),
+      z: field("z of the point"),
+      times: field("How often the point counts: 3 makes a corner"),
     };
     for (const [name, input] of Object.entries(this.fields))
-      input.addEventListener("change", () => this.setField(name as keyof typeof this.fields, Number(input.value)));
+      input.addEventListener("change", () => this.setField(name as keyof typeof this.fields, Number(numberIn(input))));
     const add = h("button", "button small", { type: "button", onclick: () => this.add() }, "Add point");
     const remove = h("button", "button small", { type: "button", onclick: () => this.remove() }, "Remove");
     this.element = h(

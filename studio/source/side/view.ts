@@ -1,5 +1,5 @@
 /** The form of a view file: its settings with what they mean, as the program says it. To change one changes the text. */
-import { fillSlider, h, iconButton } from "../elements.js";
+import { decimalField, fillSlider, h, iconButton, numberIn } from "../elements.js";
 import type { Help, ViewSetting, ViewValue } from "../protocol.js";
 import type { SideEditor, SideText } from "./side.js";
 import { byLetter, without, withValues, writtenSettings, type Written } from "./view-text.js";
@@ -33,9 +33,9 @@ function isNumber(text: string): boolean {
 }
 
 function numberControl(value: ViewValue, text: string, label: string, send: Send): HTMLElement[] {
-  const field = h("input", "number", { type: "text", inputmode: "decimal", "aria-label": label, placeholder: value.standard });
+  const field = decimalField({ "aria-label": label, placeholder: value.standard });
   field.value = text;
-  field.addEventListener("change", () => field.value.trim() && send(field.value.trim(), true));
+  field.addEventListener("change", () => field.value.trim() && send(numberIn(field), true));
   const unit = h("span", "unit", {}, value.unit);
   if (value.lowest === null || value.highest === null || (text !== "" && !isNumber(text))) return [field, unit];
   const step = value.kind === "whole" ? 1 : 10 ** Math.floor(Math.log10((value.highest - value.lowest) / 150));
@@ -55,11 +55,11 @@ function numberControl(value: ViewValue, text: string, label: string, send: Send
 function vectorControl(value: ViewValue, values: readonly string[], label: string, send: Send): HTMLElement[] {
   const standard = value.standard.split(/[\s,]+/);
   const fields = ["x", "y", "z"].map((axis, k) => {
-    const field = h("input", "number", { type: "text", inputmode: "decimal", "aria-label": `${label} ${axis}`, title: axis });
+    const field = decimalField({ "aria-label": `${label} ${axis}`, title: axis });
     field.value = values[k] ?? "";
     field.placeholder = standard[k] || "0";
     field.addEventListener("change", () =>
-      send(fields.map((one, i) => one.value.trim() || standard[i] || "0").join(" "), true),
+      send(fields.map((one, i) => numberIn(one) || standard[i] || "0").join(" "), true),
     );
     return field;
   });

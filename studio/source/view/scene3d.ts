@@ -193,6 +193,16 @@ export class PlantScene {
     this.request();
   }
 
+  /** Vertices and triangles of a packet: of surfaces, organs, and limbs that are drawn with bark or skin. */
+  sizeOf(packet: Packet, limbs: Limbs | null): { vertices: number; triangles: number } {
+    const size = this.shapes.sizeOf(packet);
+    for (const mesh of limbs ? [packet, limbs] : [packet]) {
+      size.vertices += mesh.positions.length / 3;
+      size.triangles += mesh.indices.length / 3;
+    }
+    return size;
+  }
+
   /** Draws the limbs of the packet with bark or skin from now on; null: as internodes. */
   wear(limbs: Limbs | null): void {
     if (limbs) this.limbs.show(limbs);

@@ -67,6 +67,7 @@ function floatTexture(values: Float32Array, texels: number, width: number): Data
 
 interface Corners {
   box: Box;
+  vertices: number;
   count: number;
   image: number;
   texture: DataTexture;
@@ -94,7 +95,7 @@ function cornersOf(shape: Shape): Corners {
     values[i * 8 + 3] = shape.texture[shape.indices[i] * 2] ?? 0;
     values[i * 8 + 7] = shape.texture[shape.indices[i] * 2 + 1] ?? 0;
   }
-  return { box: boxOf(shape), count, image: shape.image, texture: floatTexture(values, count * 2, perRow * 2) };
+  return { box: boxOf(shape), vertices: shape.positions.length / 3, count, image: shape.image, texture: floatTexture(values, count * 2, perRow * 2) };
 }
 
 function disc(inner: number): Shape {
@@ -201,6 +202,17 @@ export class Shapes {
   /** The box of a shape; of an unknown one that of a shape of diameter 1. */
   boxOf(shape: number): Box {
     return this.known.get(shape)?.box ?? { lower: [-0.5, -0.5, -0.5], upper: [0.5, 0.5, 0.5] };
+  }
+
+  /** Vertices and triangles of all organs. */
+  sizeOf(packet: Packet): { vertices: number; triangles: number } {
+    let vertices = 0;
+    let triangles = 0;
+    for (const { shape, count } of packet.groups) {
+      vertices += count * (this.known.get(shape)?.vertices ?? 0);
+      triangles += (count * (this.known.get(shape)?.count ?? 0)) / 3;
+    }
+    return { vertices, triangles };
   }
 
   /** Shapes from 3 on belong to a growth. */
