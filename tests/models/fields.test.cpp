@@ -156,7 +156,7 @@ TEST_CASE("vines: tips choose the lighter trials, and live in more light than vi
             for (std::uint32_t plant = 0; plant < 8; ++plant) {
                 std::map<std::string, double> of;
                 for (const Quantity& each : world.environment().statistics(plant)) of[each.name] = each.value;
-                if (!(of["vine.grown"] > 0)) continue;
+                if (!(of["vine.grown"] > 0) || std::isnan(of["vine.rejected"])) continue;  // all trials were taken
                 chosen += of["vine.grown"] * of["vine.chosen"];
                 rejected += of["vine.grown"] * of["vine.rejected"];
                 grown += of["vine.grown"];
