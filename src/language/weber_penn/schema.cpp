@@ -110,7 +110,7 @@ const std::vector<Parameter>& of_levels() {
          0},
         {"CurveV",
          "degrees",
-         -90,
+         -360,
          unbounded,
          false,
          "varies the bend; negative: the stem is a helix with this angle to its axis",
