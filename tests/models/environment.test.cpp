@@ -1,5 +1,6 @@
 // Models that live by collision and by questions to the turtle: Ulam, Honda 1981, canalisation, queries.
 #include "catch.h"
+#include "environment/ulam_automaton.h"
 #include "experiments/growth.h"
 #include "models/measure.h"
 
@@ -58,8 +59,9 @@ std::vector<glm::dvec3> places_of(const World& world, const std::string& symbol)
 }  // namespace
 
 TEST_CASE("ulam: the published counts of cells, and births by the binary digits of the step", "[environment]") {
-    const std::vector<int> cells = cells_of("environments/ulam.toml", 15);
-    CHECK(cells == std::vector<int>{1, 5, 9, 21, 25, 37, 49, 85, 89, 101, 113, 149, 161, 197, 233, 341});
+    const std::vector<int> cells = cells_of("environments/ulam.toml", 80);
+    CHECK(std::vector<int>(cells.begin(), cells.begin() + 16) ==
+          std::vector<int>{1, 5, 9, 21, 25, 37, 49, 85, 89, 101, 113, 149, 161, 197, 233, 341});
     for (unsigned n = 2; n <= cells.size(); ++n) {
         int births = 4;
         for (int ones = std::popcount(n - 1); ones > 1; --ones) births *= 3;
@@ -67,23 +69,26 @@ TEST_CASE("ulam: the published counts of cells, and births by the binary digits 
     }
 }
 
-TEST_CASE("ulam-branching: the published counts of the variant whose wishes refuse each other", "[environment]") {
-    CHECK(cells_of("environments/ulam-branching.toml", 16) ==
-          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 193});
+TEST_CASE("ulam-branching: 80 steps of the variant whose candidates exclude each other even if they fail",
+          "[environment]") {
+    CHECK(cells_of("environments/ulam-branching.toml", 80) == UlamAutomaton({"wishes"}).cells(80));
+    CHECK(cells_of("environments/ulam-branching.toml", 80, overriding({{"environment.collisions.radius", "1.1"}})) ==
+          UlamAutomaton({"wishes", false, false}).cells(80));
 }
 
-TEST_CASE("cells: the published counts of every rule, on squares and on hexagons", "[environment]") {
-    CHECK(cells_of("environments/cells.toml", 15) ==
-          std::vector<int>{1, 5, 9, 21, 25, 37, 49, 85, 89, 101, 113, 149, 161, 197, 233, 341});
+TEST_CASE("cells: 80 steps of every rule on squares, and the published counts on hexagons", "[environment]") {
+    const auto grown_by = [](const std::string& rule, const std::string& persistent = "0") {
+        return cells_of(
+            "environments/cells.toml", 80,
+            overriding({{"environment.cells.rule", '"' + rule + '"'}, {"plant.0.define.PERSISTENT", persistent}}));
+    };
+    for (const char* rule : {"simple", "births", "eligible", "wishes"}) {
+        INFO(rule);
+        CHECK(grown_by(rule) == UlamAutomaton({rule}).cells(80));
+    }
+    CHECK(grown_by("wishes", "1") == UlamAutomaton({"wishes", true}).cells(80));
     CHECK(cells_of("environments/cells.toml", 8, overriding({{"plant.0.define.SIDES", "6"}})) ==
           std::vector<int>{1, 7, 13, 31, 37, 55, 85, 127, 133});
-    CHECK(cells_of("environments/cells.toml", 16, overriding({{"environment.cells.rule", "\"births\""}})) ==
-          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 157, 169, 181, 201});
-    CHECK(cells_of("environments/cells.toml", 16, overriding({{"environment.cells.rule", "\"wishes\""}})) ==
-          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 193});
-    CHECK(cells_of("environments/cells.toml", 16,
-                   overriding({{"environment.cells.rule", "\"wishes\""}, {"plant.0.define.PERSISTENT", "1"}})) ==
-          std::vector<int>{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145, 149, 161, 173, 185});
 }
 
 TEST_CASE("cells: triangles, cubes and the bonds of a diamond fill as a separate program finds", "[environment]") {
@@ -201,10 +206,17 @@ TEST_CASE("cells: tetrahedra that fill space grow as a separate program finds, w
 }
 
 TEST_CASE("cells: with wishes to the side in every third step only, the births are Holladay's", "[environment]") {
-    const std::vector<int> cells =
-        cells_of("environments/cells.toml", 10,
-                 overriding({{"environment.cells.rule", "\"wishes\""}, {"plant.0.define.STRAIGHT", "1"}}));
-    CHECK(cells == std::vector<int>{1, 5, 9, 13, 25, 29, 33, 45, 57, 69, 105});
+    for (const char* rule : {"births", "eligible", "wishes"}) {
+        const std::vector<int> cells = cells_of(
+            "environments/cells.toml", 100,
+            overriding({{"environment.cells.rule", '"' + std::string(rule) + '"'}, {"plant.0.define.STRAIGHT", "1"}}));
+        CHECK(cells[1] == 5);
+        for (unsigned generation = 3; generation <= cells.size(); ++generation) {
+            int births = generation % 3 == 2 ? 12 : 4;
+            for (int ones = std::popcount(generation / 3); ones > 1; --ones) births *= 3;
+            CHECK(cells[generation - 1] - cells[generation - 2] == births);
+        }
+    }
 }
 
 TEST_CASE("reaction-diffusion: the stem bears every leaf that arose, and vein-net draws every cell of the net",

@@ -5,6 +5,8 @@
 #include "experiments/growth.h"
 #include "models/measure.h"
 
+#include <map>
+
 using namespace espalier;
 
 namespace {
@@ -138,6 +140,37 @@ TEST_CASE("vines: segments, forks and leaves are as set, near the house and neve
     }
     CHECK(nodes > 200);
     CHECK(wrong == 0);
+}
+
+TEST_CASE("vines: tips choose the lighter trials, and live in more light than vines that are blind to it", "[fields]") {
+    // Mean exposures of the trials taken, and of those allowed but not taken.
+    const auto exposures = [](const char* light, std::uint64_t seed) {
+        SceneOptions options;
+        options.overrides = {{"environment.vine.weights.light", light}};
+        options.seed = seed;
+        World world(read_scene(source_path("environments/vines.toml"), options));
+        world.start();
+        double chosen = 0, rejected = 0, grown = 0;
+        for (int step = 0; step < 20; ++step) {
+            world.step();
+            for (std::uint32_t plant = 0; plant < 8; ++plant) {
+                std::map<std::string, double> of;
+                for (const Quantity& each : world.environment().statistics(plant)) of[each.name] = each.value;
+                if (!(of["vine.grown"] > 0) || std::isnan(of["vine.rejected"])) continue;  // all trials were taken
+                chosen += of["vine.grown"] * of["vine.chosen"];
+                rejected += of["vine.grown"] * of["vine.rejected"];
+                grown += of["vine.grown"];
+            }
+        }
+        return std::pair(chosen / grown, rejected / grown);
+    };
+    for (const std::uint64_t seed : {11u, 12u, 13u}) {
+        const auto [chosen, rejected] = exposures("4", seed);
+        const auto [blind, blind_rejected] = exposures("0", seed);
+        CHECK(chosen > rejected + 0.005);
+        CHECK(blind < blind_rejected + 0.005);
+        CHECK(chosen > blind + 0.02);
+    }
 }
 
 TEST_CASE("vines: an axis forks after every fourth node", "[fields]") {

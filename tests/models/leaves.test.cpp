@@ -77,8 +77,8 @@ TEST_CASE("framework-leaf: 6, 24, 44, 66, 90, 116 modules, n(n - 1) segments, 2n
 }
 
 TEST_CASE("cordate-leaf: without growth it is the framework leaf, with growth it gains area faster", "[leaves]") {
-    LonePlant still("models/leaves/cordate-leaf.l", {{"GROWTH", "1"}, {"ANGLE", "16"}});
-    LonePlant growing("models/leaves/cordate-leaf.l", {{"ANGLE", "16"}});
+    LonePlant still("models/leaves/cordate-leaf.l", {{"GROWTH", "1"}, {"ANGLE", "9"}});
+    LonePlant growing("models/leaves/cordate-leaf.l", {{"ANGLE", "9"}});
     LonePlant framework("models/leaves/framework-leaf.l");
     for (LonePlant* leaf : {&still, &growing, &framework}) leaf->grow(10);
     CHECK(area_of(still.interpretation.geometry) == Approx(area_of(framework.interpretation.geometry)));

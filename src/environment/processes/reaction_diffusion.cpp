@@ -370,7 +370,7 @@ noise            0.01, for a net 0.1: cells produce more or less by up to this p
 "organs"
 ?name(k, a, h)    k: the number of an organ, from 1 -> k if it has arisen, else 0
                   a -> its azimuth, degrees;  h -> its height above the base, m
-second_inhibitor  0: strength of an inhibitor that stays in its cell (Bernasconi 1994); try 0.02
+second_inhibitor  0: strength of an inhibitor that stays in its cell (Bernasconi 1994)
 memory            0.003: how fast it follows the activator, part of the difference per round
 
 "net"

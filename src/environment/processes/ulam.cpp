@@ -28,7 +28,7 @@ struct Cell {
 class Ulam final : public EnvironmentProcess {
 public:
     Ulam(Settings& settings, const EnvironmentContext& context, Fields&)
-        : rule_(settings.choice_or("rule", "simple", {"simple", "births", "wishes"})),
+        : rule_(settings.choice_or("rule", "simple", {"simple", "births", "eligible", "wishes"})),
           edge_(settings.number_or("edge", 1, Range::positive())),
           corner_(settings.number_or("corner", 1.4143 * edge_, Range::between(0, 8 * edge_))),
           tolerance_(0.01 * edge_),
@@ -135,11 +135,15 @@ private:
         int count = 0;
         grid.visit_around(cell.place, corner_ + tolerance_, [&](std::uint32_t i) {
             const Cell& other = cells_[i];
-            const bool rival = !other.alive && (rule_ == "wishes" || (other.edges == 1 && other.corners == 0));
-            if (rival && at_corner(cell, other)) ++count;
+            if (!other.alive && excludes(other) && at_corner(cell, other)) ++count;
             return true;
         });
         return count;
+    }
+
+    bool excludes(const Cell& candidate) const {
+        if (rule_ == "wishes") return true;
+        return candidate.edges == 1 && (rule_ == "eligible" || candidate.corners == 0);
     }
 
     void sum_up(std::span<const Query> queries, std::span<const Answer> answers) {
@@ -167,9 +171,10 @@ Further parameters (at most 20 in all) keep their values. Positions within a hun
 
 rule    "simple" (default): born where exactly one living cell is an edge neighbour (1, 5, 9, 21, 25, 37, 49, 85 ...)
         "births": and no living cell, and no cell that could be born in this step, touches a corner
-                  (... 85, 97, 117, 145, 157, 169, 181, 201 if the cells born last ask)
-        "wishes": and no candidate touches a corner either, born or not
-                  (... 145, 149, 161, 173, 193 if the cells born last ask; ... 173, 185 if all living cells ask)
+                  (A170896 if the cells born last ask)
+        "eligible": and no candidate with exactly one living edge neighbour touches a corner either, born or not
+                  (A267190 if the cells born last ask)
+        "wishes": and no other candidate at all touches a corner (A151895 if all living cells ask)
 edge    m, 1: distance of cells that share an edge
 corner  m, 1.4143 edges: greatest distance of cells that touch; at most 8 edges
 

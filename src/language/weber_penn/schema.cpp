@@ -111,7 +111,7 @@ const std::vector<Parameter>& of_levels() {
         {"CurveV",
          "degrees",
          -360,
-         360,
+         unbounded,
          false,
          "varies the bend; negative: the stem is a helix with this angle to its axis",
          {0, 0, 0, 0},

@@ -1,5 +1,6 @@
 #include "catch.h"
 #include "environment/exchange_plants.h"
+#include "environment/ulam_automaton.h"
 
 #include <algorithm>
 #include <array>
@@ -69,16 +70,28 @@ TEST_CASE("the simple pattern has 4 * 3^(ones(n - 1) - 1) births in step n", "[u
     CHECK(pattern(square, "simple", 11, true) == pattern(square, "simple", 11));
 }
 
-TEST_CASE("cells that touch refuse each other: the three published readings of Ulam's second rule", "[ulam]") {
-    const std::vector<std::size_t> start{1, 5, 9, 13, 25, 29, 41, 53, 65, 85, 97, 117, 145};
-    const auto continued = [&](std::initializer_list<std::size_t> more) {
-        std::vector<std::size_t> whole = start;
-        whole.insert(whole.end(), more);
-        return whole;
+TEST_CASE("cells that touch refuse each other: 65 steps of the four readings of Ulam's second rule", "[ulam]") {
+    const auto published = [](const UlamRule& rule) {
+        std::vector<std::size_t> counts;
+        for (const int cells : UlamAutomaton(rule).cells(65)) counts.push_back(static_cast<std::size_t>(cells));
+        return counts;
     };
-    CHECK(pattern(square, "births", 16) == continued({157, 169, 181, 201}));        // A170896
-    CHECK(pattern(square, "wishes", 16) == continued({149, 161, 173, 193}));        // A267190
-    CHECK(pattern(square, "wishes", 16, true) == continued({149, 161, 173, 185}));  // A151895
+    const auto births = published({"births"}), eligible = published({"eligible"});
+    const auto wishes = published({"wishes"}), persistent = published({"wishes", true});
+    const auto last = [](const std::vector<std::size_t>& counts) {
+        return std::vector<std::size_t>(counts.begin() + 13, counts.begin() + 17);
+    };
+    CHECK(last(births) == std::vector<std::size_t>{157, 169, 181, 201});      // A170896
+    CHECK(last(eligible) == std::vector<std::size_t>{149, 161, 173, 193});    // A267190
+    CHECK(last(persistent) == std::vector<std::size_t>{149, 161, 173, 185});  // A151895
+    CHECK(eligible[46] == 1753);
+    CHECK(eligible[47] == 1829);
+    CHECK(wishes[46] == 1753);
+    CHECK(wishes[47] == 1821);
+    CHECK(pattern(square, "births", 65) == births);
+    CHECK(pattern(square, "eligible", 65) == eligible);
+    CHECK(pattern(square, "wishes", 65) == wishes);
+    CHECK(pattern(square, "wishes", 65, true) == persistent);
 }
 
 TEST_CASE("in space the pattern keeps the 48 symmetries of the cube, in the hexagonal plane the six turns", "[ulam]") {
