@@ -19,7 +19,7 @@ class RootFlare final : public GeometryStage {
 public:
     explicit RootFlare(Settings& settings)
         : roots_(static_cast<std::uint32_t>(settings.integer("roots", Range::between(0, 100)))),
-          length_(settings.number_or("length", 9, Range::positive())),
+          length_(settings.number_or("length", 6, Range::positive())),
           flare_(settings.number_or("flare", 1.5, Range::between(1, 4))) {}
 
     void apply(StagedPlant& plant) const override {
@@ -35,16 +35,16 @@ private:
     void add_root(StagedPlant& plant, const Internode& stem, std::uint32_t number) const {
         RandomSamples samples(plant.key, number, 0x726f6f74);
         const double radius = stem.base_radius, length = radius * length_ * (0.7 + 0.6 * samples.uniform());
-        const double thickness = radius * (0.4 + 0.2 * samples.uniform());
+        const double thickness = radius * (0.5 + 0.25 * samples.uniform());
         double angle = 2 * std::numbers::pi * (number + 0.5 * samples.uniform()) / roots_;
         Internode piece = stem;
         piece.axis = plant.geometry.axes++;
         piece.order = static_cast<std::uint16_t>(stem.order + 1);
-        piece.tip = stem.base - glm::dvec3(0, 0.25 * thickness, 0);
+        piece.tip = stem.base - glm::dvec3(0, 0.2 * thickness, 0);
         piece.tip_radius = thickness;
         for (int k = 1; k <= pieces_of_root; ++k) {
             const double share = double(k) / pieces_of_root, step = length / pieces_of_root;
-            const double slope = 0.06 + 0.55 * share * share;
+            const double slope = 0.1 + 0.6 * share * share;
             angle += 0.35 * (samples.uniform() - 0.5);
             piece.base = piece.tip;
             piece.base_radius = piece.tip_radius;
@@ -87,7 +87,7 @@ private:
 const Registered<GeometryStageType> entry{
     {"root-flare", "the foot of the stem widens, and roots run from it into the ground (Brzoska 2019)",
      R"(roots   required, 0 to 100; how many; 0 changes nothing
-length  9; of a root, in radii of the stem
+length  6; of a root, in radii of the stem
 flare   1.5, 1 to 4; how many times as wide as the stem its foot is
 All nodes of the roots lie below the place where the plant begins; near the stem their backs are above the ground. Put it
 behind pipe-radii, which gives the stem its radius, and behind the stages that bend axes or put leaves on them.
