@@ -193,7 +193,8 @@ TEST_CASE("no internode turns from its bearer by more than half the angle of per
 TEST_CASE("two plants compete: together they have the space that each would have alone", "[colonization]") {
     const auto scene = [](const std::string& places) {
         return "[simulation]\nsteps = 40\n[[plant]]\nmodel = 'models/colonization/tree.l'\npositions = " + places +
-               "\ndefine = { NODE_DISTANCE = 0.2, GNARLY = 0, LEAST_TURN = 0 }\n[environment.markers]\nprocess = 'markers'\ninfluence = 1\n"
+               "\ndefine = { NODE_DISTANCE = 0.2, GNARLY = 0, LEAST_TURN = 0 }\n[environment.markers]\nprocess = "
+               "'markers'\ninfluence = 1\n"
                "kill = 0.4\ncloud = { radii = [2, 1, 2], number = 3000 }\n";
     };
     const World both = grown_scene(scene("[[-1, 0, 0], [1, 0, 0]]")), left = grown_scene(scene("[[-1, 0, 0]]"));

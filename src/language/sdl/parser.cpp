@@ -146,9 +146,9 @@ private:
             slave.component = in_.expect_name("a component").text;
             if (is_row_of_letters(slave.component)) {
                 const std::string letters = slave.component;
-                for (const char letter : letters) {
-                    slave.component = letter;
-                    if (&letter != &letters.back()) list.push_back(slave);
+                for (std::size_t i = 0; i < letters.size(); ++i) {
+                    slave.component = letters[i];
+                    if (i + 1 < letters.size()) list.push_back(slave);
                 }
             }
             if (in_.accept("*")) slave.count = in_.expect_whole("the count of a cycle", 0, most_slaves);
