@@ -295,10 +295,10 @@ double least_lead(const std::map<std::string, double>& settings, std::uint64_t s
     const auto& internodes = frame.plants[0].interpretation->geometry.internodes;
     double least = 1000, top = 0;
     for (const Internode& part : internodes) {
-        if (part.axis != internodes[0].axis) continue;
+        if (part.order > 0) continue;
         top = part.tip.y;
         for (const Internode& one : internodes) {
-            const bool beside = one.axis != part.axis && one.tip.y > part.base.y && one.base.y < part.tip.y;
+            const bool beside = one.order > 0 && one.tip.y > part.base.y && one.base.y < part.tip.y;
             if (beside) least = std::min(least, part.tip_radius / one.tip_radius);
         }
     }

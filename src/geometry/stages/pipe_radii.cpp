@@ -62,17 +62,17 @@ private:
         return powers;
     }
 
-    /// The first axis, from its top down, at every height thicker than what stands beside it there.
+    /// The main axis, of order 0, from its top down, at every height thicker than what stands beside it there.
     void thicken_leader(const Column<Internode>& internodes, std::vector<double>& radii) const {
         std::vector<std::size_t> beside;  // by the height they reach, the highest last
         double least = 0;
         for (std::size_t i = 0; i < internodes.size(); ++i) {
-            if (internodes[i].axis != internodes[0].axis) beside.push_back(i);
+            if (internodes[i].order > 0) beside.push_back(i);
         }
         const auto top = [&](std::size_t i) { return std::max(internodes[i].base.y, internodes[i].tip.y); };
         std::sort(beside.begin(), beside.end(), [&](std::size_t a, std::size_t b) { return top(a) < top(b); });
         for (std::size_t i = internodes.size(); i-- > 0;) {
-            if (internodes[i].axis != internodes[0].axis) continue;
+            if (internodes[i].order > 0) continue;
             const double low = std::min(internodes[i].base.y, internodes[i].tip.y);
             for (; !beside.empty() && top(beside.back()) > low; beside.pop_back()) {
                 least = std::max(least, leader_ * radii[beside.back()]);
@@ -93,7 +93,7 @@ factor    1; thickness: all radii are multiplied by it
 join      0.5; a branch whose radius is below this share of its bearer's begins with its own radius, others begin with
           the bearer's; 0: all do, 1: only branches as thick as their bearer do. An axis that goes on that thin is
           recorded as a line of its own from there on
-leader    0, 0 to 10; the first axis is at least so many times as thick as all that reaches its height; 0: only the pipe
+leader    0, 0 to 10; the main axis is at least so many times as thick as all that reaches its height; 0: only the pipe
           model counts
 Widths that the model sets are replaced.
 )",
