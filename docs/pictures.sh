@@ -44,7 +44,7 @@ render water.png two-roots --size 800x600 --field water:iso=0.285 --field water:
 render lychnis.png lychnis --size 640x480
 for preset in decurrent excurrent weeping shrub gnarly flat orchard; do
     "$espalier" tree --preset "$preset" --run "$work/$preset" --output "$work/$preset.obj" --quiet
-    render "tree-$preset.png" "$preset" --size 320x320 --azimuth 20
+    render "tree-$preset.png" "$preset" --size 320x320 --azimuth 20 --ground
 done
 for scene in hedge ivy root-flare; do
     grow "$scene" "environments/$scene.toml"

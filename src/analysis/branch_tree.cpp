@@ -10,13 +10,14 @@
 namespace espalier::analysis {
 
 std::int32_t BranchTree::add(std::int32_t parent, const glm::dvec3& base, const glm::dvec3& tip, double base_radius,
-                             double radius) {
+                             double radius, std::uint64_t module) {
     parents.push_back(parent);
     lengths.push_back(glm::distance(base, tip));
     base_radii.push_back(base_radius);
     radii.push_back(radius);
     bases.push_back(base);
     tips.push_back(tip);
+    modules.push_back(module);
     return static_cast<std::int32_t>(parents.size() - 1);
 }
 
@@ -59,7 +60,7 @@ std::vector<BranchTree> branch_trees(std::span<const RecordedInternode> internod
         places[i].inside = places[i].below;
         if (internode.base == internode.tip) continue;
         places[i].inside = trees[known->second].add(places[i].below, internode.base, internode.tip,
-                                                    internode.base_radius, internode.tip_radius);
+                                                    internode.base_radius, internode.tip_radius, internode.identity);
     }
     return trees;
 }

@@ -19,11 +19,12 @@ struct BranchTree {
     std::vector<double> lengths;
     std::vector<double> base_radii, radii;  ///< where it begins, and at its tip
     std::vector<glm::dvec3> bases, tips;
+    std::vector<std::uint64_t> modules;  ///< identities; pieces of one follow each other; 0: a module of its own
 
     std::size_t size() const { return parents.size(); }
     /// Appends an internode; returns its row.
     std::int32_t add(std::int32_t parent, const glm::dvec3& base, const glm::dvec3& tip, double base_radius,
-                     double radius);
+                     double radius, std::uint64_t module = 0);
 };
 
 /// The children of every internode: those of row i are children[offsets[i + 1]] .. children[offsets[i + 2] - 1], those

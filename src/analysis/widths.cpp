@@ -42,6 +42,17 @@ double exponent_of(const Ratios& ratios, std::size_t first, std::size_t last) {
     return n;
 }
 
+/// The radius at the end of the module that begins with a branch: a smooth one is drawn in tapering pieces.
+double radius_of(const BranchTree& tree, const Children& children, std::int32_t branch) {
+    auto at = static_cast<std::size_t>(branch);
+    while (tree.modules[at] != 0) {
+        const auto next = children.of(static_cast<std::int32_t>(at));
+        if (next.size() != 1 || tree.modules[static_cast<std::size_t>(next[0])] != tree.modules[at]) break;
+        at = static_cast<std::size_t>(next[0]);
+    }
+    return tree.radii[at];
+}
+
 double median_of(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -58,7 +69,7 @@ ForkWidths fork_widths(const BranchTree& tree) {
     const Children children(tree);
     for (std::size_t i = 0; i < tree.size(); ++i) {
         const auto branches = children.of(static_cast<std::int32_t>(i));
-        const auto radius = [&](std::int32_t branch) { return tree.radii[static_cast<std::size_t>(branch)]; };
+        const auto radius = [&](std::int32_t branch) { return radius_of(tree, children, branch); };
         if (branches.size() < 2 || !(tree.radii[i] > 0)) continue;
         if (!std::all_of(branches.begin(), branches.end(), [&](auto branch) { return radius(branch) > 0; })) continue;
         ++widths.forks;

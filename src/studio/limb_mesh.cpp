@@ -257,7 +257,8 @@ std::string limb_mesh(std::string_view packet, const std::vector<WornPicture>& t
     const Axes axes(packet, textures);
     const RecordedGeometry& geometry = axes.geometry();
     const std::vector<AxisLine> lines =
-        axis_lines(geometry, axis_paths(geometry, {}), 0, archive::thinnest_radius(geometry));
+        axis_lines(geometry, axis_paths(geometry, {}), 0, archive::thinnest_radius(geometry),
+                   smooth ? archive::Forks::none : archive::Forks::rings);
     AxisSkin skin;
     skin.smooth = smooth;
     if (smooth) skin.voxel = on_screen * archive::skin_voxel(lines, skin);

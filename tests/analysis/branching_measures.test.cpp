@@ -172,6 +172,24 @@ TEST_CASE("pipe model: the exponent a tree was made with comes back, of two bran
     }
 }
 
+TEST_CASE("pipe model: pieces that one module is drawn in, tapering, count as one", "[analysis]") {
+    const double thin = std::pow(0.5, 1 / 2.4);
+    BranchTree tree;
+    std::int32_t at = tree.add(BranchTree::ground, {0, 0, 0}, {0, 1, 0}, 1, 1, 1);
+    for (const double side : {-1.0, 1.0}) {
+        std::int32_t below = at;
+        for (int piece = 0; piece < 3; ++piece) {
+            const double r = 1 + (thin - 1) * (piece + 1) / 3.0;
+            const auto module = static_cast<std::uint64_t>(side + 5);
+            below = tree.add(below, {side * piece, 1 + piece, 0}, {side * (piece + 1), 2 + piece, 0}, 1, r, module);
+        }
+    }
+    const ForkWidths widths = fork_widths(tree);
+    CHECK(widths.forks == 1);
+    CHECK(widths.exponent == Approx(2.4));
+    CHECK(widths.area_ratio == Approx(2 * thin * thin));
+}
+
 TEST_CASE("pipe model: a fork with a branch as thick as its bearer has no exponent and spoils no other", "[analysis]") {
     BranchTree tree = fork(1, {1, 0.5});
     tree.add(1, {0, 2, 0}, {0, 3, 0}, std::sqrt(0.5), std::sqrt(0.5));

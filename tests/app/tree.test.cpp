@@ -190,10 +190,37 @@ TEST_CASE_METHOD(Nursery, "a tree that cannot grow says why, and nothing is writ
     CHECK(bare.code == 1);
     CHECK_THAT(bare.err, Contains("in the reach of a node") && Contains("no internode has grown"));
     CHECK(files(".obj").empty());
-    const Outcome stem = run("tree --age 40 --output stem.obj");
-    CHECK(stem.code == 0);
-    CHECK_THAT(stem.err, Contains("growth has ended"));
-    CHECK(files(".obj").size() == 1);
+}
+
+TEST_CASE_METHOD(Nursery, "an early end of growth has an exit code and a reason, and the tree is written", "[tree]") {
+    const auto end = [&](const std::string& options, int code, const std::string& reason) {
+        const Outcome outcome = run("tree --json " + options);
+        INFO(options << outcome.err);
+        CHECK(outcome.code == code);
+        const json told = json::parse(outcome.out);
+        CHECK(told["end"] == reason);
+        CHECK(told["code"] == code);
+        CHECK(fs::exists(told["files"][0]["path"].get<std::string>()));
+        CHECK((outcome.err.find("growth has ended") != std::string::npos) == (code != 0));
+    };
+    end("--age 4", 0, "age");
+    end("--age 100", 3, "no-point-left");
+    end("--height 400 --age 3", 4, "no-point-in-reach");
+}
+
+TEST_CASE_METHOD(Nursery, "leaves wear a picture of one's own, wherever the run is read from", "[tree]") {
+    write("environments/tree.toml",
+          text("environments/tree.toml") + "[[plant.stage]]\nstage = \"leaves\"\ntexture = \"../models/plain.png\"\n");
+    REQUIRE(run("leaf-texture --output models/plain.png --size 16").code == 0);
+    REQUIRE(run("leaf-texture --output mine.png --size 32").code == 0);
+    REQUIRE(run("tree --output plain.obj").code == 0);
+    REQUIRE(run("tree --leaf-picture mine.png --output own.obj --run kept").code == 0);
+    CHECK(text("own.mtl").find("own-mine.png") != std::string::npos);
+    CHECK(text("own-mine.png") == text("mine.png"));
+    CHECK(text("plain.mtl").find("mine.png") == std::string::npos);
+    const Outcome missing = run("tree --leaf-picture nothing.png");
+    CHECK(missing.code == 1);
+    CHECK_THAT(missing.err, Contains("--leaf-picture nothing.png: there is no such picture"));
 }
 
 TEST_CASE_METHOD(Nursery, "a tree of one age is a part of the tree a year later", "[tree]") {

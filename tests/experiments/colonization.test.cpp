@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -64,7 +65,7 @@ std::vector<glm::dvec3> sorted(std::vector<glm::dvec3> points) {
 std::string scene_text(const Rules& rules, const std::string& cloud, int steps) {
     return fmt::format(
         "[simulation]\nsteps = {}\nseed = 3\n[[plant]]\nmodel = 'models/colonization/tree.l'\n"
-        "define = {{ NODE_DISTANCE = {} }}\n[environment.markers]\nprocess = 'markers'\n"
+        "define = {{ NODE_DISTANCE = {}, GNARLY = 0, LEAST_TURN = 0 }}\n[environment.markers]\nprocess = 'markers'\n"
         "influence = {}\nkill = {}\nperception = {}\ntropism = [0, {}, 0]\n{}\n",
         steps, rules.step, rules.influence, rules.kill,
         rules.cosine <= -1 ? 360 : 2 * glm::degrees(std::acos(rules.cosine)), rules.tropism.y, cloud);
@@ -192,7 +193,8 @@ TEST_CASE("no internode turns from its bearer by more than half the angle of per
 TEST_CASE("two plants compete: together they have the space that each would have alone", "[colonization]") {
     const auto scene = [](const std::string& places) {
         return "[simulation]\nsteps = 40\n[[plant]]\nmodel = 'models/colonization/tree.l'\npositions = " + places +
-               "\ndefine = { NODE_DISTANCE = 0.2 }\n[environment.markers]\nprocess = 'markers'\ninfluence = 1\n"
+               "\ndefine = { NODE_DISTANCE = 0.2, GNARLY = 0, LEAST_TURN = 0 }\n[environment.markers]\nprocess = "
+               "'markers'\ninfluence = 1\n"
                "kill = 0.4\ncloud = { radii = [2, 1, 2], number = 3000 }\n";
     };
     const World both = grown_scene(scene("[[-1, 0, 0], [1, 0, 0]]")), left = grown_scene(scene("[[-1, 0, 0]]"));
@@ -271,8 +273,8 @@ TEST_CASE("a crown lies in its cloud, and its height and width are those of the 
                                  {"CROWN_DEPTH", 4},
                                  {"CROWN_HEIGHT", height},
                                  {"CUT_BELOW", 0.2},
-                                 {"AGE", 70},
-                                 {"GNARLY", 0.8}});
+                                 {"RAGGED", 0},
+                                 {"AGE", 70}});
         Box box;
         for (const glm::dvec3& tip : tips(*world)) {
             const glm::dvec3 from_centre = tip - glm::dvec3(0, height * (0.5 - 0.2), 0);
@@ -284,48 +286,66 @@ TEST_CASE("a crown lies in its cloud, and its height and width are those of the 
     }
 }
 
-TEST_CASE("a trunk through the whole crown ends at its top and is the thickest branch at every height",
-          "[colonization]") {
-    const auto world = tree({{"TRUNK_IN_CROWN", 1},
-                             {"CROWN_WIDTH", 4},
-                             {"CROWN_DEPTH", 4},
-                             {"CROWN_HEIGHT", 12},
-                             {"CUT_BELOW", 0.5},
-                             {"AGE", 16},
-                             {"DENSITY_BEGIN", 0.8},
-                             {"DENSITY_END", 1},
-                             {"UPWARDS", 0},
-                             {"GNARLY", 0.5},
-                             {"PERCEPTION", 200},
-                             {"STEM_LENGTH", 0},
-                             {"LEAVES", 0}});
+namespace {
+
+/// Of every internode of the trunk, by how much it is thicker than what reaches its height; the least.
+double least_lead(const std::map<std::string, double>& settings, std::uint64_t seed) {
+    const auto world = tree(settings, seed);
     const Frame frame = world->frame();
     const auto& internodes = frame.plants[0].interpretation->geometry.internodes;
-    std::vector<Internode> trunk;
-    for (const Internode& one : internodes) {
-        if (std::hypot(one.tip.x, one.tip.z) < 1e-9 && std::hypot(one.base.x, one.base.z) < 1e-9) trunk.push_back(one);
-    }
-    REQUIRE(trunk.size() == 40);
-    CHECK(trunk.back().tip.y == Approx(6));
-    for (const Internode& part : trunk) {
-        if (part.tip.y > 5.5) break;  // above, twigs are as thin as the trunk's end
+    double least = 1000, top = 0;
+    for (const Internode& part : internodes) {
+        if (part.order > 0) continue;
+        top = part.tip.y;
         for (const Internode& one : internodes) {
-            const bool beside = one.order > 0 && one.base.y < part.tip.y && one.tip.y > part.base.y;
-            if (beside) REQUIRE(one.tip_radius < part.tip_radius);
+            const bool beside = one.order > 0 && one.tip.y > part.base.y && one.base.y < part.tip.y;
+            if (beside) least = std::min(least, part.tip_radius / one.tip_radius);
         }
+    }
+    const auto height = settings.count("CROWN_HEIGHT") ? settings.at("CROWN_HEIGHT") : 7.0;
+    const auto below = settings.count("CUT_BELOW") ? settings.at("CUT_BELOW") : 0.1;
+    CHECK(top > (1 - below) * height - 0.2);
+    return least;
+}
+
+}  // namespace
+
+TEST_CASE("a trunk through the whole crown ends at its top and is the thickest axis at every height",
+          "[colonization]") {
+    const std::map<std::string, double> bare{{"TRUNK_IN_CROWN", 1}, {"LEAVES", 0}, {"STEM_LENGTH", 0}};
+    const auto with = [&](std::map<std::string, double> more) {
+        more.insert(bare.begin(), bare.end());
+        return more;
+    };
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        CHECK(least_lead(bare, seed) > 1);
+        CHECK(least_lead(with({{"CROWN_HEIGHT", 12}, {"CUT_BELOW", 0.5}}), seed) > 1);
+        CHECK(least_lead(with({{"CROWN_HEIGHT", 3}, {"CROWN_WIDTH", 8}, {"GNARLY", 1}}), seed) > 1);
     }
 }
 
-TEST_CASE("the setting `gnarly` makes branches wind more and more: six trees of each", "[colonization]") {
-    double before = 0;
-    for (const double gnarly : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-        double now = 0;
-        for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-            now += tortuosity(
-                *tree({{"GNARLY", gnarly}, {"CROWN_WIDTH", 8}, {"CROWN_DEPTH", 8}, {"CROWN_HEIGHT", 8}}, seed));
+TEST_CASE("the setting `gnarly` makes branches wind more and more, and hardly changes how densely they branch",
+          "[colonization]") {
+    for (const auto& crown : {std::array{7.0, 7.0}, {9.0, 3.0}, {3.0, 9.0}}) {
+        double before = 0, straight = 0;
+        for (const double gnarly : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            double now = 0, internodes = 0;
+            for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+                const auto world = tree({{"GNARLY", gnarly},
+                                         {"CROWN_WIDTH", crown[0]},
+                                         {"CROWN_DEPTH", crown[0]},
+                                         {"CROWN_HEIGHT", crown[1]}},
+                                        seed);
+                now += tortuosity(*world);
+                internodes += static_cast<double>(tips(*world).size());
+            }
+            INFO(crown[0] << " m wide, gnarly " << gnarly << ": " << now / 4 << ", " << internodes / 4);
+            CHECK(now > before);
+            before = now;
+            if (gnarly == 0) straight = internodes;
+            CHECK(internodes > 0.75 * straight);
+            CHECK(internodes < 1.75 * straight);
         }
-        CHECK(now > before);
-        before = now;
     }
 }
 

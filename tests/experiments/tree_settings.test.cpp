@@ -144,8 +144,8 @@ void grow_at_random(int trees) {
 
 }  // namespace
 
-TEST_CASE("the tree has 33 settings, and each changes what is drawn", "[tree]") {
-    CHECK(settings().size() == 33);
+TEST_CASE("the tree has 36 settings, and each changes what is drawn", "[tree]") {
+    CHECK(settings().size() == 36);
     const RecordedGeometry before = grown(small);
     for (const ModelSetting& setting : settings()) {
         INFO(setting.name);

@@ -7,6 +7,7 @@
 #include "formats/exporting.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 #include <vtkCell.h>
 #include <vtkCompositeDataIterator.h>
@@ -21,6 +22,8 @@
 #include <vtkSTLReader.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
 namespace {
@@ -111,25 +114,84 @@ TEST_CASE("where an axis ends and others begin, its tube goes on along the strai
     CHECK(groups == 2);
 }
 
-TEST_CASE("at a fork the ring leans to the thicker branch, halfway from what bears it", "[export]") {
-    const glm::vec3 stem(0, 1, 0), left(-0.8f, 0.6f, 0), right(0.6f, 0.8f, 0);
-    const auto ring_normal = [&](double of_left, double of_right) {
-        HandmadePlant fork;
-        fork.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, {0, 1, 0}, 0);
-        fork.add_internode(2, 1, 1, 1, 1, {0, 1, 0}, {-0.8, 1.6, 0}, 0);
-        fork.add_internode(3, 1, 1, 2, 1, {0, 1, 0}, {0.6, 1.8, 0}, 0);
-        fork.interpretation.geometry.internodes[1].base_radius = of_left;
-        fork.interpretation.geometry.internodes[2].base_radius = of_right;
-        const ExportedPlant exported(fork, "csv");
-        const RecordedRun run(exported.folder.path);
-        const FrameMesh mesh = mesh_of(run.geometry(run.frame(0)), {});
-        const std::size_t ring = 9;  // the second of the tube, of eight corners
-        return glm::normalize(
-            glm::cross(mesh.points[ring + 2] - mesh.points[ring], mesh.points[ring + 4] - mesh.points[ring]));
-    };
-    CHECK(std::abs(glm::dot(ring_normal(0.1, 0.01), glm::normalize(stem + left))) == Approx(1));
-    CHECK(std::abs(glm::dot(ring_normal(0.01, 0.1), glm::normalize(stem + right))) == Approx(1));
-    CHECK(std::abs(glm::dot(ring_normal(0.1, 0.1), glm::normalize(stem + right))) == Approx(1));
+namespace {
+
+constexpr std::size_t corners = 9;  // of a ring of eight sides, the first twice
+
+/// A stem that forks, as a mesh of two tubes.
+FrameMesh forked(const glm::dvec3& left, const glm::dvec3& right, double of_left, double of_right) {
+    HandmadePlant fork;
+    const glm::dvec3 top(0, 1, 0);
+    fork.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, top, 0);
+    fork.add_internode(2, 1, 1, 1, 1, top, top + left, 0);
+    fork.add_internode(3, 1, 1, 2, 1, top, top + right, 0);
+    auto& internodes = fork.interpretation.geometry.internodes;
+    internodes[0].tip_radius = 0.1;
+    internodes[1].base_radius = internodes[1].tip_radius = of_left;
+    internodes[2].base_radius = internodes[2].tip_radius = of_right;
+    const ExportedPlant exported(fork, "csv");
+    const RecordedRun run(exported.folder.path);
+    return mesh_of(run.geometry(run.frame(0)), {});
+}
+
+glm::dvec3 ring_normal(const FrameMesh& mesh, std::size_t ring) {
+    const glm::dvec3 a = mesh.points[ring], b = mesh.points[ring + 2], c = mesh.points[ring + 4];
+    return glm::normalize(glm::cross(b - a, c - a));
+}
+
+glm::dvec3 leaning(double degrees) {
+    const double angle = glm::radians(degrees);
+    return {std::sin(angle), std::cos(angle), 0};
+}
+
+}  // namespace
+
+TEST_CASE("two branches as thick as each other share one ring, across their bisector", "[export]") {
+    for (const auto& [left, right] : {std::pair{-40.0, 40.0}, {-20.0, 50.0}, {-35.0, 5.0}}) {
+        const FrameMesh mesh = forked(leaning(left), leaning(right), 0.08, 0.08);
+        REQUIRE(mesh.parts.size() == 2);
+        const std::size_t of_stem = corners, of_branch = mesh.parts[1].first_vertex;
+        CHECK(std::abs(glm::dot(ring_normal(mesh, of_stem), leaning((left + right) / 2))) == Approx(1));
+        for (std::size_t k = 0; k < corners; ++k) {
+            CHECK(glm::distance(mesh.points[of_stem + k], mesh.points[of_branch + k]) < 1e-6);
+        }
+        CHECK(glm::distance(mesh.points[of_stem], glm::vec3(0, 1, 0)) == Approx(0.1));
+    }
+}
+
+TEST_CASE("the ring of a fork leans to the thicker branch, and a much thinner one begins with its own", "[export]") {
+    double before = 0;
+    for (const double thinner : {0.08, 0.06, 0.03, 1e-7}) {
+        const FrameMesh mesh = forked(leaning(-40), leaning(40), 0.08, thinner);
+        const double angle = glm::degrees(std::acos(std::abs(glm::dot(ring_normal(mesh, corners), leaning(-40)))));
+        CHECK((before == 0 || angle < before));
+        before = angle;
+        const glm::dvec3 sum = 0.08 * leaning(-40) + thinner * leaning(40);
+        CHECK(std::abs(glm::dot(ring_normal(mesh, corners), glm::normalize(sum))) == Approx(1));
+        const float of_branch = glm::distance(mesh.points[mesh.parts[1].first_vertex], glm::vec3(0, 1, 0));
+        CHECK(of_branch == Approx(thinner >= 0.05 ? 0.1 : thinner).epsilon(1e-3));
+    }
+    CHECK(before < 0.01);
+}
+
+TEST_CASE("tubes of a fork are closed, each for itself", "[export]") {
+    const FrameMesh mesh = forked(leaning(-40), leaning(40), 0.08, 0.08);
+    for (const MeshPart& part : mesh.parts) {
+        std::map<std::array<float, 3>, int> number;
+        std::map<std::pair<int, int>, int> balance;
+        for (std::size_t i = part.first_triangle; i < part.first_triangle + part.triangles; ++i) {
+            std::array<int, 3> at{};
+            for (int k = 0; k < 3; ++k) {
+                const glm::vec3& p = mesh.points[mesh.triangles[i][k]];
+                at[k] = number.try_emplace({p.x, p.y, p.z}, int(number.size())).first->second;
+            }
+            for (int k = 0; k < 3; ++k) {
+                const auto [a, b] = std::minmax(at[k], at[(k + 1) % 3]);
+                balance[{a, b}] += a == at[k] ? 1 : -1;
+            }
+        }
+        CHECK(std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; }));
+    }
 }
 
 TEST_CASE("a mesh stands on y, or on z if asked for", "[export]") {

@@ -441,7 +441,7 @@ TEST_CASE("The weeping willow: twigs end downwards, and do not without gravitrop
             sum += direction_of(internodes[k]).y;
             ++ends;
         }
-        CHECK(ends == 19 * 16);
+        CHECK(ends == 24 * 48);
         return sum / ends;
     };
     CHECK(mean_end("1") < -0.5);

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <limits>
 #include <random>
 
 namespace espalier::app {
@@ -63,6 +64,27 @@ struct TreeKind {
     }
 };
 
+/// Whether a tree grew as old as it was asked to, or why not, by what its process says of the last step.
+struct End {
+    const char* reason = "age";
+    int code = exit_code::done;
+};
+
+constexpr int no_point_left = 3, no_point_in_reach = 4;
+
+End end_of(const RecordedRun& run) {
+    const RecordedTable table = run.statistics();
+    const auto last = [&](const std::string& quantity) {
+        for (std::size_t column = 0; column < table.columns.size(); ++column) {
+            if (table.columns[column].ends_with("." + quantity)) return table.rows.back()[column];
+        }
+        return std::numeric_limits<double>::quiet_NaN();
+    };
+    if (table.rows.empty() || last("winners") != 0) return {};
+    if (last("left") == 0) return {"no-point-left", no_point_left};
+    return {"no-point-in-reach", no_point_in_reach};
+}
+
 /// The file itself, or the first of oak-2.toml, oak-3.toml, ... that is not there.
 fs::path unused(const fs::path& file) {
     fs::path free = file;
@@ -96,6 +118,8 @@ public:
         app().add_option("--settings", settings_, "a file with settings: crown-width = 6 in a line of its own");
         app().add_option("--save-settings", saved_, "write all settings, and the seed, to a file for --settings");
         app().add_option("--seed", seed_, "of all random numbers, or new: a random one, which is printed");
+        app().add_option("--leaf-picture", leaf_picture_,
+                         "PNG with opacity that leaves wear; default: that of the scene. See espalier leaf-texture");
         app().add_option("--run", run_, "keep the run in this folder; default: it is removed");
         app()
             .add_option("--threads", arguments_.threads, "number of threads; default: all cores")
@@ -119,11 +143,13 @@ public:
         const fs::path folder = run_.empty() ? temporary->path() / "run" : run_;
         const std::uint64_t seed = grow_in(folder);
         if (InterruptibleRun::interrupted()) return exit_code::interrupted;
-        const Json files = write(folder, target);
+        const RecordedRun grown(folder);
+        const Json files = write(grown, target);
         save_settings(seed);
+        const End end = end_of(grown);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        tell(files, seed, seconds.count());
-        return exit_code::done;
+        tell(files, seed, end, seconds.count());
+        return end.code;
     }
 
 private:
@@ -173,6 +199,8 @@ Examples:
   espalier tree --output oak.obj
   espalier tree --crown-width 8 --gnarly 0.9 --seed new --save-settings oak.toml
   espalier tree --settings oak.toml --age 12 --output young.glb
+Exit codes besides those of all commands: 3, growth ended early because no attraction point was left; 4, because none was
+in the reach of a branch. The files are written all the same.
 Ctrl-C ends the growth after the step at hand, and no file is written.)";
     }
 
@@ -201,6 +229,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         for (const auto& [name, value] : kind_->values.defines()) {
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
         }
+        dress_leaves();
         // Only the last frame of a run that nobody keeps is read.
         if (run_.empty()) arguments_.overrides.emplace_back("timeline.every", "1000000000");
         const ReadLog inputs;
@@ -210,8 +239,21 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         return scene.seed;
     }
 
-    Json write(const fs::path& folder, const Target& target) const {
-        const RecordedRun run(folder);
+    /// The stages of the scene whose leaves are cards with a picture; blossoms and fruit have an id.
+    void dress_leaves() {
+        if (leaf_picture_.empty()) return;
+        if (!is_readable(leaf_picture_)) {
+            throw UserError(fmt::format("--leaf-picture {}: there is no such picture", leaf_picture_.string()));
+        }
+        const std::vector<Settings> stages = Settings::read_toml(kind_->scene).tables("plant").front().tables("stage");
+        for (std::size_t i = 0; i < stages.size(); ++i) {
+            if (stages[i].text("stage") != "leaves" || !stages[i].has("texture") || stages[i].has("id")) continue;
+            arguments_.overrides.emplace_back(fmt::format("plant.0.stage.{}.texture", i),
+                                              fmt::format("{:?}", fs::absolute(leaf_picture_).string()));
+        }
+    }
+
+    Json write(const RecordedRun& run, const Target& target) const {
         const std::vector<const RecordedFrame*> frames = chosen_frames(run, "last");
         if (internodes_of(run.geometry(*frames.front())).empty()) {
             throw UserError(
@@ -235,9 +277,10 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         if (!saved_.empty()) write_text(unused(saved_), kind_->values.table(seed));
     }
 
-    void tell(const Json& files, std::uint64_t seed, double seconds) const {
+    void tell(const Json& files, std::uint64_t seed, const End& end, double seconds) const {
         if (wants_json()) {
-            const Json result = {{"files", files}, {"seed", seed}, {"seconds", seconds}};
+            const Json result = {
+                {"files", files}, {"seed", seed}, {"end", end.reason}, {"code", end.code}, {"seconds", seconds}};
             fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
             return;
         }
@@ -255,7 +298,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     std::vector<std::pair<const ModelSetting*, std::string>> said_;
     RunArguments arguments_;
     std::string preset_, seed_, memory_;
-    fs::path output_, settings_, saved_, run_;
+    fs::path output_, settings_, saved_, leaf_picture_, run_;
     MeshFileOptions mesh_;
 };
 

@@ -17,9 +17,12 @@ struct AxisLine {
     std::string texture = {};  ///< the file that it wears; "": none
 };
 
+/// Whether branches share the rings of forks, as tubes do.
+enum class Forks { rings, none };
+
 /// As `tube_line` makes them, with as many pictures of their textures around as fit the thickest axis of their plant.
 std::vector<AxisLine> axis_lines(const RecordedGeometry& geometry, std::span<const AxisPath> paths, double tolerance,
-                                 float thinnest);
+                                 float thinnest, Forks forks);
 
 /// Puts a texture on all axes that wear none.
 void dress_axes(RecordedGeometry& geometry, const std::string& texture);

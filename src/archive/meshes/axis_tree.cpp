@@ -30,6 +30,34 @@ std::int32_t continuation(const AxisTree& tree, const AxisTree::Axis& axis) {
     return best;
 }
 
+float thickness(const RecordedInternode& internode) {
+    return internode.tip_radius > 0 ? internode.tip_radius : internode.base_radius;
+}
+
+/// Across what the ring at the tip of an internode stands; 0: no branches leave there, or all turn back.
+glm::vec3 fork_direction(const AxisTree& tree, const AxisTree::Axis& axis, std::uint32_t number) {
+    const RecordedInternode& bearer = tree.internodes[number];
+    glm::vec3 sum(0);
+    int branches = 0;
+    const auto add = [&](const RecordedInternode& branch) {
+        const glm::vec3 along = direction(branch);
+        if (branch.base != bearer.tip || glm::dot(direction(bearer), along) <= 0) return;
+        sum += thickness(branch) * along;
+        ++branches;
+    };
+    for (const std::uint32_t borne : tree.axes_borne[number]) add(tree.internodes[tree.axes[borne].first]);
+    if (branches > 0 && number + 1 < axis.end) add(tree.internodes[number + 1]);
+    const float length = glm::length(sum);
+    return branches > 1 && length > 0 ? sum / length : glm::vec3(0);
+}
+
+/// Branches that are much thinner than the ring, or stand across it, begin with rings of their own.
+bool shares_ring(const RecordedInternode& branch, const RecordedInternode& bearer, const glm::vec3& ring) {
+    constexpr float least_thickness = 0.5f, least_cosine = 0.5f;
+    return branch.base == bearer.tip && thickness(branch) >= least_thickness * bearer.tip_radius &&
+           glm::dot(direction(branch), ring) >= least_cosine;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> AxisTree::trunks() const {
@@ -73,6 +101,10 @@ std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOpt
         next.push_back(continuation(tree, axis));
         if (next.back() >= 0) continues[static_cast<std::size_t>(next.back())] = true;
     }
+    std::vector<glm::vec3> forks(tree.internodes.size(), glm::vec3(0));
+    for (const AxisTree::Axis& axis : tree.axes) {
+        for (std::uint32_t k = axis.first; k < axis.end; ++k) forks[k] = fork_direction(tree, axis, k);
+    }
     std::vector<AxisPath> paths;
     for (std::size_t i = 0; i < tree.axes.size(); ++i) {
         if (continues[i]) continue;
@@ -82,9 +114,17 @@ std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOpt
         path.row = geometry.lines.first + first.axis;
         path.stands_free = tree.axes[i].bearer == RecordedInternode::none;
         path.points.push_back(first.base_point);
+        if (!path.stands_free) {
+            const auto number = static_cast<std::size_t>(tree.axes[i].bearer);
+            const RecordedInternode& bearer = tree.internodes[number];
+            if (shares_ring(first, bearer, forks[number])) path.first_ring = bearer.tip_point;
+        }
         for (auto at = static_cast<std::int32_t>(i); at >= 0; at = next[static_cast<std::size_t>(at)]) {
             const AxisTree::Axis& axis = tree.axes[static_cast<std::size_t>(at)];
-            for (std::uint32_t k = axis.first; k < axis.end; ++k) path.points.push_back(tree.internodes[k].tip_point);
+            for (std::uint32_t k = axis.first; k < axis.end; ++k) {
+                path.points.push_back(tree.internodes[k].tip_point);
+                if (forks[k] != glm::vec3(0)) path.forks.push_back({path.points.back(), forks[k]});
+            }
         }
     }
     return paths;

@@ -23,12 +23,21 @@ struct AxisTree {
     std::vector<std::uint32_t> trunks() const;
 };
 
+/// Where branches leave an axis: the ring there stands across the mean of their directions, weighted with their radii
+/// (Brzoska 2019, Interaktive Pflanzenmodellierung, figure 29).
+struct Fork {
+    std::int32_t point;
+    glm::vec3 across_of;  ///< unit vector
+};
+
 /// Points that one tube follows.
 struct AxisPath {
     std::uint32_t plant;
     std::size_t row;  ///< of `of_cells`: of the axis it begins with
     std::vector<std::int32_t> points;
     bool stands_free = true;  ///< on no other axis
+    std::vector<Fork> forks = {};
+    std::int32_t first_ring = RecordedInternode::none;  ///< the fork whose ring it shares; none: it has one of its own
 };
 
 /// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
@@ -45,5 +54,6 @@ using archive::axis_paths;
 using archive::axis_tree;
 using archive::AxisPath;
 using archive::AxisTree;
+using archive::Fork;
 
 }  // namespace espalier

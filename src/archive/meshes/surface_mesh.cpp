@@ -86,7 +86,8 @@ public:
 
 private:
     std::vector<AxisLine> lines() const {
-        return axis_lines(geometry_, axis_paths(geometry_, options_), options_.simplify, thinnest_);
+        return axis_lines(geometry_, axis_paths(geometry_, options_), options_.simplify, thinnest_,
+                          options_.skin.smooth ? Forks::none : Forks::rings);
     }
 
     bool wanted(std::size_t row) const { return !options_.plant || geometry_.of_cells.plants[row] == *options_.plant; }

@@ -6,6 +6,7 @@
 #include "archive/meshes/bark.h"
 #include "base/picture_file.h"
 
+#include <nlohmann/json.hpp>
 #include <vtkBMPReader.h>
 #include <vtkImageData.h>
 #include <vtkJPEGReader.h>
@@ -67,9 +68,20 @@ vtkSmartPointer<vtkImageData> read_image(const fs::path& path) {
     return is_ours(path) ? read_ours(path) : read_by_vtk(path);
 }
 
+/// The folder that the files of a run were named from; "" if it does not say so.
+fs::path folder_of_command(const fs::path& run) {
+    const fs::path file = run / "run.json";
+    if (run.empty() || !is_readable(file)) return {};
+    const auto json = nlohmann::json::parse(read_text(file), nullptr, /*allow_exceptions=*/false);
+    if (!json.is_object() || !json.contains("command") || !json["command"].is_object()) return {};
+    const auto folder = json["command"].find("folder");
+    return folder != json["command"].end() && folder->is_string() ? fs::path(folder->get<std::string>()) : fs::path();
+}
+
 /// Where a texture's file may be, of these where one is.
 std::vector<fs::path> places_of(const fs::path& run, const std::string& file) {
     std::vector<fs::path> places{file, run / file};
+    if (fs::path(file).is_relative()) places.push_back(folder_of_command(run) / file);
     std::erase_if(places, [](const fs::path& path) { return !is_readable(path); });
     return places;
 }

@@ -71,17 +71,19 @@ glm::dvec3 any_across(const glm::dvec3& direction) {
     return glm::normalize(other - direction * glm::dot(other, direction));
 }
 
-/// The directions of a tube at its nodes: the middle of those before and behind.
-std::vector<glm::dvec3> tangents_of(const std::vector<TubeNode>& nodes) {
+/// Across what the rings of a tube stand: where the node does not say so, the middle of the pieces before and behind.
+std::vector<glm::dvec3> tangents_of(const TubeLine& line) {
+    const std::vector<TubeNode>& nodes = line.nodes;
     std::vector<glm::dvec3> pieces, tangents;
     for (std::size_t i = 1; i < nodes.size(); ++i) {
         pieces.push_back(glm::normalize(glm::dvec3(nodes[i].position) - glm::dvec3(nodes[i - 1].position)));
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const glm::dvec3 before = pieces[i == 0 ? 0 : i - 1], behind = pieces[std::min(i, pieces.size() - 1)];
-        const glm::dvec3 sum = before + behind;
+        const glm::dvec3 said(nodes[i].across_of), sum = said == glm::dvec3(0) ? before + behind : said;
         tangents.push_back(glm::length(sum) > 1e-6 ? glm::normalize(sum) : before);
     }
+    if (line.first) tangents.front() = line.first->tangent;
     return tangents;
 }
 
@@ -230,10 +232,10 @@ std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& 
 }
 
 std::vector<TubeFrame> frames_along(const TubeLine& line) {
-    const std::vector<glm::dvec3> tangents = tangents_of(line.nodes);
+    const std::vector<glm::dvec3> tangents = tangents_of(line);
     std::vector<TubeFrame> frames;
-    glm::dvec3 across = any_across(tangents.front());
-    double along = 0;
+    glm::dvec3 across = line.first ? line.first->across : any_across(tangents.front());
+    double along = line.first ? line.first->along : 0;
     for (std::size_t i = 0; i < line.nodes.size(); ++i) {
         across -= tangents[i] * glm::dot(across, tangents[i]);
         across = glm::length(across) > 1e-6 ? glm::normalize(across) : any_across(tangents[i]);

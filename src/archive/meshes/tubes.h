@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,14 +14,22 @@ namespace espalier::archive {
 struct TubeNode {
     glm::vec3 position;
     float radius;
-    std::int32_t row;  ///< the frame's point, whose attributes hold from the node before on
+    std::int32_t row;        ///< the frame's point, whose attributes hold from the node before on
+    glm::vec3 across_of{0};  ///< the ring stands across this direction; 0: halfway between the pieces it joins
+};
+
+/// The frame of a ring, carried along without twist.
+struct TubeFrame {
+    glm::dvec3 tangent, across;  ///< unit vectors; the texture begins at `across`
+    double along;                ///< v of the texture
 };
 
 struct TubeLine {
     std::vector<TubeNode> nodes;
     int pictures_around =
         0;  ///< of a texture, which keeps its proportions as it goes round and along; 0: it wears none
-    bool stands_free = true;  ///< on no other axis
+    bool stands_free = true;                        ///< on no other axis
+    std::optional<TubeFrame> first = std::nullopt;  ///< of a ring that belongs to another tube, too
 };
 
 /// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
@@ -32,12 +41,6 @@ TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_
 /// How far middle line and radius stray once a node and all that stray less have left; infinite at both ends. Where the
 /// colour changes it is the radius at least.
 std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points);
-
-/// The frame of a ring, carried along without twist.
-struct TubeFrame {
-    glm::dvec3 tangent, across;  ///< unit vectors; the texture begins at `across`
-    double along;                ///< v of the texture
-};
 
 /// Of each node; two nodes at least.
 std::vector<TubeFrame> frames_along(const TubeLine& line);

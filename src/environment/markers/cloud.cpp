@@ -5,6 +5,8 @@
 #include "base/parallel.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 
 #include <algorithm>
@@ -38,6 +40,7 @@ public:
     }
 
     RandomSamples samples(std::size_t point) const { return {key_, point, 0}; }
+    RandomKey key() const { return key_; }
 
 private:
     std::size_t checked(double count, const char* key) const {
@@ -79,6 +82,39 @@ std::vector<glm::dvec3> fill(const Box& box, std::size_t count, const Filling& f
     return points;
 }
 
+/// Noise of 0 to 1 on the unit sphere: random values at the corners of a lattice, smoothly blended.
+class RimNoise {
+public:
+    explicit RimNoise(RandomKey key) : key_(key) {}
+
+    double at(const glm::dvec3& direction) const {
+        constexpr double cells_by_radius = 3;
+        const glm::dvec3 place = cells_by_radius * (direction + 2.0), cell = glm::floor(place);
+        const glm::dvec3 in = place - cell, share = in * in * (3.0 - 2.0 * in);
+        double sum = 0;
+        for (std::uint32_t corner = 0; corner < 8; ++corner) {
+            const glm::uvec3 to(corner & 1U, corner >> 1U & 1U, corner >> 2U);
+            const glm::uvec3 node = glm::uvec3(cell) + to;
+            const glm::dvec3 weight = glm::mix(1.0 - share, share, glm::dvec3(to));
+            const std::uint64_t number = node.x + 64ULL * node.y + 4096ULL * node.z;
+            sum += weight.x * weight.y * weight.z * RandomSamples(key_, number, 1).uniform();
+        }
+        return sum;
+    }
+
+private:
+    RandomKey key_;
+};
+
+/// Takes away what lies behind a rim that retreats in places, by up to `rough` of the radius.
+void roughen(std::vector<glm::dvec3>& points, double rough, RandomKey key) {
+    const RimNoise noise(key);
+    std::erase_if(points, [&](const glm::dvec3& point) {
+        const double distance = glm::length(point);
+        return distance > 1 - rough && distance > 1 - rough * noise.at(point / distance);
+    });
+}
+
 /// A layer of the unit ball times the radii (Brzoska 2019, section 5.2.1).
 std::vector<glm::dvec3> ellipsoid(const Settings& table, const Filling& filling) {
     const glm::dvec3 radii = table.vector("radii");
@@ -100,6 +136,9 @@ std::vector<glm::dvec3> ellipsoid(const Settings& table, const Filling& filling)
     };
     std::vector<glm::dvec3> points =
         fill({{-1, lower, -1}, {1, upper, 1}}, count, filling, in_ball, table.place("radii"));
+    if (table.number_or("rough", 0, Range::between(0, 0.9)) > 0) {
+        roughen(points, table.number("rough", Range::between(0, 0.9)), filling.key());
+    }
     for (glm::dvec3& point : points) point = base + radii * (point - glm::dvec3(0, lower, 0));
     return points;
 }
@@ -181,7 +220,8 @@ std::vector<glm::dvec3> read_clouds(const Settings& table, const EnvironmentCont
 const char* const cloud_help =
     R"(cloud     { ... }, or several as [[environment.<name>.cloud]]: attraction points in
             radii = [across, up, across] m: an ellipsoid, with `base` (m, [0, 0, 0]), the middle of its lower end, and
-            `below`, `above` (0), the shares of its height that are cut off at its ends;
+            `below`, `above` (0), the shares of its height that are cut off at its ends, and `rough` (0 to 0.9; 0): by
+            what share of the radii the rim retreats in places;
             shape = { shape = "...", ... }: any solid of `espalier list shapes`; or
             points = [[x, y, z], ...]
             density  20 points/m3, or number: how many points; seed (0): another cloud of the same kind

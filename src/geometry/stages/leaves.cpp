@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "geometry/foliage/bearing_nodes.h"
 #include "geometry/foliage/cards.h"
+#include "geometry/foliage/leaf_shade.h"
 #include "geometry/foliage/leaf_shapes.h"
 #include "geometry/surface_id.h"
 
@@ -161,6 +162,7 @@ public:
           shapes_(card_of(kind_), read_texture(settings)),
           size_(settings.number_or("size", 0.1, Range::positive())),
           spread_(settings.number_or("spread", 0.2, Range::between(0, 0.5))),
+          shade_(settings.number_or("shade", 0, Range::between(0, 10))),
           colour_(static_cast<std::uint16_t>(settings.integer_or("colour", 2, Range::between(0, 65535)))),
           salt_(salt_of(settings.text_or("id", ""))) {
         if (settings.has("thickest")) thickest_ = settings.number("thickest", Range::positive());
@@ -170,7 +172,8 @@ public:
     void apply(StagedPlant& plant) const override {
         const RandomKey key(plant.key.value(), 0, Stream::stage, salt_);
         const std::vector<BearingNode> nodes = bearing_nodes(plant, thickest_);
-        const std::vector<std::uint32_t> counts = counts_.of(nodes, key);
+        std::vector<std::uint32_t> counts = counts_.of(nodes, key);
+        if (shade_ > 0) thin_in_shade(counts, nodes, plant.geometry, {shade_, size_}, key);
         const std::uint32_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
         const Organ pattern = dress(plant.geometry);
         // One of each node at a time: readers of a run take neighbours of one module for one organ.
@@ -241,7 +244,7 @@ private:
     LeafTurns turns_;
     std::string kind_;
     LeafShapeAdder shapes_;
-    double size_, spread_;
+    double size_, spread_, shade_;
     std::uint16_t colour_;
     std::uint64_t salt_;
     double thickest_ = std::numeric_limits<double>::infinity();
@@ -259,6 +262,8 @@ kind         "cross": two squares at right angles, 8 vertices and 4 triangles; "
 surface      of kind "surface": the character that names it behind ~
 size         0.1 m; the mean of a normal distribution: side of a square, diameter of a sphere, factor of a surface
 spread       0.2, 0 to 0.5; its standard deviation by its mean
+shade        0, 0 to 10; fewer leaves where others stand above: exp(-shade L) of them, L being the area of those above
+             by the ground they cover, as light falls (Monsi & Saeki 1953)
 thickest     m; only on internodes whose tip has at most this radius; default: on all
 orientation  "random": all turns are equally probable; "light": the face is turned to the light; "out": away from the
              internode, each 137.5 degrees about it from the leaf of the node before

@@ -6,6 +6,9 @@
 
 #include "geometry/internode_bearers.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace espalier::geometry {
 namespace {
 
@@ -15,12 +18,14 @@ public:
         : exponent_(settings.number_or("exponent", 2.5, Range::between(0.5, 10))),
           tip_(settings.number_or("tip", 0.005, Range::positive())),
           factor_(settings.number_or("factor", 1, Range::positive())),
-          join_(settings.number_or("join", 0.5, Range::between(0, 1))) {}
+          join_(settings.number_or("join", 0.5, Range::between(0, 1))),
+          leader_(settings.number_or("leader", 0, Range::between(0, 10))) {}
 
     void apply(StagedPlant& plant) const override {
         Column<Internode>& internodes = plant.geometry.internodes;
         const std::vector<std::uint32_t> bearers = internode_bearers(plant.geometry, plant.string);
-        const std::vector<double> radii = node_radii(bearers);
+        std::vector<double> radii = node_radii(bearers);
+        if (leader_ > 0) thicken_leader(internodes, radii);
         std::vector<bool> is_thin(internodes.size(), false);
         for (std::size_t i = 0; i < internodes.size(); ++i) {
             const double own = radii[i], borne_by = bearers[i] == no_bearer ? own : radii[bearers[i]];
@@ -57,7 +62,26 @@ private:
         return powers;
     }
 
-    double exponent_, tip_, factor_, join_;
+    /// The main axis, of order 0, from its top down, at every height thicker than what stands beside it there.
+    void thicken_leader(const Column<Internode>& internodes, std::vector<double>& radii) const {
+        std::vector<std::size_t> beside;  // by the height they reach, the highest last
+        double least = 0;
+        for (std::size_t i = 0; i < internodes.size(); ++i) {
+            if (internodes[i].order > 0) beside.push_back(i);
+        }
+        const auto top = [&](std::size_t i) { return std::max(internodes[i].base.y, internodes[i].tip.y); };
+        std::sort(beside.begin(), beside.end(), [&](std::size_t a, std::size_t b) { return top(a) < top(b); });
+        for (std::size_t i = internodes.size(); i-- > 0;) {
+            if (internodes[i].order > 0) continue;
+            const double low = std::min(internodes[i].base.y, internodes[i].tip.y);
+            for (; !beside.empty() && top(beside.back()) > low; beside.pop_back()) {
+                least = std::max(least, leader_ * radii[beside.back()]);
+            }
+            radii[i] = std::max(radii[i], least);
+        }
+    }
+
+    double exponent_, tip_, factor_, join_, leader_;
 };
 
 const Registered<GeometryStageType> entry{
@@ -69,6 +93,8 @@ factor    1; thickness: all radii are multiplied by it
 join      0.5; a branch whose radius is below this share of its bearer's begins with its own radius, others begin with
           the bearer's; 0: all do, 1: only branches as thick as their bearer do. An axis that goes on that thin is
           recorded as a line of its own from there on
+leader    0, 0 to 10; the main axis is at least so many times as thick as all that reaches its height; 0: only the pipe
+          model counts
 Widths that the model sets are replaced.
 )",
      construct<PipeRadii>}};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace espalier::language::sdl {
@@ -143,11 +144,29 @@ private:
             Slave slave;
             slave.at = in_.next().at;
             slave.component = in_.expect_name("a component").text;
+            if (is_row_of_letters(slave.component)) {
+                const std::string letters = slave.component;
+                for (std::size_t i = 0; i < letters.size(); ++i) {
+                    slave.component = letters[i];
+                    if (i + 1 < letters.size()) list.push_back(slave);
+                }
+            }
             if (in_.accept("*")) slave.count = in_.expect_whole("the count of a cycle", 0, most_slaves);
             if (in_.looking_at("(")) slave.slaves = slaves(depth + 1);
             list.push_back(std::move(slave));
         }
         return list;
+    }
+
+    bool is_known(const std::string& name) const {
+        return std::any_of(skeleton_.components.begin(), skeleton_.components.end(),
+                           [&](const Component& component) { return component.name == name; });
+    }
+
+    /// As the paper writes (A B(CD)E): no component has this name, but each of its letters is one.
+    bool is_row_of_letters(const std::string& name) const {
+        return !is_known(name) &&
+               std::all_of(name.begin(), name.end(), [&](char letter) { return is_known(std::string(1, letter)); });
     }
 
     void further_block() {

@@ -130,7 +130,8 @@ std::vector<PlacedTube> placed_tubes(const RecordedGeometry& geometry, const Sta
     wanted.plant = options.plant;
     std::vector<PlacedTube> tubes;
     const auto add = [&](const std::vector<AxisPath>& paths) {
-        for (AxisLine& axis : axis_lines(geometry, paths, 0, options.thinnest)) {
+        const auto forks = options.skin.smooth ? archive::Forks::none : archive::Forks::rings;
+        for (AxisLine& axis : axis_lines(geometry, paths, 0, options.thinnest, forks)) {
             const std::uint16_t texture = geometry.textures[axis.row];
             tubes.push_back({std::move(axis), texture});
         }

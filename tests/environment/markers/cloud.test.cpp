@@ -50,6 +50,27 @@ TEST_CASE("an ellipsoid has density times volume points, all inside, above its b
     }
 }
 
+TEST_CASE("a rough cloud is the smooth one without parts of its rim", "[markers]") {
+    const auto cloud = [](double rough) {
+        return points_of(
+            "cloud = { radii = [1, 1, 1], base = [0, -1, 0], number = 40000, rough = " + std::to_string(rough) + " }");
+    };
+    const auto smooth = cloud(0);
+    CHECK(smooth.size() == 40000);
+    std::size_t before = smooth.size();
+    for (const double rough : {0.1, 0.3, 0.6}) {
+        const auto points = cloud(rough);
+        CHECK(points.size() < before);
+        before = points.size();
+        const auto inner = [&](const std::vector<glm::dvec3>& all) {
+            return std::count_if(all.begin(), all.end(), [&](auto& p) { return glm::length(p) < 1 - rough; });
+        };
+        CHECK(inner(points) == inner(smooth));
+        CHECK(std::count_if(points.begin(), points.end(), [&](auto& p) { return glm::length(p) > 1 - 0.4 * rough; }) >
+              0);
+    }
+}
+
 TEST_CASE("points are uniform: the octants of a ball hold as many each", "[markers]") {
     std::array<int, 8> octants{};
     for (const glm::dvec3& point : points_of("cloud = { radii = [1, 1, 1], base = [0, -1, 0], number = 80000 }")) {

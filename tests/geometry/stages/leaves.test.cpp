@@ -190,6 +190,30 @@ TEST_CASE("blossoms and fruit are as many as asked, on allowed nodes", "[geometr
     CHECK(leafy(chain(100), {{"thickest", 1e-9}, {"number", 7}}).geometry.organs.empty());
 }
 
+TEST_CASE("fewer leaves stand in the shade of others, none are fewer at the top", "[geometry][stages]") {
+    Tree pole;
+    for (int i = 0; i < 200; ++i) pole.grow({0, 0.1, 0});
+    const auto halves = [&](double shade) {
+        const Tree tree = leafy(pole, {{"per_node", 4}, {"size", 0.2}, {"shade", shade}});
+        std::array<std::size_t, 2> counts{};
+        for (const Organ& organ : tree.geometry.organs) ++counts[organ.module < 100 ? 0 : 1];
+        CHECK(std::count_if(tree.geometry.organs.begin(), tree.geometry.organs.end(),
+                            [](const Organ& organ) { return organ.module == 199; }) == 4);
+        return counts;
+    };
+    CHECK(halves(0) == std::array<std::size_t, 2>{400, 400});
+    std::size_t before = 400;
+    for (const double shade : {0.1, 0.3, 1.0}) {
+        const auto [below, above] = halves(shade);
+        CHECK(below < above);
+        CHECK(below < before);
+        before = below;
+    }
+    // dL/dn = exp(-k L) by 16 leaf areas of the column: after n leaves, L is ln(1 + k n / 16) / k.
+    const auto [below, above] = halves(0.5);
+    CHECK(static_cast<double>(below + above) == Approx(16 * std::log(1 + 0.5 * 800 / 16) / 0.5).epsilon(0.1));
+}
+
 TEST_CASE("a fruit touches its internode", "[geometry][stages]") {
     const Tree tree = leafy(chain(100), {{"kind", "sphere"}, {"size", 0.4}});
     for (const Organ& organ : tree.geometry.organs) {

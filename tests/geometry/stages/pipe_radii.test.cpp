@@ -102,6 +102,26 @@ TEST_CASE("an axis that goes on much thinner than before goes on as another", "[
     CHECK(piped({{"exponent", 2}, {"tip", 1}, {"join", 0}}, small_tree()).geometry.axes == small_tree().geometry.axes);
 }
 
+TEST_CASE("a leader is thicker than all that reaches its height, and no thinner than the pipe model has it",
+          "[geometry][stages]") {
+    Tree tree;
+    tree.grow({0, 1, 0}).open().grow({1, 1, 0});
+    for (int tip = 0; tip < 9; ++tip) tree.open().grow({1, 3, 0.1 * tip}).close();
+    tree.close().grow({0, 1, 0}).grow({0, 1, 0}).grow({0, 3, 0});
+    const Tree plain = piped({}, tree), led = piped({{"leader", 1.2}}, tree);
+    bool was_thinner = false;
+    for (std::size_t i = 0; i < led.size(); ++i) {
+        CHECK(led[i].tip_radius >= plain[i].tip_radius);
+        if (led[i].axis != 0) CHECK(led[i].tip_radius == plain[i].tip_radius);
+        for (std::size_t k = 0; led[i].axis == 0 && k < led.size(); ++k) {
+            if (led[k].axis == 0 || led[k].tip.y <= led[i].base.y) continue;
+            CHECK(led[i].tip_radius >= Approx(1.2 * led[k].tip_radius));
+            was_thinner = was_thinner || plain[i].tip_radius < plain[k].tip_radius;
+        }
+    }
+    CHECK(was_thinner);
+}
+
 TEST_CASE("radii by the pipe model replace widths in pixels", "[geometry][stages]") {
     Tree tree = small_tree();
     tree.geometry.in_pixels = true;

@@ -86,6 +86,18 @@ TEST_CASE("in S -> (A B(C D) E), S is the master of A, B and E, and B of C and D
     CHECK(relations(skeleton_after(text, 0)) == "");
 }
 
+TEST_CASE("components of one letter may follow each other without blanks, as the paper prints (A B(CD)E)", "[sdl]") {
+    const auto grown = [](const std::string& names, const std::string& rules) {
+        std::string text = "define{ ";
+        for (const char name : names) text += std::string(1, name) + "[0,1,0,0]; ";
+        return relations(skeleton_after(text + "} rules{ " + rules + " }", 1));
+    };
+    CHECK(grown("SABCDE", "S -> (A B(CD)E);") == "A < S; B < S; C < B; D < B; E < S; ");
+    CHECK(grown("SAB", "S -> (AB(AB));") == "A < S; B < S; A < B; B < B; ");
+    CHECK(grown("SAB", "S -> (AB*2);") == "A < S; B < S; B < S; ");
+    CHECK_THROWS_WITH(grown("SA", "S -> (AX);"), Catch::Matchers::Contains("'AX' is not defined"));
+}
+
 TEST_CASE("a component that has slaves on a right side still has those of its rule, a step later", "[sdl]") {
     const std::string text =
         "define{ S[0,1,0,0]; B[0,1,0,0]; C[0,1,0,0]; D[0,1,0,0]; } rules{ S -> (B(C(D))); B -> (D); C -> (S); }";
