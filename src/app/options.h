@@ -59,6 +59,8 @@ public:
     std::size_t memory() const;  ///< bytes; 0: nobody says
 
 private:
+    void read_seed(const std::string& text);
+
     int steps_ = -1;
     std::int64_t seed_ = -1;
     std::string memory_;
