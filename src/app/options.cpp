@@ -52,6 +52,13 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+std::optional<double> finite_number(const std::string& text) {
+    double value = 0;
+    const auto [rest, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (wrong != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
 CLI::Validator above_zero() {
     const auto check = [](const std::string& text) {
         double value = 0;

@@ -93,11 +93,4 @@ FieldLook field_look(const std::string& text) {
     return look;
 }
 
-std::optional<double> finite_number(const std::string& text) {
-    double value = 0;
-    const auto [rest, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (wrong != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
 }  // namespace espalier::app

@@ -64,8 +64,7 @@ std::vector<ComputedValue> evaluate_expressions(const Settings& root) {
     return computed;
 }
 
-UserError explained(const UserError& error, const std::vector<ComputedValue>& computed) {
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
+std::vector<Diagnostic> explained(std::vector<Diagnostic> diagnostics, const std::vector<ComputedValue>& computed) {
     for (Diagnostic& diagnostic : diagnostics) {
         std::vector<std::string> settings;
         for (const ComputedValue& value : computed) {
@@ -74,7 +73,11 @@ UserError explained(const UserError& error, const std::vector<ComputedValue>& co
         }
         if (!settings.empty()) diagnostic.message += fmt::format(" (computed from {})", fmt::join(settings, ", "));
     }
-    return UserError(std::move(diagnostics));
+    return diagnostics;
+}
+
+UserError explained(const UserError& error, const std::vector<ComputedValue>& computed) {
+    return UserError(explained(error.diagnostics(), computed));
 }
 
 }  // namespace espalier::simulation

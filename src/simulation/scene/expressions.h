@@ -10,6 +10,7 @@ namespace espalier::simulation {
 std::vector<ComputedValue> evaluate_expressions(const Settings& root);
 
 /// The error, saying of which settings the values follow that it speaks of.
+std::vector<Diagnostic> explained(std::vector<Diagnostic> diagnostics, const std::vector<ComputedValue>& computed);
 UserError explained(const UserError& error, const std::vector<ComputedValue>& computed);
 
 }  // namespace espalier::simulation
