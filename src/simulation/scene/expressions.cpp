@@ -51,10 +51,7 @@ std::vector<ComputedValue> evaluate_expressions(const Settings& root) {
     if (!holds(root, "plant")) return computed;
     const std::vector<Settings> plants = root.tables("plant");
     for (const Settings& plant : plants) {
-        PlantDefinitions definitions(plant, computed);
-        if (plant.is_table("turtle")) definitions.replace_expressions(plant.table("turtle"));
-        if (!holds(plant, "stage")) continue;
-        for (const Settings& stage : plant.tables("stage")) definitions.replace_expressions(stage);
+        PlantDefinitions(plant, computed).replace_expressions(plant);
     }
     if (plants.empty()) return computed;
     PlantDefinitions first(plants.front(), computed);

@@ -5,8 +5,8 @@
 
 namespace espalier::simulation {
 
-/// Replaces the expressions of a scene by numbers. Those of a plant's stages and turtle read the #defines of its model,
-/// those of [simulation], [environment] and [timeline] the first plant's. Throws UserError.
+/// Replaces the expressions of a scene by numbers. Those of a plant read the #defines of its model, those of
+/// [simulation], [environment] and [timeline] the first plant's. Throws UserError.
 std::vector<ComputedValue> evaluate_expressions(const Settings& root);
 
 /// The error, saying of which settings the values follow that it speaks of.
