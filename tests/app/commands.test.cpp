@@ -194,13 +194,13 @@ TEST_CASE_METHOD(Workplace,
     const Outcome first = run("derive why.l --steps 1 --explain A");
     CHECK(first.code == 0);
     CHECK_THAT(first.out, Contains("step 1: A(1), module 1\n"));
-    CHECK_THAT(first.out, Contains("- why.l:4: its right context is not there\n      B < A(x) > D --> F\n"));
-    CHECK_THAT(first.out, Contains("- why.l:5: its left context is not there\n"));
-    CHECK_THAT(first.out, Contains("- why.l:6: its condition is 0\n"));
-    CHECK_THAT(first.out, Contains("* why.l:7: applied, its condition is 2\n"));
-    CHECK_THAT(first.out, Contains("- why.l:8: not tried, because one before it applies\n"));
+    CHECK_THAT(first.out, Contains("- why.l:4:1: its right context is not there\n      B < A(x) > D --> F\n"));
+    CHECK_THAT(first.out, Contains("- why.l:5:1: its left context is not there\n"));
+    CHECK_THAT(first.out, Contains("- why.l:6:1: its condition is 0\n"));
+    CHECK_THAT(first.out, Contains("* why.l:7:1: applied, its condition is 2\n"));
+    CHECK_THAT(first.out, Contains("- why.l:8:1: not tried, because one before it applies\n"));
     CHECK_THAT(run("derive why.l --explain A").out,
-               Contains("step 2: A(2), module 1\n") && Contains("* why.l:6: applied, its condition is 1\n"));
+               Contains("step 2: A(2), module 1\n") && Contains("* why.l:6:1: applied, its condition is 1\n"));
     CHECK_THAT(run("derive why.l --explain B").out, Contains("no production begins with it: it stays"));
     CHECK_THAT(run("derive why.l --explain X").err, Contains("has no module 'X'"));
 
@@ -208,9 +208,9 @@ TEST_CASE_METHOD(Workplace,
     for (int seed = 11; seed < 15; ++seed) {
         const std::string chosen = " --seed " + std::to_string(seed);
         const std::string out = run("derive chance.l --explain A" + chosen).out;
-        const bool took_first = out.find("* chance.l:5: applied, drawn with the probability 0.75") != std::string::npos;
-        CHECK_THAT(out, Contains(took_first ? "- chance.l:6: not drawn, drawn with the probability 0.25"
-                                            : "* chance.l:6: applied, drawn with the probability 0.25"));
+        const bool took_first = out.find("* chance.l:5:1: applied, drawn with the probability 0.75") != std::string::npos;
+        CHECK_THAT(out, Contains(took_first ? "- chance.l:6:1: not drawn, drawn with the probability 0.25"
+                                            : "* chance.l:6:1: applied, drawn with the probability 0.25"));
         const std::string string = run("derive chance.l" + chosen).out;
         CHECK(string[2] == (took_first ? 'F' : 'G'));
     }
