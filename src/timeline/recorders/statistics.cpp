@@ -127,16 +127,16 @@ private:
     int previous_step_ = -1;
 };
 
-const Registered<RecorderType> entry {
-    {"statistics", "statistics.csv: a row per step and plant", R"(statistics (true or false, true): write it
-quantities   { mass = "sum(Stem.2)" }: columns of your own. sum, mean, min, max or count of a parameter, counted from 1,
-             over the modules of a plant)",
+const Registered<RecorderType> entry{
+    {"statistics", "statistics.csv: a row per step and plant",
+     "statistics (true or false, true): write it\n"
+     "quantities { mass = \"sum(Stem.2)\" }: columns of your own: sum, mean, min, max or count of a parameter, "
+     "counted\n"
+     "from 1, over the modules of a plant",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
-        if (!settings.flag_or("statistics", true)) return nullptr;
-        return std::make_unique<Statistics>(settings, context);
-     }
-}
-};
+         if (!settings.flag_or("statistics", true)) return nullptr;
+         return std::make_unique<Statistics>(settings, context);
+     }}};
 
 }  // namespace
 }  // namespace espalier::timeline
