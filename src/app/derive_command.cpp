@@ -202,9 +202,9 @@ private:
             production.production->condition
                 ? fmt::format(", its condition is {}", format_general(production.trial.condition))
                 : "";
-        const std::string chance = production.probability == 1 ? ""
-                                                               : fmt::format(", drawn with the probability {}",
-                                                                             format_general(production.probability));
+        const std::string chance = production.probability == 1
+                                       ? ""
+                                       : fmt::format(", of probability {}", format_general(production.probability));
         return (production.is_chosen ? "applied" : "not drawn") + condition + chance;
     }
 

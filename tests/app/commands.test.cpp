@@ -169,15 +169,15 @@ TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, also before th
 
 TEST_CASE_METHOD(Workplace, "derive prints the plants of a scene by their names, in their environment", "[app]") {
     write("ask.l",
-          "environment place;\nlsystem: 1\nderivation length: 2\naxiom: F(1)?place(0)\n"
-          "?place(h) --> F(h + 1)?place(0)\nendlsystem\n");
+          "#define V 1\nenvironment place;\nlsystem: 1\nderivation length: 2\naxiom: F(1)?place(V)\n"
+          "?place(h) --> F(h + 1)?place(V)\nendlsystem\n");
     write("two.toml",
           "[[plant]]\nname = \"low\"\nmodel = \"ask.l\"\n\n[[plant]]\nname = \"high\"\nmodel = \"ask.l\"\n"
-          "position = [0, 5, 0]\n\n[environment.place]\nprocess = \"shape\"\nkind = \"box\"\n"
-          "size = [2, 2, 2]\n");
+          "define = { V = 2 }\n\n[environment.place]\nprocess = \"honda81\"\nradius = 100\n");
     const Outcome low = run("derive two.toml --plant low"), high = run("derive two.toml --plant high");
     CHECK(low.code == 0);
-    CHECK(low.out != high.out);
+    CHECK(low.out == "F(1)F(1)F(1)?place(0)\n");
+    CHECK(high.out == "F(1)F(2)F(2)?place(1)\n");
     REQUIRE(run("run two.toml --output out --quiet").code == 0);
     const json record = json::parse(text_of(path() / "out/run.json"));
     CHECK(record["plants"][0]["modules"] == std::count(low.out.begin(), low.out.end(), '('));
@@ -208,9 +208,9 @@ TEST_CASE_METHOD(Workplace,
     for (int seed = 11; seed < 15; ++seed) {
         const std::string chosen = " --seed " + std::to_string(seed);
         const std::string out = run("derive chance.l --explain A" + chosen).out;
-        const bool took_first = out.find("* chance.l:5:1: applied, drawn with the probability 0.75") != std::string::npos;
-        CHECK_THAT(out, Contains(took_first ? "- chance.l:6:1: not drawn, drawn with the probability 0.25"
-                                            : "* chance.l:6:1: applied, drawn with the probability 0.25"));
+        const bool took_first = out.find("* chance.l:5:1: applied, of probability 0.75") != std::string::npos;
+        CHECK_THAT(out, Contains(took_first ? "- chance.l:6:1: not drawn, of probability 0.25"
+                                            : "* chance.l:6:1: applied, of probability 0.25"));
         const std::string string = run("derive chance.l" + chosen).out;
         CHECK(string[2] == (took_first ? 'F' : 'G'));
     }

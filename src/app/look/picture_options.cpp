@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "app/options.h"
 #include "base/text.h"
 
 #include <fmt/format.h>

@@ -130,9 +130,8 @@ private:
 const Registered<RecorderType> entry{
     {"statistics", "statistics.csv: a row per step and plant",
      "statistics (true or false, true): write it\n"
-     "quantities { mass = \"sum(Stem.2)\" }: columns of your own: sum, mean, min, max or count of a parameter, "
-     "counted\n"
-     "from 1, over the modules of a plant",
+     "quantities ({ mass = \"sum(Stem.2)\" }): columns of your own, the sum, mean, min, max or count of a\n"
+     "parameter over the modules of a plant; parameters are counted from 1",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          if (!settings.flag_or("statistics", true)) return nullptr;
          return std::make_unique<Statistics>(settings, context);
