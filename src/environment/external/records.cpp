@@ -71,11 +71,10 @@ Record record_of(std::string_view line) {
     record.module = trimmed(line.substr(blank, open - blank));
     if (!has_values) return record;
     std::string_view rest = line.substr(open + 1, line.size() - open - 2);
-    for (std::size_t comma = 0; comma != std::string_view::npos;
-         rest.remove_prefix(std::min(comma, rest.size() - 1) + 1)) {
+    for (std::size_t comma = 0; comma != std::string_view::npos;) {
         comma = rest.find(',');
         record.values.push_back(trimmed(rest.substr(0, comma)));
-        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
     }
     return record;
 }
