@@ -30,8 +30,9 @@ configure_file(cmake/version.h.in ${CMAKE_CURRENT_BINARY_DIR}/version.h)
 install(DIRECTORY include/espalier TYPE INCLUDE)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier)
 install(DIRECTORY models environments DESTINATION ${ESPALIER_DATA_DIR})
-install(FILES docs/gallery.md DESTINATION ${ESPALIER_DATA_DIR}/docs)  # the studio shows its pictures
-install(DIRECTORY docs/pictures/gallery DESTINATION ${ESPALIER_DATA_DIR}/docs/pictures)
+# The manual; the studio shows the pictures of its gallery, and pages name the scripts.
+install(DIRECTORY docs DESTINATION ${ESPALIER_DATA_DIR} USE_SOURCE_PERMISSIONS PATTERN developer EXCLUDE)
+install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(cmake/EspalierConfig.cmake.in EspalierConfig.cmake
   INSTALL_DESTINATION ${package} PATH_VARS ESPALIER_DATA_DIR)

@@ -2,20 +2,31 @@
 #include "espalier/simulation/simulation.h"
 #include "espalier/turtle/interpretation.h"
 
+#include "base/excerpt.h"
+#include "base/text.h"
 #include "command.h"
+#include "lsystem/derive/explanation.h"
 #include "options.h"
+#include "simulation/object/plain_lines.h"
 #include "simulation/world/insertion.h"
 #include "turtle/asking.h"
 #include "turtle/terminals.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <functional>
+#include <sstream>
 
 namespace espalier::app {
 namespace {
+
+using lsystem::ExplainedModule;
+using lsystem::ExplainedProduction;
+using lsystem::Trial;
+using simulation::trimmed;
 
 struct DeriveArguments {
     ModelArguments model;
@@ -27,6 +38,9 @@ struct DeriveArguments {
     std::filesystem::path files;  ///< where files go that the model writes; empty: nowhere
     bool quiet = false;
     std::size_t memory = 0;
+    KeyValues overrides;    ///< of a scene
+    std::string plant;      ///< its name; empty: the only one
+    std::string explained;  ///< a symbol: what became of its modules is told instead; empty: none
 };
 
 // Answers ?P ?H ?L ?U ?Q; queries to processes keep their parameters.
@@ -107,10 +121,133 @@ ModuleString derive_alone(const Scene& scene, const DeriveArguments& arguments, 
     return string;
 }
 
-ModuleString derive_in_world(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
+/// Makes the last step again, and says which production replaced each module of a symbol.
+class Explanation {
+public:
+    Explanation(const Scene& scene, const Plant& plant, const std::string& symbol)
+        : model_(source_of(*plant.model)), plant_(plant) {
+        if (plant.in_time) throw UserError("a plant that regrows has no last step to explain");
+        const std::optional<SymbolId> found = model_.alphabet.find_symbol(symbol);
+        if (!found) throw UserError(fmt::format("--explain: the model {} has no module '{}'", model_.name, symbol));
+        symbol_ = *found;
+        settings_.seed = scene.seed;
+        settings_.plant = *plant.stream;
+        settings_.lineage = settings_.one_by_one = true;
+        settings_.input_folder = folder_with(model_);
+        settings_.printout = std::make_shared<Printout>([](const std::string&) {});
+    }
+
+    /// Of the step that comes next.
+    std::string text(const DerivedStep& before, std::size_t number) const {
+        const DerivedStep::OfPlant& plant = before.plants.at(number);
+        Derivation derivation(plant_.model, settings_);
+        std::istringstream memory(plant.memory);
+        derivation.restore(memory);
+        std::string text;
+        std::size_t i = 0, parameters_at = 0;
+        for (const ExplainedModule& module : lsystem::explain_step(*plant_.model, derivation, *plant.string, symbol_)) {
+            for (; i < module.module; ++i) parameters_at += arity(*plant.string, i);
+            ModuleString one;
+            one.append(plant.string->letters[i],
+                       {plant.string->parameters.data() + parameters_at, arity(*plant.string, i)});
+            text += fmt::format("step {}: {}, module {}\n", before.step + 1, to_text(one, model_.alphabet), i);
+            text += told(module, plant.string->letters[i]);
+        }
+        return text.empty()
+                   ? fmt::format("step {}: there is no {}\n", before.step + 1, model_.alphabet.symbol_name(symbol_))
+                   : text;
+    }
+
+private:
+    std::size_t arity(const ModuleString& string, std::size_t module) const {
+        return static_cast<std::size_t>(model_.alphabet.arity(string.letters[module]));
+    }
+
+    std::string told(const ExplainedModule& module, LetterId letter) const {
+        if (!module.is_rewritten) {
+            const bool has_any = std::any_of(model_.systems.begin(), model_.systems.end(), [&](const LSystem& system) {
+                return std::any_of(
+                    system.productions.begin(), system.productions.end(),
+                    [&](const Production& production) { return production.strict.front().letter == letter; });
+            });
+            return has_any ? "  it is cut off, or replaced together with a module before it\n"
+                           : "  no production begins with it: it stays\n";
+        }
+        std::string text;
+        bool is_replaced = false;
+        for (const ExplainedProduction& production : module.productions) {
+            is_replaced = is_replaced || production.is_chosen;
+            text += fmt::format("  {} {}: {}\n      {}\n", production.is_chosen ? "*" : "-",
+                                to_string(production.production->place), reason(production),
+                                trimmed(source_line(production.production->place)));
+        }
+        return is_replaced ? text : text + "  no production applies: it stays, or is decomposed\n";
+    }
+
+    static std::string reason(const ExplainedProduction& production) {
+        if (!production.is_tried) return "not tried, because one before it applies";
+        switch (production.trial.verdict) {
+            case Trial::Verdict::strict:
+                return "the modules behind it are others";
+            case Trial::Verdict::right_context:
+                return "its right context is not there";
+            case Trial::Verdict::left_context:
+                return "its left context is not there";
+            case Trial::Verdict::condition:
+                return "its condition is 0";
+            case Trial::Verdict::applies:
+                break;
+        }
+        const std::string condition =
+            production.production->condition
+                ? fmt::format(", its condition is {}", format_general(production.trial.condition))
+                : "";
+        const std::string chance = production.probability == 1
+                                       ? ""
+                                       : fmt::format(", of probability {}", format_general(production.probability));
+        return (production.is_chosen ? "applied" : "not drawn") + condition + chance;
+    }
+
+    const Model& model_;
+    const Plant& plant_;
+    SymbolId symbol_ = 0;
+    DerivationSettings settings_;
+};
+
+std::size_t number_of_plant(const World& world, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Plant& plant : world.scene().plants) names.push_back(plant.name);
+    if (name.empty() && names.size() == 1) return 0;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    constexpr std::size_t most_named = 20;
+    const std::size_t others = names.size() - std::min(names.size(), most_named);
+    const std::string hint = did_you_mean(name, names);
+    names.resize(names.size() - others);
+    throw UserError(fmt::format("{}{}: the plants are {}{}; --plant NAME chooses one",
+                                name.empty() ? "the scene has several plants" : "no plant is called '" + name + "'",
+                                hint, fmt::join(names, ", "), others > 0 ? fmt::format(" and {} others", others) : ""));
+}
+
+/// What is printed of a world at its end: the string of a plant, or what the last step did.
+struct Derived {
+    ModuleString string;
+    std::string explanation;
+    std::shared_ptr<const CompiledModel> model;
+};
+
+Derived derive_in_world(const Scene& scene, const DeriveArguments& arguments, bool before_exchange) {
     World world(scene, arguments.memory == 0 ? default_memory() : arguments.memory, arguments.files);
     if (!arguments.quiet) print_warnings(world.warnings());
-    grow({[&] { return world.at_end(); }, [&] { world.write_axioms(); }, [&] { world.derive(); },
+    const std::size_t plant = number_of_plant(world, arguments.plant);
+    std::optional<Explanation> explanation;
+    if (!arguments.explained.empty()) explanation.emplace(scene, world.scene().plants[plant], arguments.explained);
+    std::optional<DerivedStep> before;
+    grow({[&] { return world.at_end(); }, [&] { world.write_axioms(); },
+          [&] {
+              if (explanation) before = world.derived();
+              world.derive();
+          },
           [&] {
               world.interpret();
               world.exchange();
@@ -120,7 +257,9 @@ ModuleString derive_in_world(const Scene& scene, const DeriveArguments& argument
               world.answer_turtle_queries();
           }},
          before_exchange);
-    return world.string(0);
+    const auto& model = world.scene().plants[plant].model;
+    if (!explanation) return {world.string(plant), "", model};
+    return {{}, before ? explanation->text(*before, plant) : "step 0: the axiom is no step of productions\n", model};
 }
 
 void write_out(const std::string& text) {
@@ -153,21 +292,34 @@ std::string json_text(const ModuleString& string, const Alphabet& alphabet) {
     return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-int derive(const DeriveArguments& arguments) {
+Scene scene_of(const DeriveArguments& arguments) {
+    const SceneOptions options{arguments.overrides, arguments.steps, arguments.seed};
     if (is_scene(arguments.model.file)) {
-        throw UserError("derive accepts a model or the folder of an object; use `espalier run` for a scene");
+        reject_side_files(arguments.model);
+        return read_scene(arguments.model.file, options);
     }
     ObjectFiles object = object_of(arguments.model);
     object.animation.clear();  // the derivation length decides
-    const Scene scene = scene_of_object(object, {{}, arguments.steps, arguments.seed});
+    return scene_of_object(object, options);
+}
+
+int derive(const DeriveArguments& arguments) {
+    const Scene scene = scene_of(arguments);
     if (!arguments.quiet) print_warnings(scene.notes.diagnostics);
+    const bool is_alone = !is_scene(arguments.model.file) && scene.environment.processes.empty() &&
+                          arguments.plant.empty() && arguments.explained.empty();
 
     const Plant& plant = scene.plants.front();
     // "environment display: before" makes cpfg, too, answer the last queries.
     const bool before_exchange = arguments.before_exchange && !(plant.view && plant.view->exchanges_first);
-    ModuleString string = scene.environment.processes.empty() ? derive_alone(scene, arguments, before_exchange)
-                                                              : derive_in_world(scene, arguments, before_exchange);
-    const Model& model = source_of(*plant.model);
+    Derived derived = is_alone ? Derived{derive_alone(scene, arguments, before_exchange), "", plant.model}
+                               : derive_in_world(scene, arguments, before_exchange);
+    if (!arguments.explained.empty()) {
+        write_out(derived.explanation);
+        return exit_code::done;
+    }
+    const Model& model = source_of(*derived.model);
+    ModuleString& string = derived.string;
     if (arguments.without_nonterminals) string = turtle::terminals_of(model, *symbol_table(model), string);
     const Alphabet& alphabet = model.alphabet;
     if (arguments.format == "counts") {
@@ -183,12 +335,19 @@ int derive(const DeriveArguments& arguments) {
 class Derive final : public Command {
 public:
     explicit Derive(CLI::App& program)
-        : Command(program, "derive", "print the string of a model after a number of steps"),
-          model_(app(), "model", "a model (.l), or the folder of an object", ModelOptions::Files::reading_and_drawing),
+        : Command(program, "derive", "print the string of a plant after a number of steps"),
+          model_(app(), "what", "a scene (.toml), a model (.l), or the folder of an object",
+                 ModelOptions::Files::reading_and_drawing),
+          sets_(app()),
           growth_(app()) {
         app()
             .add_option("--format", format_, "text (cpfg's notation), counts (per symbol) or json")
             ->check(CLI::IsMember({"text", "counts", "json"}));
+        app().add_option("--plant", plant_, "the name of the plant of a scene; default: the only one");
+        app().add_option(
+            "--explain", explained_,
+            "print which production the last step applied to each module of this symbol, and why the others "
+            "did not apply");
         app().add_flag("--before-exchange", before_exchange_,
                        "print the string before the queries of the last step are answered, like cpfg");
         app().add_flag("--without-nonterminals", without_nonterminals_,
@@ -197,23 +356,25 @@ public:
         app().add_flag("--quiet", quiet_, "print no warnings");
         app().footer(
             R"(The default number of steps is the derivation length, not that of an animation. The turtle answers ?P ?H ?L ?U ?Q, with the
-settings of the view file. ?E and named queries keep their parameters, unless an environment file names a process.
+settings of the view file. ?E and named queries keep their parameters, unless an environment file or a scene has a process.
 Examples:
   espalier derive models/course/02-branching.l --steps 3
   espalier derive models/course/03-parameters.l --format counts
   espalier derive models/organs/shoot.l --view models/organs/shoot.v
-  espalier derive models/language/shoot --before-exchange)");
+  espalier derive models/language/shoot --before-exchange
+  espalier derive environments/course-light.toml --steps 3 --explain A)");
     }
 
     int run() override {
         return derive({model_.arguments(), growth_.steps(), growth_.seed(), format_, before_exchange_,
-                       without_nonterminals_, files_, quiet_, growth_.memory()});
+                       without_nonterminals_, files_, quiet_, growth_.memory(), sets_.overrides(), plant_, explained_});
     }
 
 private:
     ModelOptions model_;
+    SetOptions sets_;
     GrowthOptions growth_;
-    std::string format_ = "text";
+    std::string format_ = "text", plant_, explained_;
     bool before_exchange_ = false, without_nonterminals_ = false, quiet_ = false;
     std::filesystem::path files_;
 };

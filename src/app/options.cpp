@@ -8,7 +8,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <random>
 
 namespace espalier::app {
 namespace {
@@ -50,6 +50,13 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
         throw UserError(fmt::format("{} {}: expected KEY=VALUE", option, text));
     }
     return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+std::optional<double> finite_number(const std::string& text) {
+    double value = 0;
+    const auto [rest, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (wrong != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 CLI::Validator above_zero() {
@@ -111,9 +118,23 @@ KeyValues SetOptions::overrides() const {
 GrowthOptions::GrowthOptions(CLI::App& command) {
     command.add_option("--steps", steps_, "number of derivation steps; default: that of the scene or the model")
         ->check(CLI::Range(0, 1000000000));
-    command.add_option("--seed", seed_, "of all random numbers; the same seed gives the same result")
-        ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+    command
+        .add_option_function<std::string>(
+            "--seed", [this](const std::string& text) { read_seed(text); },
+            "of all random numbers; the same seed gives the same result. random: one is drawn, and printed")
+        ->type_name("INT|random");
     command.add_option("--memory", memory_, "memory that the run may use, such as 4G; default: half of the machine");
+}
+
+void GrowthOptions::read_seed(const std::string& text) {
+    if (text == "random") {
+        seed_ = std::random_device{}();
+        fmt::print(stderr, "seed {}\n", seed_);
+        return;
+    }
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed_);
+    if (error == std::errc() && end == text.data() + text.size() && seed_ >= 0) return;
+    throw CLI::ValidationError("--seed", "a whole number of at least 0, or random, is expected, not " + text);
 }
 
 std::size_t GrowthOptions::memory() const {

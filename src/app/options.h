@@ -18,6 +18,9 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
 /// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024. Throws UserError naming the option.
 std::size_t size_in_bytes(const std::string& text, const std::string& option);
 
+/// The whole text as a finite number.
+std::optional<double> finite_number(const std::string& text);
+
 /// Accepts finite numbers above 0. CLI11's own tells of all of the range of a double.
 CLI::Validator above_zero();
 
@@ -59,6 +62,8 @@ public:
     std::size_t memory() const;  ///< bytes; 0: nobody says
 
 private:
+    void read_seed(const std::string& text);
+
     int steps_ = -1;
     std::int64_t seed_ = -1;
     std::string memory_;

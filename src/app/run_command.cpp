@@ -3,7 +3,9 @@
 #include "child.h"
 #include "command.h"
 #include "options.h"
+#include "program_data.h"
 #include "progress.h"
+#include "setting_values.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -70,6 +72,22 @@ void require_end(const Scene& scene) {
 }
 
 }  // namespace
+
+void take_settings(const fs::path& file, RunArguments& arguments) {
+    const fs::path& what = arguments.model.file;
+    const bool in_scene = is_scene(what);
+    SettingValues values(
+        ModelSettings::read(in_scene ? first_model_of(what) : object_of(arguments.model).model).list());
+    values.read(here_or_with_program(file));
+    if (!arguments.seed) arguments.seed = values.seed();
+    for (const auto& [name, value] : values.defines()) {
+        if (in_scene) {
+            arguments.overrides.insert(arguments.overrides.begin(), {"plant.0.define." + name, value});
+        } else {
+            arguments.model.defines.insert(arguments.model.defines.begin(), {name, value});
+        }
+    }
+}
 
 Scene scene_of(const RunArguments& arguments) {
     const SceneOptions options{arguments.overrides, arguments.steps, arguments.seed};
@@ -186,6 +204,9 @@ public:
             .add_option("--threads", arguments_.threads,
                         "number of threads; default: all cores. The result does not depend on it")
             ->check(CLI::Range(1, 4096));
+        app().add_option("--settings", settings_,
+                         "a file with settings of the model, or of the first plant of a scene, as `espalier tree` "
+                         "saves them: crown-width = 6");
         app().add_option("--output", arguments_.output, "output folder; default: output/<scene>-<time>");
         app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in the output folder");
         app()
@@ -210,6 +231,7 @@ public:
   espalier run environments/two-trees.toml --set environment.light.voxel=0.5 --output output/coarse
   espalier run models/course/02-branching.l --steps 5
   espalier run models/organs/shoot.l --view models/organs/shoot.v
+  espalier run environments/tree.toml --settings environments/presets/shrub.toml
   espalier run models/language/shoot          a folder; its file 'specifications' names the files
 Ctrl-C ends the run after the current step, or within half a second of it, and keeps all recorded frames. A second
 Ctrl-C stops at once.)");
@@ -224,6 +246,7 @@ Ctrl-C stops at once.)");
         arguments_.memory = growth_.memory();
         arguments_.disk = disk_.bytes();
         arguments_.json = wants_json();
+        if (!settings_.empty()) take_settings(settings_, arguments_);
         if (is_child_) end_with_parent();
         return run_command(arguments_);
     }
@@ -234,6 +257,7 @@ private:
     GrowthOptions growth_;
     DiskOption disk_;
     RunArguments arguments_;
+    fs::path settings_;
     int every_ = 0;
     bool is_child_ = false;
 };

@@ -31,6 +31,9 @@ struct RunArguments {
     bool quiet = false;
     bool json = false;
 };
+/// Takes the settings of a file that `espalier tree` writes, or of one of its presets, for the model, or the first
+/// plant of the scene; what the arguments say themselves counts more. Throws UserError.
+void take_settings(const std::filesystem::path& file, RunArguments& arguments);
 /// The command line without what does not change the timeline: what starts the same run again.
 std::vector<std::string> words_of(const RunArguments& arguments);
 

@@ -9,6 +9,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fstream>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -83,7 +84,7 @@ public:
         if (program.input >= 0) posix_spawn_file_actions_adddup2(&actions_, program.input, STDIN_FILENO);
         if (program.output >= 0) {
             posix_spawn_file_actions_adddup2(&actions_, program.output, STDOUT_FILENO);
-            posix_spawn_file_actions_adddup2(&actions_, program.output, STDERR_FILENO);
+            if (!program.keeps_error) posix_spawn_file_actions_adddup2(&actions_, program.output, STDERR_FILENO);
         }
         if (!program.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions_, program.folder.c_str());
     }
@@ -181,6 +182,22 @@ std::error_code send(const OpenFile& connection, std::string_view bytes) {
         bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
     return {};
+}
+
+bool converse(const OpenFile& connection, std::string_view& outgoing, std::string& incoming,
+              std::chrono::milliseconds patience) {
+    const auto wanted = static_cast<short>(outgoing.empty() ? POLLIN : POLLIN | POLLOUT);
+    pollfd ready{connection.number(), wanted, 0};
+    if (::poll(&ready, 1, static_cast<int>(patience.count())) <= 0) return true;
+    if (ready.revents & POLLOUT) {
+        const ssize_t sent = ::send(connection.number(), outgoing.data(), outgoing.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent > 0) outgoing.remove_prefix(static_cast<std::size_t>(sent));
+    }
+    if (!(ready.revents & (POLLIN | POLLHUP | POLLERR))) return true;
+    std::array<char, 1 << 16> bytes;
+    const ssize_t received = ::recv(connection.number(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (received > 0) incoming.append(bytes.data(), static_cast<std::size_t>(received));
+    return received > 0 || (received < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR));
 }
 
 std::error_code denied(const fs::path& path, Access access) {
@@ -368,7 +385,11 @@ int poll(int child, int& code) {
 }
 
 void end(int child, Ending how) {
-    ::kill(child, how == Ending::as_ctrl_c ? SIGINT : how == Ending::as_kill ? SIGTERM : SIGKILL);
+    if (how == Ending::at_once) {
+        ::kill(-child, SIGKILL);
+    } else {
+        ::kill(child, how == Ending::as_ctrl_c ? SIGINT : SIGTERM);
+    }
 }
 
 int lifeline() {

@@ -1,6 +1,7 @@
 // What the program asks of the operating system beyond the standard library. Only platform.cpp calls POSIX.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -56,6 +57,10 @@ private:
 [[nodiscard]] std::error_code connect(OpenFile& ours, OpenFile& theirs);
 /// Writes all of it into a connection. If the other end is closed, that is an error and not a signal.
 [[nodiscard]] std::error_code send(const OpenFile& connection, std::string_view bytes);
+/// Waits at most so long until a connection takes some of `outgoing`, which is then removed from it, or has something
+/// to read, which is appended to `incoming`. False once the other end is closed and all it sent is read.
+[[nodiscard]] bool converse(const OpenFile& connection, std::string_view& outgoing, std::string& incoming,
+                            std::chrono::milliseconds patience);
 
 enum class Access { read, write, execute };
 /// Why this process may not use a file or folder so; no error if it may.
@@ -142,6 +147,7 @@ struct ChildProgram {
     std::filesystem::path folder{};  ///< where it starts; empty: where this program is
     int input = -1;                  ///< the descriptor that becomes its standard input; -1: this program's
     int output = -1;                 ///< the same for its standard output and error
+    bool keeps_error = false;        ///< its standard error stays this program's
 };
 
 /// Starts it in a process group of its own, so that Ctrl-C in a terminal reaches this program alone. Returns its
@@ -155,7 +161,11 @@ int wait_for(int child);
 /// code as above, or 0. Throws std::system_error, but for -1 when there is no child.
 int poll(int child, int& code);
 
-enum class Ending { as_ctrl_c, as_kill, at_once };
+enum class Ending {
+    as_ctrl_c,
+    as_kill,
+    at_once  ///< and the programs of its process group, which it has started
+};
 /// Asks a child to end.
 void end(int child, Ending how);
 

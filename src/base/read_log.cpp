@@ -41,8 +41,8 @@ std::map<std::filesystem::path, ReadLog::File> ReadLog::files() const {
     return files_;
 }
 
-void ReadLog::note(const std::filesystem::path& path, std::string_view bytes) {
-    if (ReadLog* log = log_of_thread) log->add(path, bytes);
+void ReadLog::note(const std::filesystem::path& path, std::string_view bytes, bool kept) {
+    if (ReadLog* log = log_of_thread) log->add(path, bytes, kept);
 }
 
 std::optional<std::string> ReadLog::unsaved(const std::filesystem::path& path) {
@@ -55,14 +55,14 @@ const ReadPermission* ReadLog::permission() {
     return log_of_thread && log_of_thread->permission_ ? &*log_of_thread->permission_ : nullptr;
 }
 
-void ReadLog::add(const std::filesystem::path& path, std::string_view bytes) {
+void ReadLog::add(const std::filesystem::path& path, std::string_view bytes, bool kept) {
     const std::lock_guard lock(mutex_);
     const auto [place, is_new] = files_.try_emplace(name_of(path));
     if (!is_new) return;
     File& file = place->second;
     file.digest = digest(bytes);
     file.size = bytes.size();
-    file.kept = bytes.size() <= most_kept_ - kept_;
+    file.kept = kept && bytes.size() <= most_kept_ - kept_;
     if (!file.kept) return;
     file.bytes = bytes;
     kept_ += bytes.size();

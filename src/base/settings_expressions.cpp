@@ -32,6 +32,7 @@ public:
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             std::shared_ptr<Node>& item = node.items[i];
             const std::string& name = is_table ? node.names[i] : key;
+            if (is_table && name == "define") continue;  // texts of the model that the expressions read
             const Place of_key = is_table ? item->place : place;
             if (item->type == Node::Type::text && item->text.starts_with('=')) {
                 replace(item, name, of_key);

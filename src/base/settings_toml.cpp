@@ -124,6 +124,33 @@ std::shared_ptr<Node> enter(Node& node, const std::string& part, std::string_vie
     return child;
 }
 
+/// `*` enters all tables of an array.
+std::vector<std::shared_ptr<Node>> enter_all(const std::vector<std::shared_ptr<Node>>& nodes, const std::string& part,
+                                             std::string_view dotted, const Place& place) {
+    std::vector<std::shared_ptr<Node>> entered;
+    for (const std::shared_ptr<Node>& node : nodes) {
+        if (part == "*" && node->type == Node::Type::array) {
+            entered.insert(entered.end(), node->items.begin(), node->items.end());
+        } else {
+            entered.push_back(enter(*node, part, dotted, place));
+        }
+    }
+    return entered;
+}
+
+void put_value(Node& node, const std::string& last, std::string_view value, std::string_view dotted,
+               const Place& place) {
+    std::shared_ptr<Node> parsed = parse_value(value, {place.file, node.folder});
+    parsed->place = place;
+    if (node.type == Node::Type::array && is_index(last) && std::stoul(last) < node.items.size()) {
+        node.items[std::stoul(last)] = std::move(parsed);
+    } else if (node.type == Node::Type::table) {
+        node.put(last, std::move(parsed));
+    } else {
+        throw UserError(place, fmt::format("'{}' leads nowhere in this file", dotted));
+    }
+}
+
 }  // namespace
 
 Settings Settings::read_toml(const std::filesystem::path& path) {
@@ -140,19 +167,9 @@ void Settings::set(std::string_view dotted_key, std::string_view value) {
     for (const std::string& part : parts) {
         if (part.empty()) throw UserError(place, "a key such as simulation.steps is expected");
     }
-    std::shared_ptr<Node> node = node_;
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i) node = enter(*node, parts[i], dotted_key, place);
-
-    std::shared_ptr<Node> parsed = parse_value(value, {place.file, node->folder});
-    parsed->place = place;
-    const std::string& last = parts.back();
-    if (node->type == Node::Type::array && is_index(last) && std::stoul(last) < node->items.size()) {
-        node->items[std::stoul(last)] = std::move(parsed);
-    } else if (node->type == Node::Type::table) {
-        node->put(last, std::move(parsed));
-    } else {
-        throw UserError(place, fmt::format("'{}' leads nowhere in this file", dotted_key));
-    }
+    std::vector<std::shared_ptr<Node>> nodes{node_};
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) nodes = enter_all(nodes, parts[i], dotted_key, place);
+    for (const std::shared_ptr<Node>& node : nodes) put_value(*node, parts.back(), value, dotted_key, place);
 }
 
 }  // namespace espalier

@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 
 #include "base/folder.h"
+#include "base/link_mark.h"
 #include "studio/document_files.h"
 #include "studio/plain_name.h"
 
@@ -26,8 +27,6 @@ constexpr std::size_t most_files = 200;
 constexpr int most_of_one_name = 1000;
 constexpr int most_above = 3;  ///< folders between a document and the files that it reads
 
-/// Its presence says that a folder came by a link.
-constexpr const char* mark = ".came-by-a-link";
 constexpr const char* words_of_mark =
     "The files of this folder came by a link. The studio lets them read only this folder and the library.\n"
     "If you trust whoever sent the link, remove this file: they may then read what you may read.\n";
@@ -145,7 +144,7 @@ fs::path place_of_shared(const SharedDocument& shared, const fs::path& folder) {
 fs::path write_shared(const SharedDocument& shared, const fs::path& folder) {
     const fs::path place = place_of_shared(shared, folder);
     make_folder(place);
-    write_text(place / mark, words_of_mark);
+    write_text(place / link_mark, words_of_mark);
     for (const auto& [path, text] : shared.files) {
         make_folder((place / path).parent_path());
         write_text(place / path, text);
@@ -154,16 +153,13 @@ fs::path write_shared(const SharedDocument& shared, const fs::path& folder) {
 }
 
 std::optional<ReadPermission> permission_of(const fs::path& document, const fs::path& library) {
-    std::error_code ignored;
-    for (fs::path folder = document; folder.has_relative_path(); folder = folder.parent_path()) {
-        if (!fs::exists(folder / mark, ignored)) continue;
-        ReadPermission permission{{folder}, most_read};
-        for (const std::string_view part : parts_of_library) {
-            if (!library.empty()) permission.folders.push_back(library / part);
-        }
-        return permission;
+    const std::optional<fs::path> folder = folder_of_link(document);
+    if (!folder) return std::nullopt;
+    ReadPermission permission{{*folder}, most_read};
+    for (const std::string_view part : parts_of_library) {
+        if (!library.empty()) permission.folders.push_back(library / part);
     }
-    return std::nullopt;
+    return permission;
 }
 
 }  // namespace espalier::studio

@@ -167,6 +167,65 @@ TEST_CASE_METHOD(Workplace, "derive answers the turtle's queries, also before th
     CHECK(run("derive ask.l").out == "F(1)F(1)?E(5)\n");
 }
 
+TEST_CASE_METHOD(Workplace, "derive prints the plants of a scene by their names, in their environment", "[app]") {
+    write("ask.l",
+          "#define V 1\nenvironment place;\nlsystem: 1\nderivation length: 2\naxiom: F(1)?place(V)\n"
+          "?place(h) --> F(h + 1)?place(V)\nendlsystem\n");
+    write("two.toml",
+          "[[plant]]\nname = \"low\"\nmodel = \"ask.l\"\n\n[[plant]]\nname = \"high\"\nmodel = \"ask.l\"\n"
+          "define = { V = 2 }\n\n[environment.place]\nprocess = \"honda81\"\nradius = 100\n");
+    const Outcome low = run("derive two.toml --plant low"), high = run("derive two.toml --plant high");
+    CHECK(low.code == 0);
+    CHECK(low.out == "F(1)F(1)F(1)?place(0)\n");
+    CHECK(high.out == "F(1)F(2)F(2)?place(1)\n");
+    REQUIRE(run("run two.toml --output out --quiet").code == 0);
+    const json record = json::parse(text_of(path() / "out/run.json"));
+    CHECK(record["plants"][0]["modules"] == std::count(low.out.begin(), low.out.end(), '('));
+    CHECK_THAT(run("derive two.toml").err, Contains("the plants are low, high; --plant NAME"));
+    CHECK_THAT(run("derive two.toml --plant hihg").err, Contains("did you mean 'high'?"));
+}
+
+TEST_CASE_METHOD(Workplace,
+                 "derive explains which production replaced a module in the last step, and why others did not",
+                 "[app]") {
+    write("why.l",
+          "lsystem: 1\nderivation length: 2\naxiom: B A(1) C\nB < A(x) > D --> F\nD < A(x) --> F\n"
+          "A(x) : x - 1 --> F\nA(x) : x + 1 --> A(x + 1)\nA(x) --> F\nendlsystem\n");
+    const Outcome first = run("derive why.l --steps 1 --explain A");
+    CHECK(first.code == 0);
+    CHECK_THAT(first.out, Contains("step 1: A(1), module 1\n"));
+    CHECK_THAT(first.out, Contains("- why.l:4:1: its right context is not there\n      B < A(x) > D --> F\n"));
+    CHECK_THAT(first.out, Contains("- why.l:5:1: its left context is not there\n"));
+    CHECK_THAT(first.out, Contains("- why.l:6:1: its condition is 0\n"));
+    CHECK_THAT(first.out, Contains("* why.l:7:1: applied, its condition is 2\n"));
+    CHECK_THAT(first.out, Contains("- why.l:8:1: not tried, because one before it applies\n"));
+    CHECK_THAT(run("derive why.l --explain A").out,
+               Contains("step 2: A(2), module 1\n") && Contains("* why.l:6:1: applied, its condition is 1\n"));
+    CHECK_THAT(run("derive why.l --explain B").out, Contains("no production begins with it: it stays"));
+    CHECK_THAT(run("derive why.l --explain X").err, Contains("has no module 'X'"));
+
+    write("chance.l", "lsystem: 1\nseed: 3\nderivation length: 3\naxiom: A\nA --> FA : 3\nA --> GA : 1\nendlsystem\n");
+    for (int seed = 11; seed < 15; ++seed) {
+        const std::string chosen = " --seed " + std::to_string(seed);
+        const std::string out = run("derive chance.l --explain A" + chosen).out;
+        const bool took_first = out.find("* chance.l:5:1: applied, of probability 0.75") != std::string::npos;
+        CHECK_THAT(out, Contains(took_first ? "- chance.l:6:1: not drawn, of probability 0.25"
+                                            : "* chance.l:6:1: applied, of probability 0.25"));
+        const std::string string = run("derive chance.l" + chosen).out;
+        CHECK(string[2] == (took_first ? 'F' : 'G'));
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "a random seed is printed and repeats the result", "[app]") {
+    write("chance.l", "lsystem: 1\nseed: 3\nderivation length: 1\naxiom: A\nA --> F(ran(1))\nendlsystem\n");
+    const Outcome drawn = run("derive chance.l --seed random"), other = run("derive chance.l --seed random");
+    REQUIRE(drawn.err.starts_with("seed "));
+    CHECK(run("derive chance.l --seed " + drawn.err.substr(5, drawn.err.find('\n') - 5)).out == drawn.out);
+    CHECK(drawn.out != other.out);
+    CHECK(run("derive chance.l --seed lucky").code == 1);
+    CHECK(run("derive chance.l --seed -1").code == 1);
+}
+
 TEST_CASE_METHOD(Workplace, "derive goes on as long as the model says, and no longer than it wants", "[app]") {
     const std::string steps = "lsystem: 1\nderivation length: 3\nEndEach: {if (Q == 2) {";
     const std::string rest = "}}\naxiom: A(0)\nA(n) --> A(n + 1)\nendlsystem\n";

@@ -267,3 +267,16 @@ TEST_CASE_METHOD(Nursery, "tubes have three sides unless told otherwise", "[tree
     CHECK(triangles("--rings 3") == triangles(""));
     CHECK(triangles("--rings 12 --triangles 400") <= 440);
 }
+
+TEST_CASE_METHOD(Workplace, "a run takes the settings of tree, and the tree by default warns of nothing", "[app]") {
+    const Outcome tree = run("tree --preset shrub --age 6 --run kept --output t.obj");
+    CHECK(tree.code == 0);
+    const Outcome grown =
+        run("run environments/tree.toml --settings environments/presets/shrub.toml "
+            "--set plant.0.define.AGE=6 --output out --quiet");
+    CHECK(grown.code == 0);
+    CHECK(text_of(path() / "out/statistics.csv") == text_of(path() / "kept/statistics.csv"));
+    CHECK(run("rerun out").code == 0);
+    CHECK_THAT(run("run environments/tree.toml --settings environments/tree.toml").err, Contains("no setting 'plant'"));
+    CHECK(run("tree --output d.obj").err.find("warning") == std::string::npos);
+}

@@ -182,3 +182,26 @@ TEST_CASE("a polygon may be opened by one string and closed by another", "[langu
     CHECK(warnings(lsystem_of("", "{.A}", "A --> F.A\n")) == "");
     CHECK(warnings(lsystem_of("", "{.A}", "A --> F.A\n{ --> F{\n} --> F}\n")) == "");
 }
+
+TEST_CASE("modules that only their own productions produce are told apart from those that an axiom leads to",
+          "[language]") {
+    CHECK(warnings(lsystem_of("", "A", "A --> FA\nB --> FB\n"), {"F"}) ==
+          "4: this production can never apply: 'B' is produced, but only by productions that no axiom leads to");
+    CHECK(warnings(lsystem_of("", "A", "A --> FA\nC --> D\nD --> C\n"), {"F"}).find("5: ") != std::string::npos);
+    CHECK(warnings(lsystem_of("", "A", "A --> FB\nB --> FA\n"), {"F"}) == "");
+}
+
+TEST_CASE("a query to a process of another name is offered the declared one that nothing asks", "[language]") {
+    const std::string said = warnings("environment lite;\n" + lsystem_of("", "F?light(1)", "F --> F\n"), {"F"});
+    CHECK(said.find("no process answers '?light': declare 'environment light;' (did you mean 'lite'?)") !=
+          std::string::npos);
+    CHECK(said.find("'i' has no effect") == std::string::npos);
+}
+
+TEST_CASE("a module that is declared without parameters may be written with empty brackets", "[language]") {
+    const auto model = read("module Seed();\n" + lsystem_of("", "Seed()Seed", "Seed() --> Seed( )F\n"));
+    REQUIRE(model->main().axiom.size() == 2);
+    CHECK(model->main().axiom[0].letter == model->main().axiom[1].letter);
+    CHECK(model->main().productions[0].strict[0].letter == model->main().axiom[0].letter);
+    CHECK(model->main().productions[0].successor[0].letter == model->main().axiom[0].letter);
+}

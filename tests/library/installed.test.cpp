@@ -154,6 +154,79 @@ int main() {
     CHECK(shell("build/up", project.path()).text == "3\n");
 }
 
+TEST_CASE("a process with a field links Espalier::grids in one's own program", "[library]") {
+    const Installed& installed = Installed::once();
+    const TemporaryFolder project;
+    project.write("mist.cpp", R"(#include <espalier/geometry/openvdb_grid.h>
+#include <espalier/simulation/world.h>
+#include <cstdio>
+using namespace espalier;
+
+// Its field is 0.25 in one voxel; a query is answered the sum of the field.
+class Mist final : public EnvironmentProcess {
+public:
+    Mist(Settings&, const EnvironmentContext& context, Fields& fields) {
+        initialize_openvdb();
+        field_.grid = openvdb::FloatGrid::create();
+        field_.grid->setTransform(cell_centred_transform(0.5, {0, 0, 0}));
+        field_.grid->tree().setValue({1, 2, 3}, 0.25f);
+        static_cast<void>(context), static_cast<void>(fields);
+    }
+    void answer(const WorldView&, std::span<const Query>, std::span<Answer> answers, Fields&) override {
+        double sum = 0;
+        for (auto value = field_.grid->cbeginValueOn(); value; ++value) sum += *value;
+        for (Answer answer : answers) answer[0] = sum;
+    }
+    std::pair<int, int> query_arity() const override { return {1, 1}; }
+
+private:
+    FieldGrid field_;
+};
+const Registered<ProcessType> entry{{"mist", "mist", "mist", construct<Mist>}};
+
+int main() {
+    Scene scene;
+    scene.plants.push_back(plant_of_text("environment air;\nlsystem: 1\naxiom: F(2)?air(0)\nendlsystem\n"));
+    scene.environment.add("air", "mist");
+    World world(scene);
+    world.start();
+    std::printf("%g\n", world.string(0).parameters[1]);
+})");
+    project.write("CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(mist LANGUAGES CXX)\n"
+                  "find_package(Espalier REQUIRED COMPONENTS grids)\nadd_executable(mist mist.cpp)\n"
+                  "target_link_libraries(mist Espalier::grids)\n");
+    require_done(shell(std::string(ESPALIER_CMAKE) + " -S . -B build -DCMAKE_PREFIX_PATH='" +
+                           installed.prefix().string() + "' && " ESPALIER_CMAKE " --build build",
+                       project.path()));
+    CHECK(shell("build/mist", project.path()).text == "0.25\n");
+}
+
+TEST_CASE("the program of the page on charts draws a run", "[library]") {
+    const Installed& installed = Installed::once();
+    const TemporaryFolder project;
+    for (const Block& block : blocks_of("docs/plots.md")) {
+        if (block.language == "cpp") project.write("draw.cpp", text_of_lines(block.lines));
+    }
+    project.write("CMakeLists.txt",
+                  "cmake_minimum_required(VERSION 3.25)\nproject(draw LANGUAGES CXX)\n"
+                  "find_package(Espalier REQUIRED COMPONENTS look)\nadd_executable(draw draw.cpp)\n"
+                  "target_link_libraries(draw Espalier::look)\n");
+    require_done(
+        shell(std::string(ESPALIER_CMAKE) + " -S . -B build -DCMAKE_PREFIX_PATH='" + installed.prefix().string() +
+                  "' && " ESPALIER_CMAKE " --build build && '" + installed.program() +
+                  "' run environments/lone-tree.toml --steps 2 --output output/two-trees --quiet && build/draw",
+              project.path()));
+    CHECK(text_of(project.path() / "two-trees.svg").find("height") != std::string::npos);
+}
+
+TEST_CASE("the licence, the manual and its scripts are installed", "[library]") {
+    const fs::path& prefix = Installed::once().prefix();
+    CHECK(text_of(prefix / "share/doc/espalier/LICENSE") == text_of(root / "LICENSE"));
+    CHECK(text_of(prefix / "share/espalier/docs/README.md") == text_of(root / "docs/README.md"));
+    CHECK(text_of(prefix / "share/espalier/docs/sweep.slurm") == text_of(root / "docs/sweep.slurm"));
+}
+
 TEST_CASE("the installed program finds its models and environments wherever it is started", "[library]") {
     const Installed& installed = Installed::once();
     const TemporaryFolder elsewhere;

@@ -1,5 +1,5 @@
 // What a page of charts holds, and that its picture appears.
-#include "picture/charts/table_charts.h"
+#include "espalier/picture/table_charts.h"
 
 #include "espalier/base/error.h"
 

@@ -90,11 +90,31 @@ TEST_CASE_METHOD(EnvironmentFolder, "a process nobody provides is an error that 
     CHECK(message(std::string("\0\xff:\t::\t\n", 8)) != "no error");
 }
 
-TEST_CASE_METHOD(EnvironmentFolder, "a program of one's own cannot be attached yet, and what can is named",
-                 "[simulation]") {
-    const std::string said = message("executable: ./mine plant.spec\n");
-    CHECK_THAT(said, Contains("plant.e:1") && Contains("'mine'") && Contains("of your own cannot be attached yet"));
-    CHECK_THAT(said, Contains("honda81") && Contains("voxel-shade") && Contains("in C++"));
+TEST_CASE_METHOD(EnvironmentFolder, "a program of one's own is named with its folder", "[simulation]") {
+    folder().write("mine", "");
+    const EnvironmentFile file = read(
+        "turtle position: P:%.2f %g %g\nexecutable: ./mine -v plant.spec\ncommunication type: pipes 10\ntimeout: "
+        "2.5\n");
+    REQUIRE(file.processes.size() == 1);
+    CHECK(file.processes[0].first == "mine");
+    const Settings& table = file.processes[0].second;
+    CHECK(table.text("process") == "external");
+    CHECK(table.texts_or("command", {}) ==
+          std::vector<std::string>{(folder().path() / "mine").string(), "-e", "plant.e", "-v", "plant.spec"});
+    CHECK(table.path("folder") == folder().path());
+    CHECK(table.number("timeout") == 2.5);
+    CHECK(table.integer("digits") == 6);
+    CHECK(table.table("turtle").text("position") == " P:%.2f %g %g");
+    CHECK(table.place("command").line == 2);
+    CHECK(file.diagnostics.empty());
+
+    folder().write("a.e", "executable: ./mine\n");
+    folder().write("fields", "field communication file: a.e\n");
+    CHECK(read("executable: multiple fields\n").processes.at(0).first == "mine-0");
+    CHECK(read("executable: ./mine\ninterpreted modules: all\n").diagnostics.size() == 1);
+    CHECK_THAT(message("executable: ./lost\n"), Contains("plant.e:1:1") && Contains("there is no file './lost'"));
+    CHECK_THAT(message("executable: mine\n"), Contains("named with its folder, as ./mine"));
+    CHECK_THAT(message("executable: ./mine\ntimeout: 2, x = 1\n"), Contains("plant.e:2:1") && Contains("seconds"));
 }
 
 TEST_CASE_METHOD(EnvironmentFolder, "programs of cpfg answer as there, with and without a file of parameters",

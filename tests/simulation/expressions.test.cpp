@@ -126,3 +126,28 @@ TEST_CASE_METHOD(ScenesOfRows, "a define of a scene outside the range of a setti
                Contains("the setting 'GNARLY' (how crooked) must be a number between 0 and 1, not 1.5"));
     CHECK(message(row + "define = { GNARLY = 1, D = 1000 }\n") == "no error");
 }
+
+TEST_CASE_METHOD(ScenesOfRows, "places and spacings of plants are expressions in their own model's settings",
+                 "[simulation]") {
+    const Scene scene = read(
+        "[[plant]]\nmodel = 'row.l'\nposition = ['= WIDTH / 2', 0, '= -WIDTH']\n"
+        "grid = { columns = '= 1 + 1', spacing = '= 2 * D' }\n"
+        "[[plant]]\nmodel = 'row.l'\ndefine = { WIDTH = 8 }\nroll = '= WIDTH'\n"
+        "positions = [['= WIDTH', 1, 0], [0, '= D', 2]]\n");
+    REQUIRE(scene.plants.size() == 4);
+    CHECK(scene.plants[0].turtle.pose.position == glm::dvec3(2.75, 0, -6));
+    CHECK(scene.plants[1].turtle.pose.position == glm::dvec3(3.25, 0, -6));
+    CHECK(scene.plants[2].turtle.pose.position == glm::dvec3(8, 1, 0));
+    CHECK(scene.plants[3].turtle.pose.position == glm::dvec3(0, 0.25, 2));
+}
+
+TEST_CASE_METHOD(ScenesOfRows, "a key with * says the same of all plants", "[simulation]") {
+    SceneOptions options;
+    options.overrides = {{"plant.*.define.WIDTH", "12"}};
+    const Scene scene = read(
+        "[[plant]]\nmodel = 'row.l'\nposition = ['= WIDTH', 0, 0]\n"
+        "[[plant]]\nmodel = 'other.l'\nposition = ['= WIDTH / 2', 0, 0]\n",
+        options);
+    CHECK(scene.plants[0].turtle.pose.position.x == 12);
+    CHECK(scene.plants[1].turtle.pose.position.x == 6);
+}

@@ -155,6 +155,23 @@ TEST_CASE("a scene of a link names no model, mesh, picture or table of somebody 
     }
 }
 
+TEST_CASE("a link starts no program", "[studio]") {
+    Pasted studio;
+    const fs::path started = studio.folder.path() / "started";
+    const std::string command = "command = [\"touch\", \"" + started.string() + "\"]\n";
+    const std::string scene = "[[plant]]\nmodel = \"a.l\"\n\n[environment]\n";
+    const std::string asks = "lsystem: 1\nderivation length: 1\naxiom: F ?E(1)\nendlsystem\n";
+    for (const auto& [environment, file] : std::map<std::string, std::string>{
+             {"[environment.x]\nprocess = \"external\"\n" + command, "executable: /bin/true\n"},
+             {"[environment.x]\nprocess = \"external\"\nfolder = \"/\"\n" + command, "executable: /bin/true\n"},
+             {"file = \"a.e\"\n", "executable: /usr/bin/touch " + started.string() + "\n"}}) {
+        INFO(environment);
+        CHECK_THAT(studio.problems_of({{"s.toml", scene + environment}, {"a.l", asks}, {"a.e", file}}, "s.toml"),
+                   Contains("came by a link") && Contains("no program is started"));
+        CHECK_FALSE(fs::exists(started));
+    }
+}
+
 TEST_CASE("a link's pictures are its own or the library's", "[studio]") {
     Pasted studio;
     const std::string picture = (studio.folder.path() / "own.png").string();

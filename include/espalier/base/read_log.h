@@ -64,15 +64,15 @@ public:
         ReadLog* before_;
     };
 
-    // Called by read_text().
-    static void note(const std::filesystem::path& path, std::string_view bytes);
+    // Called by read_text(), and for programs, whose bytes are not kept.
+    static void note(const std::filesystem::path& path, std::string_view bytes, bool kept = true);
     /// What stands for the file on this thread; none: the file itself.
     static std::optional<std::string> unsaved(const std::filesystem::path& path);
     /// What this thread may read; null if that is everything.
     static const ReadPermission* permission();
 
 private:
-    void add(const std::filesystem::path& path, std::string_view bytes);
+    void add(const std::filesystem::path& path, std::string_view bytes, bool kept);
 
     const std::size_t most_kept_;
     const UnsavedTexts unsaved_;

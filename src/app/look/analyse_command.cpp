@@ -1,6 +1,7 @@
 #include "espalier/analysis/run_analysis.h"
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
+#include "espalier/picture/table_charts.h"
 
 #include "app/command.h"
 #include "app/options.h"
@@ -8,7 +9,6 @@
 #include "field_profile.h"
 #include "frame_option.h"
 #include "picture/charts/quantity.h"
-#include "picture/charts/table_charts.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "app/options.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -91,13 +92,6 @@ FieldLook field_look(const std::string& text) {
             fmt::format("expected volume, slice[=AXIS[METRES]] or iso[=VALUE] after ':'{}", did_you_mean(kind, kinds)));
     }
     return look;
-}
-
-std::optional<double> finite_number(const std::string& text) {
-    double value = 0;
-    const auto [rest, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (wrong != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
 }
 
 }  // namespace espalier::app

@@ -51,7 +51,4 @@ FieldLook field_look(const std::string& text);
 /// "#rrggbb".
 std::optional<std::array<std::uint8_t, 3>> hex_colour(const std::string& text);
 
-/// The whole text as a finite number.
-std::optional<double> finite_number(const std::string& text);
-
 }  // namespace espalier::app

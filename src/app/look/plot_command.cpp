@@ -1,9 +1,9 @@
 #include "espalier/base/error.h"
+#include "espalier/picture/table_charts.h"
 
 #include "app/command.h"
 #include "base/text.h"
 #include "picture/charts/quantity.h"
-#include "picture/charts/table_charts.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>

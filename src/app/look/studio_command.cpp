@@ -38,6 +38,17 @@ fs::path view_beside(const fs::path& model) {
     return !fs::is_directory(model) && fs::is_regular_file(view) ? view : fs::path();
 }
 
+// Who has the address of the studio may write into its documents what he likes.
+void require_no_programs(const Scene& scene) {
+    for (const auto& [name, table] : scene.environment.processes) {
+        if (table.text_or("process", "") != "external") continue;
+        throw UserError(table.place("process"),
+                        fmt::format("process '{}' is a program of its own, which the studio starts only with "
+                                    "`espalier studio --programs`; `espalier run` starts it",
+                                    name));
+    }
+}
+
 // As `espalier run` reads it, with `--view` of a view file beside a model.
 Scene read(const Opened& opened) {
     const SceneOptions options{{}, opened.steps, opened.seed};
@@ -168,6 +179,8 @@ public:
         app().add_option("--folder", folder_,
                          "files are read and written below it; default: this folder, or the one of a file outside it");
         app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
+        app().add_flag("--programs", programs_,
+                       "start the environment programs that documents name; never for what came by a link");
         app().add_flag("--no-browser", no_browser_, "print the address instead of opening it");
         app().footer(
             R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
@@ -198,7 +211,11 @@ Examples:
         options.scratch = scratch.path();
         options.state = state_file(options.folder);
         options.port = port_;
-        options.read = read;
+        options.read = [programs = programs_](const Opened& opened) {
+            Scene scene = read(opened);
+            if (!programs) require_no_programs(scene);
+            return scene;
+        };
         options.library = [library = Library(options.folder)] { return library.entries(); };
         options.interrupt = &ended;
         options.ready = [this, &link](const std::string& own) {
@@ -245,7 +262,7 @@ private:
 
     fs::path what_, folder_;
     int port_ = 0;
-    bool no_browser_ = false;
+    bool no_browser_ = false, programs_ = false;
 };
 
 const RegisteredCommand<Studio> studio_entry{46};

@@ -18,6 +18,7 @@
 #include <chrono>
 #include <fstream>
 #include <map>
+#include <set>
 #include <thread>
 
 namespace espalier::app {
@@ -113,6 +114,16 @@ std::string cells(const RecordedTable& table, const std::vector<double>& row, co
             text += csv_number(row[static_cast<std::size_t>(found - table.columns.begin())]);
     }
     return text;
+}
+
+// Keys that change together are drawn over the first of them, if that alone tells the runs apart.
+std::string drawn_value(const Variation& variation, const Variant& variant, std::size_t at) {
+    std::set<std::string> firsts;
+    for (const std::vector<std::string>& values : variation.values) firsts.insert(values.front());
+    std::string value = variant.values[at].second;
+    if (firsts.size() == variation.values.size()) return value;
+    for (std::size_t k = 1; k < variation.keys.size(); ++k) value += ":" + variant.values[at + k].second;
+    return value;
 }
 
 }  // namespace
@@ -213,7 +224,7 @@ fs::path Sweep::write_table(const std::vector<SweepResult>& results) const {
         }
     }
     std::string text = "run";
-    for (const Variation& variation : variations_) text += "," + csv_text(variation.key);
+    for (const auto& pair : runs_.front().variant.values) text += "," + csv_text(pair.first);
     text += ",name";
     for (const std::string& column : columns) text += "," + csv_text(column);
     text += "\n";
@@ -233,10 +244,14 @@ fs::path Sweep::write_table(const std::vector<SweepResult>& results) const {
 SweptRuns Sweep::drawn(const std::vector<SweepResult>& results) const {
     SweptRuns drawn;
     drawn.title = fs::absolute(folder_ / "").lexically_normal().parent_path().filename().string();
-    for (const Variation& variation : variations_) drawn.keys.push_back(variation.key);
+    for (const Variation& variation : variations_) drawn.keys.push_back(variation.keys.front());
     for (const SweepResult& result : results) {
         SweptRun& run = drawn.runs.emplace_back();
-        for (const auto& pair : result.run->variant.values) run.values.push_back(pair.second);
+        std::size_t at = 0;
+        for (const Variation& variation : variations_) {
+            run.values.push_back(drawn_value(variation, result.run->variant, at));
+            at += variation.keys.size();
+        }
         run.table = result.table;
     }
     return drawn;

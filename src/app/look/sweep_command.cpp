@@ -30,7 +30,9 @@ public:
           disk_(app()),
           picture_(app()) {
         app()
-            .add_option("--vary", vary_, "KEY=FIRST:LAST:COUNT, KEY=FIRST..LAST or KEY=VALUE,VALUE...; may be repeated")
+            .add_option("--vary", vary_,
+                        "KEY=FIRST:LAST:COUNT, KEY=FIRST..LAST, KEY=VALUE,VALUE... or KEY,KEY=VALUE:VALUE,...; may "
+                        "be repeated")
             ->required()
             ->allow_extra_args(false);
         app().add_option("--output", output_, "output folder, with one folder per run; default: output/<scene>-sweep");

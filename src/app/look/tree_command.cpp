@@ -10,11 +10,11 @@
 #include "app/program_data.h"
 #include "app/progress.h"
 #include "app/run_command.h"
+#include "app/setting_values.h"
 #include "app/temporary_folder.h"
 #include "base/text.h"
 #include "frame_option.h"
 #include "mesh_file_options.h"
-#include "setting_values.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,13 +38,7 @@ constexpr int fewest_sides = 3;  // few vertices, as in Brzoska 2019, section 5.
 /// What can be said of the tree, and how: found where the program's scenes and models are.
 struct TreeKind {
     fs::path scene = here_or_with_program(scene_file);
-    SettingValues values{ModelSettings::read(model_of(scene)).list()};
-
-    static fs::path model_of(const fs::path& scene) {
-        const std::vector<Settings> plants = Settings::read_toml(scene).tables("plant");
-        if (plants.empty()) throw UserError(fmt::format("{}: no [[plant]] in this scene", scene.string()));
-        return plants.front().path("model");
-    }
+    SettingValues values{ModelSettings::read(first_model_of(scene)).list()};
 
     fs::path preset_folder() const { return scene.parent_path() / "presets"; }
     std::vector<std::string> presets() const {

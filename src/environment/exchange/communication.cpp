@@ -1,5 +1,7 @@
 #include "environment/exchange/communication.h"
 
+#include "base/text.h"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -39,6 +41,12 @@ std::string conversion(const std::string& text, std::size_t& at, const Place& pl
     return field;
 }
 
+std::string printed(const std::string& field, double number) {
+    char text[512];  // the largest double has 309 digits, before at most 99 decimals
+    std::snprintf(text, sizeof text, field.c_str(), number);
+    return text;
+}
+
 void round(std::optional<TurtleFormat> const& format, glm::dvec3& vector) {
     if (format) format->round({&vector.x, 3});
 }
@@ -53,28 +61,34 @@ std::optional<TurtleFormat> read_format(const Settings& table, const char* key) 
 
 TurtleFormat TurtleFormat::read(const std::string& text, const Place& place) {
     TurtleFormat format;
-    for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at)) {
-        ++at;
-        if (at < text.size() && text[at] == '%') {
-            ++at;  // a percent sign
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at++];
+        const bool is_doubled = c == '%' && at < text.size() && text[at] == '%';
+        if (c != '%' || is_doubled) {
+            format.between_.back() += c;
+            at += is_doubled;
             continue;
         }
         if (format.fields_.size() == 3) throw UserError(place, fmt::format("more than three numbers: {}", text));
         format.fields_.push_back(conversion(text, at, place));
+        format.between_.emplace_back();
     }
     return format;
 }
 
 void TurtleFormat::round(std::span<double> numbers) const {
-    char text[512];  // the largest double has 309 digits, before at most 99 decimals
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (i < fields_.size()) {
-            std::snprintf(text, sizeof text, fields_[i].c_str(), numbers[i]);
-            numbers[i] = std::strtod(text, nullptr) + 0.0;  // no negative zero
-        } else {
-            numbers[i] = 0;
-        }
+        // No negative zero.
+        numbers[i] = i < fields_.size() ? std::strtod(printed(fields_[i], numbers[i]).c_str(), nullptr) + 0.0 : 0;
     }
+}
+
+std::string TurtleFormat::print(std::span<const double> numbers) const {
+    std::string text = between_[0];
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+        text += printed(fields_[i], i < numbers.size() ? numbers[i] : 0) + between_[i + 1];
+    }
+    return text;
 }
 
 Communication::Communication(const Settings& table)
@@ -90,9 +104,28 @@ Communication::Communication(const Settings& table)
 }
 
 double Communication::rounded(double parameter) const {
+    return std::strtod(text_of(parameter).c_str(), nullptr);
+}
+
+std::string Communication::text_of(double parameter) const {
+    if (digits_ == 0) return format_exact(parameter);
     char text[64];
     std::snprintf(text, sizeof text, "%.*g", digits_, parameter);
-    return std::strtod(text, nullptr);
+    return text;
+}
+
+std::string Communication::turtle_text(const Query& query) const {
+    std::string text;
+    const auto add = [&](const std::optional<TurtleFormat>& format, std::span<const double> numbers) {
+        if (format) text += format->print(numbers) + "\n";
+    };
+    add(position_, {&query.pose.position.x, 3});
+    add(heading_, {&query.pose.heading.x, 3});
+    add(left_, {&query.pose.left.x, 3});
+    add(up_, {&query.pose.up.x, 3});
+    add(line_width_, {&query.width, 1});
+    add(scale_factor_, {&query.scale, 1});
+    return text;
 }
 
 bool Communication::changes_queries() const {

@@ -21,9 +21,12 @@ public:
 
     /// Prints and reads back; a number without a field in the format is not sent, which makes it 0.
     void round(std::span<double> numbers) const;
+    /// With the text around them.
+    std::string print(std::span<const double> numbers) const;
 
 private:
     std::vector<std::string> fields_;
+    std::vector<std::string> between_{""};  ///< the text before each field, and after the last
 };
 
 /// What a process of the scene receives of a query, and with what precision.
@@ -37,6 +40,12 @@ public:
     bool changes_queries() const;
     /// Everything but the parameters of the query.
     void send(Query& query) const;
+    bool sends_following_module() const { return following_module_; }
+
+    // As another program reads them.
+    std::string text_of(double parameter) const;
+    /// Each vector and number of the turtle that has a format, on a line of its own.
+    std::string turtle_text(const Query& query) const;
 
 private:
     int digits_ = 0;

@@ -72,6 +72,7 @@ public:
     Markers(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
           place_(settings.place()),
+          place_of_influence_(settings.place("influence")),
           rules_(read_rules(settings)),
           kill_(settings, rules_.influence),
           tropism_(settings.vector_or("tropism", {0, 0, 0}) * settings.vector_or("weight", {1, 1, 1})),
@@ -94,6 +95,7 @@ public:
     }
 
     void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        tell_the_end();
         std::fill(won_.begin(), won_.end(), 0);
         const std::vector<Colonization::Won> won = points_.won();
         winners_ = in_reach_ = 0;
@@ -104,7 +106,7 @@ public:
             ++winners_;
             if (queries[i].plant < won_.size()) won_[queries[i].plant] += answers[i][0];
         }
-        if (!queries.empty() && winners_ == 0) tell_the_end(world.step);
+        if (!queries.empty() && winners_ == 0 && !ended_) ended_ = world.step;
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
@@ -136,19 +138,22 @@ private:
         return won.count;
     }
 
-    void tell_the_end(int step) {
-        if (!warnings_) return;
-        const std::string what =
-            points_.left() == 0
-                ? fmt::format("no point of '{}' is left: choose a larger or denser cloud, or fewer steps", name_)
-            : in_reach_ == 0
-                ? fmt::format(
-                      "none of the {} points left of '{}' is in the reach of a node: choose another seed, a "
-                      "larger 'influence', a denser cloud, or one that is nearer to the plant",
-                      points_.left(), name_)
-                : fmt::format("the points of '{}' pull every node where it has grown already", name_);
+    // In the step behind: where the run ends with the growth, there is nothing to tell.
+    void tell_the_end() {
+        if (!ended_ || !warnings_) return;
+        Place place = place_;
+        std::string what = fmt::format("the points of '{}' pull every node where it has grown already", name_);
+        if (points_.left() == 0) {
+            what = fmt::format("no point of '{}' is left: choose a larger or denser cloud, or fewer steps", name_);
+        } else if (in_reach_ == 0) {
+            place = place_of_influence_;
+            what = fmt::format(
+                "none of the {} points left of '{}' is in the reach of a node: choose another seed, a "
+                "larger 'influence', a denser cloud, or one that is nearer to the plant",
+                points_.left(), name_);
+        }
         warnings_->push_back(
-            {Diagnostic::Severity::warning, place_, fmt::format("step {}: growth has ended: {}", step, what), ""});
+            {Diagnostic::Severity::warning, place, fmt::format("step {}: growth has ended: {}", *ended_, what), ""});
         warnings_ = nullptr;
     }
 
@@ -168,7 +173,8 @@ private:
     }
 
     std::string name_;
-    Place place_;
+    Place place_, place_of_influence_;
+    std::optional<int> ended_;  ///< the step in which no node won a point
     ColonizationRules rules_;
     KillDistance kill_;
     glm::dvec3 tropism_;

@@ -99,7 +99,7 @@ ModulePattern ProductionParser::pattern(Production& production, bool right_conte
     names_quote_ |= name == "'";
     result.place = names_.place(at);
     result.first_formal = static_cast<std::uint32_t>(production.formals.size());
-    if (in_.accept("(")) {
+    if (!without_parameters(name) && in_.accept("(")) {
         const Scanner::Inside inside(in_);
         do {
             in_.skip();
@@ -149,7 +149,7 @@ ModuleTemplate ProductionParser::module() {
     const std::string_view name = symbol();
     if (name == "'" && !first_quote_) first_quote_ = at;
     result.place = names_.place(at);
-    if (in_.accept("(")) {
+    if (!without_parameters(name) && in_.accept("(")) {
         const Scanner::Inside inside(in_);
         do {
             Expression argument = expressions_.argument(true);
@@ -160,6 +160,17 @@ ModuleTemplate ProductionParser::module() {
     }
     result.letter = letter(name, result.arguments.size(), at);
     return result;
+}
+
+// `Seed()`, of a module that is declared without parameters, is `Seed`.
+bool ProductionParser::without_parameters(std::string_view symbol) {
+    const std::vector<std::size_t>* const declared = symbols_.declared_arities(symbol);
+    if (!declared || std::find(declared->begin(), declared->end(), 0) == declared->end()) return false;
+    const std::string_view rest = in_.rest();
+    const std::size_t close = rest.starts_with('(') ? rest.find_first_not_of(" \t", 1) : std::string_view::npos;
+    if (close == std::string_view::npos || rest[close] != ')') return false;
+    in_.take(close + 1);
+    return true;
 }
 
 std::string_view ProductionParser::symbol() {

@@ -43,6 +43,7 @@ private:
     void expect_arrow();
     std::vector<ModuleTemplate> successor();
     ModuleTemplate module();
+    bool without_parameters(std::string_view symbol);
     std::string_view symbol();
     LetterId letter(std::string_view symbol, std::size_t arity, Location at);
     std::uint32_t text_index(const std::string& text);

@@ -11,6 +11,7 @@ namespace espalier::language {
 
 ModelUses::ModelUses(const Model& model) : model_(model) {
     for (const LSystem& system : model_.systems) collect(system);
+    reach();
     for (const LSystem& system : model_.systems) {
         for_each_production(system, [&](const Production& production) { has_words_ |= is_word(production); });
     }
@@ -33,6 +34,22 @@ void ModelUses::collect(const LSystem& system) {
         }
     });
     mentioned_.insert(system.filtered.begin(), system.filtered.end());
+}
+
+void ModelUses::reach() {
+    for (const LSystem& system : model_.systems) {
+        for (const ModuleTemplate& module : system.axiom) reached_.insert(module.letter);
+    }
+    for (std::size_t before = 0; before != reached_.size();) {
+        before = reached_.size();
+        for (const LSystem& system : model_.systems) {
+            for_each_production(system, [&](const Production& production) {
+                const auto is_reached = [&](const ModulePattern& pattern) { return reached_.contains(pattern.letter); };
+                if (!std::all_of(production.strict.begin(), production.strict.end(), is_reached)) return;
+                for (const ModuleTemplate& module : production.successor) reached_.insert(module.letter);
+            });
+        }
+    }
 }
 
 // ?(id) and ?(id, scale) call an L-system of the file.

@@ -27,6 +27,8 @@ public:
 
     /// Letters of the axioms and successors.
     const std::set<LetterId>& produced() const { return produced_; }
+    /// Those of them that some axiom leads to.
+    const std::set<LetterId>& reached() const { return reached_; }
     bool is_produced(SymbolId symbol) const;
     /// Does a predecessor, a context, or a list of ignored modules name it?
     bool is_mentioned(SymbolId symbol) const { return mentioned_.contains(symbol); }
@@ -61,11 +63,12 @@ public:
 private:
     void collect(const LSystem& system);
     void collect_call(const ModuleTemplate& module);
+    void reach();
 
     static constexpr std::size_t shortest_word = 3;
 
     const Model& model_;
-    std::set<LetterId> produced_;
+    std::set<LetterId> produced_, reached_;
     std::set<SymbolId> mentioned_;
     std::map<std::string, Place> called_;
     bool calls_any_ = false;

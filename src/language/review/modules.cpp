@@ -85,8 +85,7 @@ void ModuleReview::review_symbols(const std::vector<ModuleTemplate>& modules) {
         } else if (symbol == "'") {
             // The reader has said so.
         } else if (symbol == "?" && uses_.alphabet().arity(letter) == 0) {
-            review_question(modules, i);
-            ++i;  // the letter of ?E, ?P, ... belongs to it
+            i += review_question(modules, i);
         } else if (symbol == "~") {
             ++i;  // the name of a surface
         } else if (const std::size_t drawn = turtle_symbol_length(modules, i); drawn > 0) {
@@ -100,8 +99,9 @@ void ModuleReview::review_symbols(const std::vector<ModuleTemplate>& modules) {
     }
 }
 
-// `?` asks the environment (?E), the turtle (?P ?H ?L ?U ?Q), or a process the model declares.
-void ModuleReview::review_question(const std::vector<ModuleTemplate>& modules, std::size_t i) {
+// `?` asks the environment (?E), the turtle (?P ?H ?L ?U ?Q), or a process the model declares. Returns how many modules
+// behind it belong to it.
+std::size_t ModuleReview::review_question(const std::vector<ModuleTemplate>& modules, std::size_t i) {
     std::string asked;
     for (std::size_t k = i + 1; k < modules.size(); ++k) {
         const std::string& symbol = uses_.alphabet().name(modules[k].letter);
@@ -111,13 +111,27 @@ void ModuleReview::review_question(const std::vector<ModuleTemplate>& modules, s
         asked += symbol;
         if (uses_.alphabet().arity(modules[k].letter) > 0) break;
     }
-    if (!asked.empty() && std::string_view("EPHLUQ").find(asked.front()) != std::string_view::npos) return;
+    if (!asked.empty() && std::string_view("EPHLUQ").find(asked.front()) != std::string_view::npos) return 1;
     if (asked.empty()) {
         findings_.warn(modules[i].place, "this query names no process");
     } else {
         findings_.warn(modules[i].place, fmt::format("no process answers '?{0}': declare 'environment {0};'{1}", asked,
-                                                     did_you_mean(asked, uses_.model().processes)));
+                                                     meant_process(asked)));
     }
+    return std::max<std::size_t>(1, asked.size());
+}
+
+// The declared process of a like name, or the only one that nothing asks.
+std::string ModuleReview::meant_process(const std::string& asked) const {
+    const std::vector<std::string>& declared = uses_.model().processes;
+    std::string hint = did_you_mean(asked, declared);
+    if (!hint.empty()) return hint;
+    std::vector<std::string> unasked;
+    for (const std::string& name : declared) {
+        const std::optional<SymbolId> symbol = uses_.alphabet().find_symbol("?" + name);
+        if (!symbol || !uses_.is_produced(*symbol)) unasked.push_back(name);
+    }
+    return unasked.size() == 1 ? fmt::format(" (did you mean '{}'?)", unasked.front()) : "";
 }
 
 bool ModuleReview::is_known(const std::string& symbol) const {

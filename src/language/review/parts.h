@@ -44,7 +44,8 @@ private:
     void review_polygons(const std::vector<ModuleTemplate>& modules, const char* where,
                          const std::vector<ModulePattern>& replaced);
     void review_symbols(const std::vector<ModuleTemplate>& modules);
-    void review_question(const std::vector<ModuleTemplate>& modules, std::size_t i);
+    std::size_t review_question(const std::vector<ModuleTemplate>& modules, std::size_t i);
+    std::string meant_process(const std::string& asked) const;
     void review_symbol_parts(const std::vector<Production>& productions, const SymbolParts& parts);
     void collect_parts(const Production& production, SymbolParts& parts) const;
     void collect_parts(const std::vector<ModuleTemplate>& modules, std::optional<LetterId> replaced,

@@ -43,9 +43,17 @@ private:
         if (uses_.is_word(production)) return;
         for (const auto* part : {&production.strict, &production.left, &production.right}) {
             for (const ModulePattern& pattern : *part) {
-                if (pattern.skip_branch || uses_.produced().contains(pattern.letter)) continue;
-                findings_.warn(pattern.place, fmt::format("this production can never apply: nothing produces {}{}",
-                                                          uses_.described(pattern.letter), why_not(pattern.letter)));
+                if (pattern.skip_branch || uses_.reached().contains(pattern.letter)) continue;
+                const std::string letter = uses_.described(pattern.letter);
+                findings_.warn(
+                    pattern.place,
+                    uses_.produced().contains(pattern.letter)
+                        ? fmt::format(
+                              "this production can never apply: {} is produced, but only by productions that no "
+                              "axiom leads to",
+                              letter)
+                        : fmt::format("this production can never apply: nothing produces {}{}", letter,
+                                      why_not(pattern.letter)));
                 return;
             }
         }

@@ -19,7 +19,15 @@ const CompiledProduction* Matcher::choose(const CompiledRules& rules, std::span<
     if (candidates.empty()) return nullptr;
     machine_.forget_reseeding();
     if (rules.effects.samples || rules.stochastic) machine_.sample_with(RandomSamples(key_, site.identity, step_));
-    if (rules.stochastic) return choose_by_weight(rules, candidates, site);
+    if (watch_) watch_->begins(rules, site);
+    const CompiledProduction* const chosen =
+        rules.stochastic ? choose_by_weight(rules, candidates, site) : choose_first(rules, candidates, site);
+    if (watch_) watch_->chose(chosen);
+    return chosen;
+}
+
+const CompiledProduction* Matcher::choose_first(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
+                                                const Site& site) {
     for (const std::uint32_t candidate : candidates) {
         const CompiledProduction& production = rules.productions[candidate];
         if (applies(production, site)) return &production;
@@ -27,14 +35,22 @@ const CompiledProduction* Matcher::choose(const CompiledRules& rules, std::span<
     return nullptr;
 }
 
-// The order of tests is the language's: strict predecessor, right context, left context, formals, block, condition.
 bool Matcher::applies(const CompiledProduction& production, const Site& site) {
-    if (production.strict.size() > 1 && !match_strict(production, site)) return false;
-    if (!production.right.empty() && !match_right(production, site)) return false;
-    if (!production.left.empty() && !match_left(production, site)) return false;
+    const Trial trial = try_out(production, site);
+    if (watch_) watch_->tried(production, trial);
+    return trial.verdict == Trial::Verdict::applies;
+}
+
+// The order of tests is the language's: strict predecessor, right context, left context, formals, block, condition.
+inline Trial Matcher::try_out(const CompiledProduction& production, const Site& site) {
+    if (production.strict.size() > 1 && !match_strict(production, site)) return {Trial::Verdict::strict};
+    if (!production.right.empty() && !match_right(production, site)) return {Trial::Verdict::right_context};
+    if (!production.left.empty() && !match_left(production, site)) return {Trial::Verdict::left_context};
     bind_strict(production, site.values);
     if (!production.before.empty()) machine_.run(production.before);
-    return !production.has_condition || machine_.evaluate(production.condition) != 0;
+    if (!production.has_condition) return {};
+    const double condition = machine_.evaluate(production.condition);
+    return {condition != 0 ? Trial::Verdict::applies : Trial::Verdict::condition, condition};
 }
 
 double Matcher::weight(const CompiledProduction& production) {
@@ -55,6 +71,9 @@ const CompiledProduction* Matcher::choose_by_weight(const CompiledRules& rules,
         if (!applies(production, site)) continue;
         pool_.push_back({&production, weight(production)});
         sum += pool_.back().weight;
+    }
+    for (const Weighted& candidate : pool_) {
+        if (watch_) watch_->weighed(*candidate.production, sum > 0 ? candidate.weight / sum : 0);
     }
     if (!(sum > 0)) return nullptr;
     const CompiledProduction* chosen = nullptr;

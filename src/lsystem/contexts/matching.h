@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lsystem/compile/compiled_model.h"
+#include "lsystem/contexts/match_watch.h"
 #include "lsystem/contexts/neighbours.h"
 
 #include <cstdint>
@@ -79,6 +80,9 @@ public:
 
 private:
     bool applies(const CompiledProduction& production, const Site& site);
+    Trial try_out(const CompiledProduction& production, const Site& site);
+    const CompiledProduction* choose_first(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
+                                           const Site& site);
     const CompiledProduction* choose_by_weight(const CompiledRules& rules, std::span<const std::uint32_t> candidates,
                                                const Site& site);
     double weight(const CompiledProduction& production);
@@ -104,6 +108,7 @@ private:
         double weight;
     };
     std::vector<Weighted> pool_;
+    MatchWatch* const watch_ = MatchWatch::current();
     const CompiledProduction* bound_ = nullptr;  ///< the production whose formals were bound last
 };
 

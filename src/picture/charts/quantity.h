@@ -1,7 +1,7 @@
 // Quantities of statistics.csv: their titles, and what several plants' values are in one.
 #pragma once
 
-#include "picture/charts/table_charts.h"
+#include "espalier/picture/table_charts.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "picture/charts/table_charts.h"
+#include "espalier/picture/table_charts.h"
 
 #include "picture/charts/quantity.h"
 

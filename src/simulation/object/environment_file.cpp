@@ -28,9 +28,10 @@ struct Lines {
     std::vector<std::pair<std::string, std::string>> formats;  ///< key of the table `turtle`, printf format
     bool following_module = true;
     bool binary = false;
+    std::string timeout;  ///< seconds; "": the default
 };
 
-// Meant for a process that runs elsewhere, or for the window.
+// Meant for other ways to talk to a process, or for the window.
 const std::vector<std::string> other_keywords{"communication type", "interpreted modules", "when interpret",
                                               "remote host",        "strings only",        "verbose"};
 
@@ -46,7 +47,7 @@ const std::vector<std::pair<std::string, std::string>> format_keywords{{"turtle 
 std::vector<std::string> known_keywords() {
     std::vector<std::string> known = other_keywords;
     for (const auto& entry : format_keywords) known.push_back(entry.first);
-    for (const char* keyword : {"executable", "following module", "binary data"}) {
+    for (const char* keyword : {"executable", "following module", "binary data", "timeout"}) {
         known.emplace_back(keyword);
     }
     return known;
@@ -79,6 +80,11 @@ private:
             lines_.following_module = !word.starts_with("no");
         } else if (keyword == "binary data") {
             lines_.binary = word == "on";
+        } else if (keyword == "timeout") {
+            if (word.find_first_not_of("0123456789.") != std::string::npos) {
+                throw UserError(line.place, "a timeout is a number of seconds", line.text);
+            }
+            lines_.timeout = word;
         } else if (!read_format(keyword, value, line)) {
             note_other(keyword, line);
         }
@@ -114,10 +120,15 @@ struct Command {
     std::optional<std::string> parameters;
 };
 
+std::string program_of(const Lines& lines) {
+    std::string program = fs::path(lines.command[0]).filename().string();
+    if (program.ends_with(".exe")) program.resize(program.size() - 4);
+    return program;
+}
+
 Command command_of(const Lines& lines, std::vector<Diagnostic>& diagnostics) {
     Command command;
-    command.program = fs::path(lines.command[0]).filename().string();
-    if (command.program.ends_with(".exe")) command.program.resize(command.program.size() - 4);
+    command.program = program_of(lines);
     for (std::size_t i = 1; i < lines.command.size(); ++i) {
         const std::string& word = lines.command[i];
         if (word == "-e" || word == "-k" || word == "-ext") {
@@ -145,7 +156,12 @@ std::vector<std::string> known_programs() {
 }
 
 bool is_process(const std::string& program) {
-    return process_types().contains(program);
+    return program == "multiple" || process_types().contains(program);
+}
+
+// `./mine`, which is no process of Espalier.
+bool is_own_program(const Lines& lines) {
+    return lines.command[0].find('/') != std::string::npos && !is_process(program_of(lines));
 }
 
 // What the file says beside the parameters: keys of [environment.<name>] and their values as TOML.
@@ -162,8 +178,13 @@ std::vector<std::pair<std::string, std::string>> communication_of(const Lines& l
     return entries;
 }
 
-// On the executable's line, so that messages about the table name that line. The parameters of Espalier's own processes
-// are a TOML file.
+// On the executable's line, so that messages about the table name that line.
+Settings table_of(const std::string& entries, const Lines& lines, const fs::path& path) {
+    const std::string above(static_cast<std::size_t>(lines.command_place.line - 1), '\n');
+    return Settings::parse_toml(fmt::format("{}process = {{ {} }}", above, entries), path.string()).table("process");
+}
+
+// The parameters of Espalier's own processes are a TOML file.
 Settings table_of(const Lines& lines, const Command& command, const fs::path& parameters, const fs::path& path) {
     const auto communication = communication_of(lines, command.program);
     if (parameters.extension() == ".toml") {
@@ -177,8 +198,19 @@ Settings table_of(const Lines& lines, const Command& command, const fs::path& pa
     std::string entries = "process = " + toml_text(command.program);
     if (!parameters.empty()) entries += ", parameters = " + toml_text(parameters.string());
     for (const auto& [key, value] : communication) entries += fmt::format(", {} = {}", key, value);
-    const std::string above(static_cast<std::size_t>(lines.command_place.line - 1), '\n');
-    return Settings::parse_toml(fmt::format("{}process = {{ {} }}", above, entries), path.string()).table("process");
+    return table_of(entries, lines, path);
+}
+
+// cpfg puts `-e FILE` before the arguments of a program, whether it stands there or not.
+Settings table_of_own_program(const Lines& lines, const fs::path& program, const fs::path& path) {
+    const std::string folder = fs::absolute(path).parent_path().string();
+    std::string words = fmt::format("{}, \"-e\", {}", toml_text(program.string()), toml_text(path.filename().string()));
+    for (std::size_t i = 1; i < lines.command.size(); ++i) words += ", " + toml_text(lines.command[i]);
+    std::string entries = fmt::format("process = \"external\", command = [{}], folder = {}", words, toml_text(folder));
+    if (!lines.timeout.empty()) entries += ", timeout = " + lines.timeout;
+    for (const auto& [key, value] : communication_of(lines, "external"))
+        entries += fmt::format(", {} = {}", key, value);
+    return table_of(entries, lines, path);
 }
 
 class FileReader {
@@ -188,6 +220,10 @@ public:
     EnvironmentFile read(const fs::path& path) {
         result_.files.push_back(path);
         const Lines lines = LineReader(result_).read(path);
+        if (is_own_program(lines)) {
+            add_own_program(program_of(lines), lines, path);
+            return std::move(result_);
+        }
         const Command command = command_of(lines, result_.diagnostics);
         if (command.program != "multiple") {
             add_process(command.program, lines, command, path);
@@ -223,6 +259,9 @@ private:
         const fs::path path = named_file(name, list.parent_path(), folder_, line.place);
         result_.files.push_back(path);
         const Lines lines = LineReader(result_).read(path);
+        if (is_own_program(lines)) {
+            return add_own_program(fmt::format("{}-{}", program_of(lines), result_.processes.size()), lines, path);
+        }
         const Command command = command_of(lines, result_.diagnostics);
         if (command.program == "multiple") {
             throw UserError(lines.command_place, "process 'multiple' cannot be one of several itself");
@@ -235,14 +274,28 @@ private:
             const std::vector<std::string> known = known_programs();
             throw UserError(
                 lines.command_place,
-                fmt::format("there is no environment process '{}'{}, and an environment program of your own "
-                            "cannot be attached yet. These can: {}; and a process that you write in C++, as "
-                            "docs/environment-processes.md shows. With --without-environment the plant "
-                            "grows without answers",
-                            command.program, did_you_mean(command.program, known), fmt::join(known, ", ")),
+                fmt::format("there is no environment process '{}'{}; there are {}. A program of your own is named with "
+                            "its folder, as ./{}. With --without-environment the plant grows without answers",
+                            command.program, did_you_mean(command.program, known), fmt::join(known, ", "),
+                            command.program),
                 fmt::format("executable: {}", fmt::join(lines.command, " ")));
         }
         result_.processes.emplace_back(name, table_of(lines, command, named(command, lines, path), path));
+    }
+
+    // Relative to the folder of the file that names it, or to that of the object.
+    void add_own_program(const std::string& name, const Lines& lines, const fs::path& path) {
+        const fs::path program = named_file(lines.command[0], path.parent_path(), folder_, lines.command_place);
+        result_.files.push_back(program);
+        result_.processes.emplace_back(name, table_of_own_program(lines, fs::absolute(program), path));
+        for (const char* keyword : {"interpreted modules", "when interpret", "remote host"}) {
+            if (std::erase(result_.unused, keyword) == 0) continue;
+            result_.diagnostics.push_back({Diagnostic::Severity::error,
+                                           {path.string(), 0, 0},
+                                           fmt::format("'{}' has no effect: a program of your own runs on this machine "
+                                                       "and is told modules, not their geometry",
+                                                       keyword)});
+        }
     }
 
     fs::path named(const Command& command, const Lines& lines, const fs::path& path) {

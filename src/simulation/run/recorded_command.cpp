@@ -22,10 +22,10 @@ using Json = nlohmann::ordered_json;
 std::string bytes_on_disk(const fs::path& path, const ReadLog::File& file) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
-        throw UserError(fmt::format("{} was too large for run.json and is no longer there", path.string()));
+        throw UserError(fmt::format("run.json does not hold {}, and it is no longer there", path.string()));
     }
     if (!is_unchanged(path, file)) {
-        throw UserError(fmt::format("{} was too large for run.json and has changed since", path.string()));
+        throw UserError(fmt::format("run.json does not hold {}, and it has changed since", path.string()));
     }
     return read_text(path);
 }
@@ -116,6 +116,7 @@ fs::path lay_out_inputs(const RecordedCommand& command, const fs::path& root) {
         const fs::path place = root / path.relative_path();
         make_folder_below(root, place.parent_path());
         write_text(place, bytes_of(path, file));
+        if (!file.kept) fs::permissions(place, fs::status(path).permissions());  // it may be a program
     }
     const fs::path folder = root / command.folder.lexically_normal().relative_path();
     make_folder_below(root, folder);

@@ -25,7 +25,7 @@ RecordedCommand read_command(const std::filesystem::path& run);
 bool is_unchanged(const std::filesystem::path& path, const ReadLog::File& file);
 
 /// Writes the inputs below `root`, each at its own absolute path, and returns the folder to start the program in.
-/// Inputs too large for run.json are copied from where they were. Throws UserError if one of those is gone or changed,
+/// Inputs that run.json does not hold are copied from where they were. Throws UserError if one of those is gone or changed,
 /// or if run.json itself was.
 std::filesystem::path lay_out_inputs(const RecordedCommand& command, const std::filesystem::path& root);
 

@@ -9,6 +9,7 @@
 #include "simulation/run/run_record.h"
 #include "simulation/run/sealed_file.h"
 #include "simulation/run/written_files.h"
+#include "simulation/scene/expressions.h"
 #include "simulation/world/answer_watch.h"
 #include "simulation/world/memory_budget.h"
 
@@ -62,7 +63,7 @@ private:
     void warn() {
         const std::vector<Diagnostic>& all = world_.warnings();
         if (options_.warn && all.size() > warned_) {
-            options_.warn({all.begin() + static_cast<std::ptrdiff_t>(warned_), all.end()});
+            options_.warn(explained({all.begin() + static_cast<std::ptrdiff_t>(warned_), all.end()}, scene_.computed));
         }
         warned_ = all.size();
     }

@@ -51,10 +51,7 @@ std::vector<ComputedValue> evaluate_expressions(const Settings& root) {
     if (!holds(root, "plant")) return computed;
     const std::vector<Settings> plants = root.tables("plant");
     for (const Settings& plant : plants) {
-        PlantDefinitions definitions(plant, computed);
-        if (plant.is_table("turtle")) definitions.replace_expressions(plant.table("turtle"));
-        if (!holds(plant, "stage")) continue;
-        for (const Settings& stage : plant.tables("stage")) definitions.replace_expressions(stage);
+        PlantDefinitions(plant, computed).replace_expressions(plant);
     }
     if (plants.empty()) return computed;
     PlantDefinitions first(plants.front(), computed);
@@ -64,8 +61,7 @@ std::vector<ComputedValue> evaluate_expressions(const Settings& root) {
     return computed;
 }
 
-UserError explained(const UserError& error, const std::vector<ComputedValue>& computed) {
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
+std::vector<Diagnostic> explained(std::vector<Diagnostic> diagnostics, const std::vector<ComputedValue>& computed) {
     for (Diagnostic& diagnostic : diagnostics) {
         std::vector<std::string> settings;
         for (const ComputedValue& value : computed) {
@@ -74,7 +70,11 @@ UserError explained(const UserError& error, const std::vector<ComputedValue>& co
         }
         if (!settings.empty()) diagnostic.message += fmt::format(" (computed from {})", fmt::join(settings, ", "));
     }
-    return UserError(std::move(diagnostics));
+    return diagnostics;
+}
+
+UserError explained(const UserError& error, const std::vector<ComputedValue>& computed) {
+    return UserError(explained(error.diagnostics(), computed));
 }
 
 }  // namespace espalier::simulation

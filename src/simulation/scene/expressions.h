@@ -5,11 +5,12 @@
 
 namespace espalier::simulation {
 
-/// Replaces the expressions of a scene by numbers. Those of a plant's stages and turtle read the #defines of its model,
-/// those of [simulation], [environment] and [timeline] the first plant's. Throws UserError.
+/// Replaces the expressions of a scene by numbers. Those of a plant read the #defines of its model, those of
+/// [simulation], [environment] and [timeline] the first plant's. Throws UserError.
 std::vector<ComputedValue> evaluate_expressions(const Settings& root);
 
 /// The error, saying of which settings the values follow that it speaks of.
+std::vector<Diagnostic> explained(std::vector<Diagnostic> diagnostics, const std::vector<ComputedValue>& computed);
 UserError explained(const UserError& error, const std::vector<ComputedValue>& computed);
 
 }  // namespace espalier::simulation

@@ -288,7 +288,7 @@ const char* scene_help() {
   animation    animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
 
 influence = "= 3 * LENGTH": a text that begins with = is an expression in the #defines of a model: of its own plant in
-[[plant.stage]] and [plant.turtle], of the first plant in [simulation], [environment] and [timeline]. Flags may be 0 or 1.
+[[plant]] (positions, grid, turtle, stages), of the first in [simulation], [environment] and [timeline]. Flags may be 0 or 1.
 )";
 }
 

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -81,16 +82,33 @@ std::string as_name(const std::string& text) {
     return name;
 }
 
-std::vector<std::string> short_keys(const std::vector<Variation>& variations) {
+std::vector<std::string> short_keys(const std::vector<std::string>& all) {
     std::vector<std::string> keys;
-    for (const Variation& variation : variations) {
-        const auto ends_alike = [&](const Variation& other) {
-            return last_part(other.key) == last_part(variation.key);
-        };
-        const bool unique = std::count_if(variations.begin(), variations.end(), ends_alike) == 1;
-        keys.push_back(unique ? last_part(variation.key) : variation.key);
+    for (const std::string& key : all) {
+        const auto ends_alike = [&](const std::string& other) { return last_part(other) == last_part(key); };
+        keys.push_back(std::count_if(all.begin(), all.end(), ends_alike) == 1 ? last_part(key) : key);
     }
     return keys;
+}
+
+/// The values of one key.
+std::vector<std::string> values_of(const std::string& text, const std::string& values) {
+    const std::vector<std::string> by_colons = split(values, ":"), by_dots = split(values, "..");
+    if (by_colons.size() == 3) return evenly(text, by_colons);
+    if (by_dots.size() == 2 && values.find(',') == std::string::npos) return one_by_one(text, by_dots);
+    return split(values, ",");
+}
+
+/// Of several keys: 3:4,5:6
+std::vector<std::vector<std::string>> values_together(const std::string& text, const std::string& values,
+                                                      std::size_t keys) {
+    std::vector<std::vector<std::string>> all;
+    for (const std::string& together : split(values, ",")) {
+        all.push_back(split(together, ":"));
+        if (all.back().size() == keys) continue;
+        refuse(text, fmt::format("{} keys take {} values with ':' between them, not {}", keys, keys, together));
+    }
+    return all;
 }
 
 }  // namespace
@@ -100,43 +118,48 @@ Variation parse_variation(const std::string& text) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
         refuse(text, "KEY=VALUES is expected: 0.1:0.9:9, 1..10 or a,b,c");
     }
-    Variation variation{text.substr(0, equals), {}};
+    Variation variation{split(text.substr(0, equals), ","), {}};
     const std::string values = text.substr(equals + 1);
-    const std::vector<std::string> by_colons = split(values, ":"), by_dots = split(values, "..");
-    if (by_colons.size() == 3) {
-        variation.values = evenly(text, by_colons);
-    } else if (by_dots.size() == 2 && values.find(',') == std::string::npos) {
-        variation.values = one_by_one(text, by_dots);
+    if (variation.keys.size() > 1) {
+        variation.values = values_together(text, values, variation.keys.size());
     } else {
-        variation.values = split(values, ",");
+        for (std::string& value : values_of(text, values)) variation.values.push_back({std::move(value)});
     }
     const auto is_empty = [](const std::string& value) { return value.empty(); };
-    if (std::any_of(variation.values.begin(), variation.values.end(), is_empty)) refuse(text, "a value is empty");
-    std::set<std::string> seen;  // two of the same would be two runs in one folder
-    for (const std::string& value : variation.values) {
-        if (!seen.insert(value).second) refuse(text, fmt::format("the value {} is there twice", value));
+    if (std::any_of(variation.keys.begin(), variation.keys.end(), is_empty)) refuse(text, "a key is empty");
+    std::set<std::vector<std::string>> seen;  // two of the same would be two runs in one folder
+    for (const std::vector<std::string>& value : variation.values) {
+        if (std::any_of(value.begin(), value.end(), is_empty)) refuse(text, "a value is empty");
+        if (!seen.insert(value).second) {
+            refuse(text, fmt::format("the value {} is there twice", fmt::join(value, ":")));
+        }
     }
     return variation;
 }
 
 std::vector<Variant> combine(const std::vector<Variation>& variations) {
     double count = 1;
-    for (std::size_t i = 0; i < variations.size(); ++i) {
-        count *= static_cast<double>(variations[i].values.size());
-        for (std::size_t j = 0; j < i; ++j) {
-            if (variations[i].key == variations[j].key) refuse(variations[i].key, "this key is varied twice");
+    std::vector<std::string> all;
+    for (const Variation& variation : variations) {
+        count *= static_cast<double>(variation.values.size());
+        for (const std::string& key : variation.keys) {
+            if (std::find(all.begin(), all.end(), key) != all.end()) refuse(key, "this key is varied twice");
+            all.push_back(key);
         }
     }
     if (count > most) throw UserError(fmt::format("a sweep of {:.0f} runs is more than a million", count));
-    const std::vector<std::string> keys = short_keys(variations);
+    const std::vector<std::string> names = short_keys(all);
     std::vector<Variant> variants(1);
-    for (std::size_t k = 0; k < variations.size(); ++k) {
+    for (const Variation& variation : variations) {
         std::vector<Variant> longer;
         for (const Variant& variant : variants) {
-            for (const std::string& value : variations[k].values) {
-                longer.push_back(variant);
-                longer.back().values.emplace_back(variations[k].key, value);
-                longer.back().name.append(k == 0 ? "" : ",").append(as_name(keys[k] + "=" + value));
+            for (const std::vector<std::string>& values : variation.values) {
+                Variant& next = longer.emplace_back(variant);
+                for (std::size_t k = 0; k < values.size(); ++k) {
+                    next.name += next.values.empty() ? "" : ",";
+                    next.name += as_name(names[next.values.size()] + "=" + values[k]);
+                    next.values.emplace_back(variation.keys[k], values[k]);
+                }
             }
         }
         variants = std::move(longer);

@@ -8,13 +8,15 @@
 
 namespace espalier::simulation {
 
+/// Keys that change together, and the values of all of them in one run after the other.
 struct Variation {
-    std::string key;
-    std::vector<std::string> values;
+    std::vector<std::string> keys;
+    std::vector<std::vector<std::string>> values;
 };
 
 /// "light.voxel=0.1:0.9:9": nine numbers from 0.1 to 0.9, evenly; "simulation.seed=1..10": whole numbers;
-/// "light.mode=add,attenuate": these. Throws UserError for what is none of them, and beyond a million values.
+/// "light.mode=add,attenuate": these; "a,b=3:4,5:6": a and b are 3 and 4, then 5 and 6. Throws UserError for what is
+/// none of them, and beyond a million values.
 Variation parse_variation(const std::string& text);
 
 /// One run of a sweep: a value for every key, and a name for its folder.

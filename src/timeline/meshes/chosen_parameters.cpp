@@ -17,28 +17,6 @@ namespace {
 constexpr std::array own_names{"identity", "parent", "plant",  "symbol", "birth",       "order",
                                "colour",   "kind",   "radius", "pixels", "symbol_names"};
 
-ChosenParameter read_one(const Settings& table, const std::string& name) {
-    const std::string text = table.text(name);
-    ChosenParameter chosen;
-    chosen.name = name;
-    chosen.place = table.place(name);
-    if (std::find(own_names.begin(), own_names.end(), name) != own_names.end()) {
-        throw UserError(chosen.place, fmt::format("'{}' is an array of every timeline; choose another name", name));
-    }
-    // The last dot separates: `.` may itself be a symbol.
-    const std::size_t dot = text.rfind('.');
-    const std::string_view digits = dot == std::string::npos ? "" : std::string_view(text).substr(dot + 1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), chosen.number);
-    if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() || chosen.number < 1 ||
-        dot == 0) {
-        throw UserError(chosen.place, fmt::format("'{}' must be a symbol, a dot and the number of a parameter counted "
-                                                  "from 1, as in \"F.2\" or \"?E.1\", not \"{}\"",
-                                                  name, text));
-    }
-    chosen.symbol = text.substr(0, dot);
-    return chosen;
-}
-
 // Only symbols with parameters: the names a user may have meant.
 std::vector<std::string> symbols_of(std::span<const PlantFrame> plants) {
     std::set<std::string> names;
@@ -89,9 +67,33 @@ std::optional<int> most_parameters(const std::string& symbol, std::span<const Pl
 
 }  // namespace
 
+ChosenParameter chosen_parameter(const std::string& text, const std::string& name, const Place& place) {
+    ChosenParameter chosen;
+    chosen.name = name;
+    chosen.place = place;
+    // The last dot separates: `.` may itself be a symbol.
+    const std::size_t dot = text.rfind('.');
+    const std::string_view digits = dot == std::string::npos ? "" : std::string_view(text).substr(dot + 1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), chosen.number);
+    if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() || chosen.number < 1 ||
+        dot == 0) {
+        throw UserError(place, fmt::format("'{}' must be a symbol, a dot and the number of a parameter counted "
+                                           "from 1, as in \"F.2\" or \"?E.1\", not \"{}\"",
+                                           name, text));
+    }
+    chosen.symbol = text.substr(0, dot);
+    return chosen;
+}
+
 std::vector<ChosenParameter> read_chosen_parameters(const Settings& table) {
     std::vector<ChosenParameter> chosen;
-    for (const std::string& name : table.keys()) chosen.push_back(read_one(table, name));
+    for (const std::string& name : table.keys()) {
+        if (std::find(own_names.begin(), own_names.end(), name) != own_names.end()) {
+            throw UserError(table.place(name),
+                            fmt::format("'{}' is an array of every timeline; choose another name", name));
+        }
+        chosen.push_back(chosen_parameter(table.text(name), name, table.place(name)));
+    }
     return chosen;
 }
 

@@ -20,6 +20,9 @@ struct ChosenParameter {
     bool of_query() const { return symbol.front() == '?'; }
 };
 
+/// Reads SYMBOL.NUMBER. Throws UserError for other text.
+ChosenParameter chosen_parameter(const std::string& text, const std::string& name, const Place& place);
+
 /// Reads the table. Throws UserError for text that is not SYMBOL.NUMBER and for names the timeline uses itself.
 std::vector<ChosenParameter> read_chosen_parameters(const Settings& table);
 

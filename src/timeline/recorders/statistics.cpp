@@ -1,16 +1,17 @@
 // statistics.csv: one row per step and plant, whatever `every` says.
 //
-// Parameters: statistics (true or false, default true).
+// Parameters: statistics (true or false, default true); quantities ({ mass = "sum(Stem.2)" }: columns of one's own).
 // Columns: step, time (in the scene's unit), plant (its number), name; modules (of the string, brackets included);
 // queries; internodes; organs (polygons included); length (m, of all internodes); height (m, highest point above the
 // base of the first internode); volume (m3, of all internodes); born, died (modules since the step before, brackets
-// included); then the processes' quantities, empty where there is none.
+// included); then the processes' quantities and one's own, empty where there is none.
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
 #include "base/csv_file.h"
 #include "base/text.h"
 #include "timeline/measures/highest_point.h"
+#include "timeline/measures/module_quantities.h"
 
 #include <fmt/format.h>
 
@@ -44,11 +45,13 @@ std::size_t born_after(const ModuleString& string, int step) {
 
 class Statistics final : public Recorder {
 public:
-    explicit Statistics(const RecorderContext& context) : path_(context.folder / "statistics.csv") {}
+    Statistics(const Settings& settings, const RecorderContext& context)
+        : path_(context.folder / "statistics.csv"), own_(settings.table("quantities")) {}
 
     bool sees_every_step() const override { return true; }
 
     void record(const Frame& frame) override {
+        if (previous_step_ < 0) own_.require_known(frame.plants);
         if (!file_) begin(frame);
         std::string rows;
         for (const PlantFrame& plant : frame.plants) rows += row(frame, plant);
@@ -85,6 +88,7 @@ private:
         std::string header = "step,time,plant,name,modules,queries,internodes,organs,length,height,volume,born,died";
         if (!frame.plants.empty()) quantities_ = quantity_names(frame.plants.front());
         for (const std::string& name : quantities_) header.append(",").append(csv_text(name));
+        for (const std::string& name : own_.names()) header.append(",").append(csv_text(name));
         file_.emplace(path_, header);
     }
 
@@ -102,6 +106,7 @@ private:
                         geometry.organs.size() + geometry.polygons.size(), format_exact(total_length(geometry)),
                         format_exact(height(geometry)), format_exact(total_volume(geometry)), turnover(plant));
         for (const Quantity& quantity : plant.quantities) row.append(",").append(csv_number(quantity.value));
+        for (const double value : own_.of(plant)) row.append(",").append(csv_number(value));
         return row + "\n";
     }
 
@@ -117,15 +122,19 @@ private:
     std::filesystem::path path_;
     std::optional<CsvFile> file_;
     std::vector<std::string> quantities_;
+    ModuleQuantities own_;
     std::map<std::uint32_t, std::size_t> modules_;  ///< per plant, one step ago
     int previous_step_ = -1;
 };
 
 const Registered<RecorderType> entry{
-    {"statistics", "statistics.csv: a row per step and plant", "statistics (true or false, true): write it",
+    {"statistics", "statistics.csv: a row per step and plant",
+     "statistics (true or false, true): write it\n"
+     "quantities ({ mass = \"sum(Stem.2)\" }): columns of your own, the sum, mean, min, max or count of a\n"
+     "parameter over the modules of a plant; parameters are counted from 1",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          if (!settings.flag_or("statistics", true)) return nullptr;
-         return std::make_unique<Statistics>(context);
+         return std::make_unique<Statistics>(settings, context);
      }}};
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "espalier/language/model_settings.h"
 
-#include "app/model_arguments.h"
+#include "model_arguments.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +16,9 @@ namespace espalier::app {
 
 /// CROWN_WIDTH is "crown-width".
 std::string option_name(const ModelSetting& setting);
+
+/// Of the first plant of a scene. Throws UserError if it has none.
+std::filesystem::path first_model_of(const std::filesystem::path& scene);
 
 class SettingValues {
 public:

@@ -3,7 +3,7 @@
 #include "espalier/base/settings.h"
 
 #include "base/text.h"
-#include "picture_options.h"
+#include "options.h"
 
 #include <fmt/format.h>
 
@@ -27,6 +27,12 @@ std::string option_name(const ModelSetting& setting) {
     std::string name = lower_case(setting.name);
     std::replace(name.begin(), name.end(), '_', '-');
     return name;
+}
+
+std::filesystem::path first_model_of(const std::filesystem::path& scene) {
+    const std::vector<Settings> plants = Settings::read_toml(scene).tables("plant");
+    if (plants.empty()) throw UserError(fmt::format("{}: no [[plant]] in this scene", scene.string()));
+    return plants.front().path("model");
 }
 
 void SettingValues::read(const std::filesystem::path& file) {

@@ -1,0 +1,2 @@
+executable: ./light.py
+turtle position: P: %g %g %g
