@@ -1,6 +1,7 @@
 // What pages are told of the document, and the numbers that they may change in its texts.
 #include "espalier/base/file.h"
 
+#include "base/folder.h"
 #include "base/text.h"
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
@@ -60,11 +61,10 @@ Json bound(double value) {
 
 fs::path Session::below_folder(const fs::path& path) const {
     if (path.native().find('\0') != std::string::npos) throw UserError("the path holds a zero byte");
-    const fs::path whole = fs::weakly_canonical(path), folder = fs::weakly_canonical(options_.folder);
-    const fs::path below = whole.lexically_relative(folder);
-    if (below.empty() || *below.begin() == "..") {
+    std::error_code unknown;
+    if (resolved_below(path, options_.folder, unknown).empty()) {
         throw UserError(fmt::format("{} is not below {}: the studio writes nowhere else. Save it under another name",
-                                    path.string(), folder.string()));
+                                    path.string(), options_.folder.string()));
     }
     return path.lexically_normal();
 }
