@@ -3,10 +3,10 @@
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 
+#include "base/parallel.h"
 #include "base/xml_text.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <bit>
 
@@ -86,17 +86,20 @@ VtkFile::Part& VtkFile::add(std::string_view element, const DataArray& array, st
 void VtkFile::encode_all() {
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < count_; ++i) bytes += parts_[i].encoded ? 0 : parts_[i].array.bytes();
-    const auto encode_part = [this](std::size_t i) {
-        Part& part = parts_[i];
-        if (part.encoded) return;
-        part.text.clear();
-        encode(part.array, part.text);
-        part.encoded = true;
+    const auto encode_some = [this](const tbb::blocked_range<std::size_t>& some) {
+        for (std::size_t i = some.begin(); i < some.end(); ++i) {
+            Part& part = parts_[i];
+            if (part.encoded) continue;
+            part.text.clear();
+            encode(part.array, part.text);
+            part.encoded = true;
+        }
     };
+    const tbb::blocked_range<std::size_t> all(0, count_);
     if (bytes < worth_sharing) {
-        for (std::size_t i = 0; i < count_; ++i) encode_part(i);
+        encode_some(all);
     } else {
-        tbb::parallel_for(std::size_t{0}, count_, encode_part);
+        for_all_in_parallel(all, encode_some);
     }
 }
 
