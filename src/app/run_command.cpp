@@ -34,8 +34,8 @@ void request_interrupt(int) {
 void say_what_is_saved(std::size_t bytes) {
     constexpr std::size_t worth_saying = std::size_t{100} << 20;
     if (bytes < worth_saying) return;
-    platform::write_error(
-        fmt::format("writing the checkpoint that `espalier resume` goes on from, about {}\n", simulation::size_text(bytes)));
+    platform::write_error(fmt::format("writing the checkpoint that `espalier resume` goes on from, about {}\n",
+                                      simulation::size_text(bytes)));
 }
 
 // The process that does not answer cannot be left: the program ends where it is.
