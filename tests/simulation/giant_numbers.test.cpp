@@ -58,11 +58,10 @@ std::vector<ObjectFiles> objects(const TemporaryFolder& folder) {
             object.model = entry.path();
         }
     }
-    const auto add = [&](const fs::path& model, const fs::path& view, const Defines& defines = {}) {
+    const auto add = [&](const fs::path& model, const fs::path& view) {
         ObjectFiles& object = all.emplace_back();
         object.model = model;
         object.view = view;
-        object.defines = defines;
         object.folder = project / "models/organs";
         object.animation = seeds / "plant.a";
     };
@@ -70,7 +69,6 @@ std::vector<ObjectFiles> objects(const TemporaryFolder& folder) {
                                    "trees/weeping", "language/shoot/shoot", "language/spiral/liana"}) {
         add(project / "models" / (name + std::string(".l")), project / "models" / (name + std::string(".v")));
     }
-    add(project / "models/phyllotaxis/collision.l", project / "models/phyllotaxis/gourd.v", {{"SHAPE", "4"}});
     const char* const drawing =
         "lsystem: 1\nderivation length: 1\naxiom: ~l@#(1)F(func(1,0.5))@!(3)F(func(2,1))~p(2)F(curveX(1,0.5))@Tx(1);F\n"
         "F(x) --> F(func(1,x))~r+F(curveY(1,x))~l\nendlsystem\n";
