@@ -1,5 +1,6 @@
 #include "timeline/files/vtk_file.h"
 
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 
@@ -9,6 +10,9 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
 
 namespace espalier::timeline {
 namespace {
@@ -52,6 +56,21 @@ void VtkFile::close() {
 
 void VtkFile::add(const DataArray& array) {
     add("DataArray", array, array.tuples);
+}
+
+void VtkFile::add_points(const DataArray& points) {
+    const std::span<const float> numbers(static_cast<const float*>(points.values), 3 * points.tuples);
+    bool finite = true;
+    for (const float number : numbers) finite &= std::isfinite(number);
+    if (!finite) {
+        throw RunError(
+            fmt::format("a point lies farther than {:.3g} from the origin, which no file of the timeline "
+                        "can hold; are lengths or sizes too large?",
+                        std::numeric_limits<float>::max()));
+    }
+    open("Points");
+    add(points);
+    close();
 }
 
 void VtkFile::add_texts(const std::string& name, const std::vector<std::string>& texts) {
