@@ -69,14 +69,15 @@ std::vector<ObjectFiles> objects(const TemporaryFolder& folder) {
                                    "trees/weeping", "language/shoot/shoot", "language/spiral/liana"}) {
         add(project / "models" / (name + std::string(".l")), project / "models" / (name + std::string(".v")));
     }
-    const char* const drawing =
-        "lsystem: 1\nderivation length: 1\naxiom: ~l@#(1)F(func(1,0.5))@!(3)F(func(2,1))~p(2)F(curveX(1,0.5))@Tx(1);F\n"
-        "F(x) --> F(func(1,x))~r+F(curveY(1,x))~l\nendlsystem\n";
-    add(folder.write("seeds.l", drawing), seeds / "plant.v");
+    const auto drawing = [](const std::string& module) {
+        return "lsystem: 1\nderivation length: 1\naxiom: ~l@#(1)F(1)@!(3)F(2)~p(2)@Tx(1);F\nF(x) --> " + module +
+               "~r+F(x)~l\nendlsystem\n";
+    };
+    add(folder.write("seeds.l", drawing("F(x)")), seeds / "plant.v");
     const std::string view =
-        "surface: r leaf.ray 1\nfunction: hill.func\nfunction: old.func 10\nfunction set: hills.fset\n"
+        "tsurface: r leaf.ray 1\nfunction: hill.func\nfunction: old.func 10\nfunction set: hills.fset\n"
         "curve: path.curve\nsurface: l ../../../environments/meshes/house.obj 1\nbackground scene: room.bg\n";
-    add(folder.path() / "seeds.l", folder.write("all.v", view));
+    add(folder.write("all.l", drawing("F(func(1,x)+func(2,x)+curveX(1,x)+curveY(1,x))")), folder.write("all.v", view));
     all.back().folder = seeds;
     return all;
 }
