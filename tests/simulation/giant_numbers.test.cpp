@@ -76,8 +76,8 @@ std::vector<ObjectFiles> objects(const TemporaryFolder& folder) {
     add(folder.write("seeds.l", drawing("F(x)")), seeds / "plant.v");
     const std::string view =
         "tsurface: r leaf.ray 1\nfunction: hill.func\nfunction: old.func 10\nfunction set: hills.fset\n"
-        "curve: path.curve\nsurface: l ../../../environments/meshes/house.obj 1\nbackground scene: room.bg\n";
-    add(folder.write("all.l", drawing("F(func(1,x)+func(2,x)+curveX(1,x)+curveY(1,x))")), folder.write("all.v", view));
+        "tsurface: l ../../../environments/meshes/house.obj 1\nbackground scene: room.bg\n";
+    add(folder.write("all.l", drawing("F(func(1,x)+func(2,x))")), folder.write("all.v", view));
     all.back().folder = seeds;
     return all;
 }
