@@ -1,6 +1,7 @@
 // rerun: does a recorded run again from its run.json alone, and says which bytes differ.
 #include "espalier/base/error.h"
 
+#include "base/folder.h"
 #include "child.h"
 #include "command.h"
 #include "simulation/run/recorded_command.h"
@@ -62,11 +63,8 @@ private:
     // A timeline within the other would be compared with itself.
     void require_apart() const {
         if (output_.empty()) return;
-        const auto folder = [](const fs::path& path) {
-            return (fs::weakly_canonical(fs::absolute(path)) / "").string();
-        };
-        const std::string before = folder(run_), after = folder(output_);
-        if (before.starts_with(after) || after.starts_with(before)) {
+        std::error_code unknown;
+        if (!resolved_below(output_, run_, unknown).empty() || !resolved_below(run_, output_, unknown).empty()) {
             throw UserError(fmt::format("--output {}: the new timeline must be outside the folder of the run, {}",
                                         output_.string(), run_.string()));
         }

@@ -6,6 +6,7 @@
 #include "program_data.h"
 #include "progress.h"
 #include "setting_values.h"
+#include "simulation/run/disk_budget.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -29,6 +30,14 @@ void request_interrupt(int) {
     interrupt.ask(patience_with_steps);
     if (silent) return;
     platform::write_error("\nfinishing this step (press Ctrl-C again to stop at once)\n");
+}
+
+// What takes more than a moment.
+void say_what_is_saved(std::size_t bytes) {
+    constexpr std::size_t worth_saying = std::size_t{100} << 20;
+    if (bytes < worth_saying) return;
+    platform::write_error(fmt::format("writing the checkpoint that `espalier resume` goes on from, about {}\n",
+                                      simulation::size_text(bytes)));
 }
 
 // The process that does not answer cannot be left: the program ends where it is.
@@ -170,6 +179,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     options.patience = arguments.timeout;
     options.expired = [json = arguments.json](const std::string& why) { end_without_answer(why, json); };
     if (!arguments.quiet) options.warn = print_warnings;
+    if (!arguments.quiet) options.saving = say_what_is_saved;
     ProgressReport report(arguments.quiet);
     options.progress = [&](const Progress& progress) { report(progress); };
     return run(scene, options);

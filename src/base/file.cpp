@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/read_log.h"
 
+#include "base/folder.h"
 #include "base/platform.h"
 
 #include <fmt/format.h>
@@ -45,18 +46,10 @@ std::string likely_reason(const fs::path& folder) {
 
 constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30;
 
-bool is_below(const fs::path& file, const fs::path& folder) {
-    const auto [rest, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    return rest == folder.end();
-}
-
 bool is_permitted(const fs::path& path, const ReadPermission& permission) {
-    std::error_code error;
-    const fs::path file = fs::weakly_canonical(fs::absolute(path, error), error);
-    return !error && std::any_of(permission.folders.begin(), permission.folders.end(), [&](const fs::path& folder) {
-        const fs::path root = fs::weakly_canonical(folder, error);
-        return !error && is_below(file, root);
-    });
+    std::error_code unknown;
+    return std::any_of(permission.folders.begin(), permission.folders.end(),
+                       [&](const fs::path& folder) { return !resolved_below(path, folder, unknown).empty(); });
 }
 
 std::string folders_text(const ReadPermission& permission) {

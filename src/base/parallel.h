@@ -3,6 +3,8 @@
 
 #include "espalier/base/stop.h"
 
+#include "base/shared_work.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -10,18 +12,29 @@
 
 namespace espalier {
 
-/// tbb::parallel_for whose parts belong to the work around it: they end when it is asked to.
+/// tbb::parallel_for.
 template <class Range, class Body, class... Partitioner>
-void for_in_parallel(const Range& range, const Body& body, const Partitioner&... partitioner) {
-    const StopRequest* const request = StopRequest::current();
+void for_all_in_parallel(const Range& range, const Body& body, const Partitioner&... partitioner) {
+    SharedWork work;
     tbb::parallel_for(
         range,
         [&](const Range& part) {
-            const StopRequest::Scope scope(request);
-            end_if_asked();
+            const SharedWork::Part shared(work);
             body(part);
         },
         partitioner...);
+}
+
+/// The same, with parts that belong to the work around it: they end when it is asked to.
+template <class Range, class Body, class... Partitioner>
+void for_in_parallel(const Range& range, const Body& body, const Partitioner&... partitioner) {
+    const StopRequest* const request = StopRequest::current();
+    const auto part_of_work = [&](const Range& part) {
+        const StopRequest::Scope scope(request);
+        end_if_asked();
+        body(part);
+    };
+    for_all_in_parallel(range, part_of_work, partitioner...);
 }
 
 /// The same with body(i) for each i from `first` to before `end`.

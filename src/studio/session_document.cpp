@@ -2,6 +2,7 @@
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 
+#include "base/folder.h"
 #include "base/text.h"
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
@@ -62,11 +63,10 @@ Json bound(double value) {
 
 fs::path Session::below_folder(const fs::path& path) const {
     if (path.native().find('\0') != std::string::npos) throw UserError("the path holds a zero byte");
-    const fs::path whole = fs::weakly_canonical(path), folder = fs::weakly_canonical(options_.folder);
-    const fs::path below = whole.lexically_relative(folder);
-    if (below.empty() || *below.begin() == "..") {
+    std::error_code unknown;
+    if (resolved_below(path, options_.folder, unknown).empty()) {
         throw UserError(fmt::format("{} is not below {}: the studio writes nowhere else. Save it under another name",
-                                    path.string(), folder.string()));
+                                    path.string(), options_.folder.string()));
     }
     return path.lexically_normal();
 }

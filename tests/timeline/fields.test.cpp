@@ -166,6 +166,34 @@ TEST_CASE("fields.pvd lists every field at every time; what does not change is w
     CHECK_FALSE(std::filesystem::exists(folder.path / "fields/pot.distance/0001.vti"));
 }
 
+TEST_CASE("a timeline that goes on twice before its next frame knows which fields are written", "[timeline]") {
+    const RunFolder folder;
+    const auto table = [] { return timeline_table("every = 2\nfields = ['light', 'pot.distance']"); };
+    const auto saved = [](const Timeline& timeline) {
+        std::ostringstream out;
+        timeline.save(out);
+        return std::move(out).str();
+    };
+    const std::vector<Field> fields{make_field("light", 0.5f), make_field("pot.distance", 1, false)};
+    std::string checkpoint;
+    {
+        Timeline timeline(folder.path, table(), 4);
+        record_fields(timeline, 0, fields);
+        checkpoint = saved(timeline);
+    }
+    for (int again = 0; again < 2; ++again) checkpoint = saved(Timeline(folder.path, table(), 4, checkpoint));
+    Timeline timeline(folder.path, table(), 4, checkpoint);
+    record_fields(timeline, 2, fields);
+    const std::vector<DataSetEntry> entries = read_collection(folder.path / "fields.pvd");
+    REQUIRE(entries.size() == 4);
+    CHECK(entries[2].file == "fields/light/0000.vti");
+    CHECK(entries[3].file == "fields/pot.distance/0000.vti");
+    for (const char* field : {"light", "pot.distance"}) {
+        CHECK_FALSE(std::filesystem::exists(folder.path / "fields" / field / "0002.vti"));
+        CHECK_FALSE(std::filesystem::exists(folder.path / "fields" / field / "0002.vdb"));
+    }
+}
+
 TEST_CASE("equal fields give equal bytes", "[timeline]") {
     const RunFolder folder;
     {

@@ -340,3 +340,14 @@ TEST_CASE("a plant without lineage is recorded with identities of 0", "[timeline
     const auto data = recorded(folder, plant, "lifespans = false");
     CHECK(values(data->GetCellData(), "identity") == std::vector<double>{0, 0});
 }
+
+TEST_CASE("a point that the numbers of a file cannot place ends the run in words", "[timeline]") {
+    const RunFolder folder;
+    HandmadePlant plant;
+    plant.add_internode(1, 0, 0, 0, 0, {0, 0, 0}, {0, 1e38, 0}, 1);
+    Timeline timeline(folder.path, timeline_table(), 2);
+    CHECK_NOTHROW(record(timeline, 0, {&plant}));
+    plant.add_internode(2, 1, 1, 0, 0, {0, 1e38, 0}, {0, 1e39, 0}, 1);
+    CHECK_THROWS_WITH(record(timeline, 1, {&plant}), Catch::Matchers::Contains("farther than 3.4e+38"));
+    CHECK_FALSE(std::filesystem::exists(folder.path / "plants/0001.vtp"));
+}

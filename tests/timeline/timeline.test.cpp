@@ -72,6 +72,10 @@ TEST_CASE("a folder that holds a timeline is refused unless it may be overwritte
         timeline.write_run("{}");
     }
     write_file_at(folder.path / "plants/notes.txt", "mine");
+    write_file_at(folder.path / ".film.avi.part", "mine");
+    // What killed runs were writing.
+    const std::vector<std::string> halves{".checkpoint.4711.part", ".plants.4711.part.pvd", "plants/.0003.12.part.vtp"};
+    for (const std::string& name : halves) write_file_at(folder.path / name, "half");
     CHECK_THROWS_AS(Timeline(folder.path, timeline_table(), 1), UserError);
     CHECK(read_collection(folder.path / "plants.pvd").size() == 6);
     {
@@ -83,6 +87,8 @@ TEST_CASE("a folder that holds a timeline is refused unless it may be overwritte
     CHECK_FALSE(fs::exists(folder.path / "lifespans.vtp"));
     CHECK_FALSE(fs::exists(folder.path / "run.json"));
     CHECK(fs::exists(folder.path / "plants/notes.txt"));
+    CHECK(fs::exists(folder.path / ".film.avi.part"));
+    for (const std::string& name : halves) CHECK_FALSE(fs::exists(folder.path / name));
 }
 
 TEST_CASE("a run.json of whomever is not replaced unasked", "[timeline]") {

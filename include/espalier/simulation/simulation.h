@@ -36,6 +36,8 @@ struct RunOptions {
     /// What has been read so far and during the run; goes to run.json. Null: unknown.
     const ReadLog* inputs = nullptr;
     std::function<void(const Progress&)> progress = nullptr;
+    /// Called before the checkpoint of an interrupted run is written, which takes about so many bytes.
+    std::function<void(std::size_t bytes)> saving = nullptr;
     /// Called once, before anything grows, with what the processes ignored in their parameter files.
     std::function<void(const std::vector<Diagnostic>&)> warn = nullptr;
 };

@@ -1,6 +1,7 @@
 #include "environment/markers/colonization.h"
 
 #include "espalier/base/math.h"
+#include "espalier/base/stop.h"
 
 #include "base/bytes.h"
 #include "base/parallel.h"
@@ -67,7 +68,9 @@ void Colonization::sort_into_cells() {
     const PointGrid grid(points_, all_numbers(points_.size()), math::cbrt(thick.x * thick.y * thick.z * share));
     std::vector<glm::dvec3> sorted;
     sorted.reserve(points_.size());
+    StopCheck<64> check;
     for (std::size_t i = 0; i < grid.size(); ++i) {
+        check();
         const auto first = static_cast<std::uint32_t>(sorted.size());
         Box box;
         for (const std::uint32_t member : grid.members(i)) {

@@ -1,5 +1,7 @@
 #include "environment/neighbours/point_grid.h"
 
+#include "espalier/base/stop.h"
+
 #include <bit>
 
 namespace espalier::environment {
@@ -19,7 +21,9 @@ PointGrid::PointGrid(std::span<const glm::dvec3> points, std::span<const std::ui
     shift_ = 64 - std::countr_zero(slots);
     table_.assign(slots, none);
     std::vector<std::uint32_t> cell_of_member(members.size()), counts;
+    StopCheck<4096> check;
     for (std::size_t i = 0; i < members.size(); ++i) {
+        check();
         const Cell cell = cell_of(points[members[i]]);
         std::uint32_t& number = table_[slot_of(cell)];
         if (number == none) {
@@ -33,7 +37,10 @@ PointGrid::PointGrid(std::span<const glm::dvec3> points, std::span<const std::ui
     for (const std::uint32_t count : counts) ends_.push_back(ends_.back() + count);
     members_.resize(members.size());
     std::vector<std::uint32_t> next(ends_.begin(), ends_.end() - 1);
-    for (std::size_t i = 0; i < members.size(); ++i) members_[next[cell_of_member[i]]++] = members[i];
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        check();
+        members_[next[cell_of_member[i]]++] = members[i];
+    }
 }
 
 }  // namespace espalier::environment

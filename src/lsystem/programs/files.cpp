@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/bytes.h"
+#include "base/folder.h"
 #include "lsystem/programs/functions.h"
 #include "lsystem/programs/limits.h"
 
@@ -26,12 +27,9 @@ constexpr int first_handle = 3;  // as C's descriptors: 0 is no file, 1 and 2 ar
 std::optional<fs::path> path_below(const fs::path& folder, const std::string& name, const Place& place) {
     if (folder.empty()) return std::nullopt;
     std::error_code error;
-    const fs::path root = fs::weakly_canonical(folder, error);
+    fs::path path = resolved_below(folder / name, folder, error);
     if (error) return std::nullopt;
-    fs::path path = fs::weakly_canonical(root / name, error);
-    if (error) return std::nullopt;
-    const auto [end, rest] = std::mismatch(root.begin(), root.end(), path.begin(), path.end());
-    if (end != root.end()) {
+    if (path.empty()) {
         throw EvaluationError(place, fmt::format("fopen: '{}' is a link that leads out of the model's folder", name));
     }
     return path;

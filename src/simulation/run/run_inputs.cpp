@@ -1,5 +1,7 @@
 #include "simulation/run/run_inputs.h"
 
+#include "base/folder.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -46,9 +48,9 @@ std::string from_hex(const std::string& text) {
 Json inputs_json(const ReadLog* inputs, const std::filesystem::path& output) {
     Json list = Json::array();
     if (!inputs) return list;
-    const std::string own = (std::filesystem::absolute(output).lexically_normal() / "").string();
+    std::error_code unknown;
     for (const auto& [path, file] : inputs->files()) {
-        if (path.string().starts_with(own)) continue;
+        if (!output.empty() && !resolved_below(path, output, unknown).empty()) continue;
         Json input = {{"path", path.string()}, {"size", file.size}, {"digest", fmt::format("{:016x}", file.digest)}};
         if (file.kept && is_text(file.bytes)) {
             input["text"] = file.bytes;

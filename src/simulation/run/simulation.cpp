@@ -156,7 +156,10 @@ private:
         } catch (const Stopped&) {
             return false;  // the step at hand is dropped, and with it the state of the world
         }
-        if (timeline_ && !world_.at_end()) write_checkpoint();
+        if (timeline_ && !world_.at_end()) {
+            if (options_.saving) options_.saving(bytes_of_strings() + world_.environment().memory_kept());
+            write_checkpoint();
+        }
         return world_.at_end();
     }
 
@@ -181,9 +184,13 @@ private:
     // Seconds that writing the strings takes at least.
     double estimated_checkpoint() const {
         constexpr double bytes_per_second = 2e8;
+        return static_cast<double>(bytes_of_strings()) / bytes_per_second;
+    }
+
+    std::size_t bytes_of_strings() const {
         std::size_t bytes = 0;
         for (std::size_t plant = 0; plant < world_.size(); ++plant) bytes += world_.string(plant).content();
-        return static_cast<double>(bytes) / bytes_per_second;
+        return bytes;
     }
 
     void check_disk() {

@@ -1,14 +1,18 @@
 #include "timeline/files/vtk_file.h"
 
+#include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
 
+#include "base/parallel.h"
 #include "base/xml_text.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
 
 namespace espalier::timeline {
 namespace {
@@ -54,6 +58,21 @@ void VtkFile::add(const DataArray& array) {
     add("DataArray", array, array.tuples);
 }
 
+void VtkFile::add_points(const DataArray& points) {
+    const std::span<const float> numbers(static_cast<const float*>(points.values), 3 * points.tuples);
+    bool finite = true;
+    for (const float number : numbers) finite &= std::isfinite(number);
+    if (!finite) {
+        throw RunError(
+            fmt::format("a point lies farther than {:.3g} from the origin, which no file of the timeline "
+                        "can hold; are lengths or sizes too large?",
+                        std::numeric_limits<float>::max()));
+    }
+    open("Points");
+    add(points);
+    close();
+}
+
 void VtkFile::add_texts(const std::string& name, const std::vector<std::string>& texts) {
     std::string bytes;
     for (const std::string& text : texts) bytes.append(text).push_back('\0');
@@ -86,17 +105,20 @@ VtkFile::Part& VtkFile::add(std::string_view element, const DataArray& array, st
 void VtkFile::encode_all() {
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < count_; ++i) bytes += parts_[i].encoded ? 0 : parts_[i].array.bytes();
-    const auto encode_part = [this](std::size_t i) {
-        Part& part = parts_[i];
-        if (part.encoded) return;
-        part.text.clear();
-        encode(part.array, part.text);
-        part.encoded = true;
+    const auto encode_some = [this](const tbb::blocked_range<std::size_t>& some) {
+        for (std::size_t i = some.begin(); i < some.end(); ++i) {
+            Part& part = parts_[i];
+            if (part.encoded) continue;
+            part.text.clear();
+            encode(part.array, part.text);
+            part.encoded = true;
+        }
     };
+    const tbb::blocked_range<std::size_t> all(0, count_);
     if (bytes < worth_sharing) {
-        for (std::size_t i = 0; i < count_; ++i) encode_part(i);
+        encode_some(all);
     } else {
-        tbb::parallel_for(std::size_t{0}, count_, encode_part);
+        for_all_in_parallel(all, encode_some);
     }
 }
 

@@ -25,6 +25,8 @@ public:
     void close();
     /// The array's memory is the caller's until the file is written.
     void add(const DataArray& array);
+    /// The data set's points. Throws RunError for one that 32 bits cannot place: what grows has 64.
+    void add_points(const DataArray& points);
     /// Texts that travel with the data set.
     void add_texts(const std::string& name, const std::vector<std::string>& texts);
     /// What ParaView shows as the time of a file opened without its index.

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <exception>
 #include <sstream>
+#include <string_view>
 
 namespace espalier::timeline {
 namespace {
@@ -28,19 +29,22 @@ bool holds_timeline(const fs::path& folder) {
            std::any_of(reports.begin(), reports.end(), is_there);
 }
 
-// "0012.vtp": named by a step's number.
-bool is_frame_file(const fs::path& path) {
-    const std::string stem = path.stem().string();
-    const std::string extension = path.extension().string();
-    const bool numbered =
-        !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    return numbered && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
+bool is_number(std::string_view text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// What a killed run was writing.
+// "0012.vtp": named by a step's number.
+bool is_frame_file(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    return is_number(path.stem().string()) && (extension == ".vtp" || extension == ".vti" || extension == ".vdb");
+}
+
+// ".plants.4711.part.pvd", named by the process: what a killed run was writing.
 bool is_half_written(const fs::path& path) {
-    const std::string name = path.filename().string();
-    return name.starts_with('.') && name.find(".part") != std::string::npos;
+    const fs::path name = path.extension() == ".part" ? path.filename() : path.stem();
+    const std::string process = name.stem().extension().string();
+    return name.extension() == ".part" && name.string().starts_with('.') && !process.empty() &&
+           is_number(process.substr(1));
 }
 
 // Folders that then hold nothing go, too.
@@ -57,9 +61,10 @@ void remove_frame_files(const fs::path& folder) {
     for (; !folders.empty(); folders.pop_back()) fs::remove(folders.back(), holds_something);
 }
 
-void remove_half_written(const fs::path& folder) {
+template <class Items>
+void remove_half_written(const Items& items) {
     std::vector<fs::path> halves;
-    for (const auto& item : fs::recursive_directory_iterator(folder)) {
+    for (const auto& item : items) {
         if (is_half_written(item.path())) halves.push_back(item.path());
     }
     for (const fs::path& path : halves) fs::remove(path);
@@ -70,6 +75,7 @@ void remove_timeline(const fs::path& folder) {
     try {
         for (const char* name : indices) fs::remove(folder / name);
         for (const char* name : reports) fs::remove(folder / name);
+        remove_half_written(fs::directory_iterator(folder));
         remove_frame_files(folder / "plants");
         remove_frame_files(folder / "fields");
     } catch (const fs::filesystem_error& error) {
@@ -114,7 +120,7 @@ Timeline::Timeline(const fs::path& folder, Settings table, int last_step, bool o
 Timeline::Timeline(const fs::path& folder, Settings table, int last_step, const std::string& checkpoint)
     : folder_(folder), lock_(folder), last_step_(last_step) {
     make_recorders(table);
-    remove_half_written(folder);
+    remove_half_written(fs::recursive_directory_iterator(folder));
     std::istringstream in(checkpoint);
     restore(in);
 }

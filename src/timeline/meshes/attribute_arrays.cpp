@@ -1,7 +1,6 @@
 #include "timeline/meshes/attribute_arrays.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +22,7 @@ void for_each_owner(const Owners& owners, const Visit& visit) {
     if (count < worth_sharing) {
         visit_some({0, count});
     } else {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, worth_sharing / 4), visit_some);
+        for_all_in_parallel(tbb::blocked_range<std::size_t>(0, count, worth_sharing / 4), visit_some);
     }
 }
 

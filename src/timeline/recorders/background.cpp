@@ -83,9 +83,7 @@ private:
         file.add(data_array<std::uint8_t>("rgb", arrays.rgb, 3));
         file.add(data_array<float>("opacity", arrays.opacities));
         file.close();
-        file.open("Points");
-        file.add(data_array<float>("Points", arrays.points, 3));
-        file.close();
+        file.add_points(data_array<float>("Points", arrays.points, 3));
         file.open("Polys");
         file.add(data_array<std::int32_t>("connectivity", arrays.corners));
         file.add(data_array<std::int32_t>("offsets", arrays.ends));

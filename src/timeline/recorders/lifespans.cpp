@@ -59,9 +59,7 @@ public:
         add_array("order", [](const Row& row) { return row.life->order; });
         add_array("colour", [](const Row& row) { return row.life->colour; });
         file_.close();
-        file_.open("Points");
-        file_.add(data_array<float>("Points", coordinates_, 3));
-        file_.close();
+        file_.add_points(data_array<float>("Points", coordinates_, 3));
         file_.open("Lines");
         file_.add(data_array<std::int32_t>("connectivity", connectivity_));
         file_.add(data_array<std::int32_t>("offsets", offsets_));

@@ -234,9 +234,7 @@ private:
         file.open("CellData");
         add_arrays(file, data.of_cells);
         file.close();
-        file.open("Points");
-        file.add(array_of("points", mesh.points, 3));
-        file.close();
+        file.add_points(array_of("points", mesh.points, 3));
         add_cells(file, "Verts", mesh.vertices);
         add_cells(file, "Lines", mesh.lines);
         add_cells(file, "Polys", mesh.polygons);

@@ -2,6 +2,7 @@
 #include "environment/markers/colonization.h"
 
 #include "espalier/base/random.h"
+#include "espalier/base/stop.h"
 
 #include "catch.h"
 
@@ -143,4 +144,13 @@ TEST_CASE("what was removed stays removed after a restart", "[markers]") {
     Colonization smaller({{0, 0, 0}}, {1, -1, false});
     bytes.seekg(0);
     CHECK_THROWS(smaller.restore(bytes));
+}
+
+TEST_CASE("the sorting of many points ends when it is asked to", "[markers]") {
+    StopRequest request;
+    const StopRequest::Scope scope(&request);
+    const auto points = Cloud(6).points(20000, 1);
+    CHECK_NOTHROW(Colonization(points, {0.4, -1, false}));
+    request.ask();
+    CHECK_THROWS_AS(Colonization(points, {0.4, -1, false}), Stopped);
 }
