@@ -39,7 +39,7 @@ void draw_square(PlantGeometry& geometry, std::uint32_t module, const glm::dvec3
     polygon.module = module;
     polygon.first = static_cast<std::uint32_t>(geometry.vertices.size());
     polygon.count = 4;
-    for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
         geometry.vertices.push_back(middle + side / 2 * (a * along + b * across));
     }
     geometry.polygons.push_back(polygon);
@@ -51,7 +51,7 @@ TEST_CASE("a level leaf under the open sky absorbs what falls on it", "[canopy-l
     for (const double height : {0.07, 1.3, 55.0}) {
         Environment environment = light_of("voxel = 0.5\n" + sun_above);
         AskingPlants plants;
-        plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {}}});
+        plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
         draw_square(plants.interpretation(0).geometry, 1, {0.2, height, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
         plants.exchange(environment);
         const std::vector<double> answer = plants.parameters();
@@ -71,7 +71,7 @@ TEST_CASE("random leaves of a periodic canopy absorb 1 - exp(-G LAI / cos zenith
                 "voxel = " + std::to_string(voxel) + "\nperiodic = true\nsky = { par = 500, diffuse = 0, sun = [" +
                 std::to_string(std::sin(zenith)) + ", " + std::to_string(std::cos(zenith)) + ", 0] }\n");
             AskingPlants plants;
-            plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {}}});
+            plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
             RandomSamples samples(RandomKey(77, 0, Stream::process, 1), 5, 0);
             for (int i = 0; i < count; ++i) {
                 const double y = samples.uniform(), turn = 2 * pi * samples.uniform(), across = std::sqrt(1 - y * y);
