@@ -1,14 +1,11 @@
 #include "environment/shade/leaf_area.h"
 
+#include "environment/shade/drawn_leaves.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <openvdb/math/DDA.h>
 #include <openvdb/math/Ray.h>
-
-#include <map>
-#include <numbers>
-#include <numeric>
-#include <vector>
 
 namespace espalier::environment {
 
@@ -21,7 +18,13 @@ void LeafArea::collect(std::span<const PlantView> plants) {
     areas_->clear();
     box_.reset();
     total_ = 0;
-    for (const PlantView& plant : plants) add(plant.interpretation->geometry);
+    DrawnLeaves leaves;
+    for (const PlantView& plant : plants) {
+        leaves.collect(plant.interpretation->geometry);
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+            add(middle_of(leaves[i].corners), glm::length(area_vector(leaves[i].corners)));
+        }
+    }
 }
 
 void LeafArea::add(const glm::dvec3& middle, double area) {
@@ -30,55 +33,6 @@ void LeafArea::add(const glm::dvec3& middle, double area) {
     areas_->tree().setValue(voxel, areas_->tree().getValue(voxel) + static_cast<float>(area));
     box_.expand(voxel);
     total_ += area;
-}
-
-void LeafArea::add_polygon(std::span<const glm::dvec3> corners) {
-    glm::dvec3 sum(0), twice(0);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        sum += corners[i];
-        twice += glm::cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
-    }
-    if (!corners.empty()) add(sum / static_cast<double>(corners.size()), glm::length(twice) / 2);
-}
-
-void LeafArea::add_surface(const Organ& organ, const SurfaceMesh& mesh) {
-    const Pose& pose = organ.pose;
-    std::vector<glm::dvec3> corners;
-    std::size_t next = 0;
-    for (const std::uint32_t count : mesh.faces) {
-        corners.clear();
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const glm::dvec3 scaled = organ.size * mesh.vertices[mesh.indices[next++]].position;
-            corners.push_back(pose.position + scaled.x * pose.left + scaled.y * pose.heading + scaled.z * pose.up);
-        }
-        add_polygon(corners);
-    }
-}
-
-void LeafArea::add(const PlantGeometry& geometry) {
-    for (const Polygon& polygon : geometry.polygons) add_polygon({&geometry.vertices[polygon.first], polygon.count});
-    const DrawnMesh& mesh = geometry.mesh;
-    for (const MeshPiece& piece : mesh.pieces) {
-        if (piece.kind != MeshPiece::Kind::patch) continue;
-        for (std::uint32_t i = piece.first; i + 2 < piece.first + piece.count; i += 3) {
-            const glm::dvec3 corners[] = {mesh.vertices[mesh.triangles[i]].position,
-                                          mesh.vertices[mesh.triangles[i + 1]].position,
-                                          mesh.vertices[mesh.triangles[i + 2]].position};
-            add_polygon(corners);
-        }
-    }
-    std::map<std::uint32_t, SurfaceMesh> surfaces;
-    for (const Organ& organ : geometry.organs) {
-        if (organ.shape == Organ::Shape::disc) {
-            add(organ.pose.position, std::numbers::pi / 4 * organ.size.x * organ.size.x);
-        } else if (organ.shape == Organ::Shape::surface && geometry.shapes) {
-            const auto shape = geometry.shapes->surfaces.find(organ.surface);
-            if (shape == geometry.shapes->surfaces.end()) continue;
-            const auto [known, is_new] = surfaces.try_emplace(organ.surface);
-            if (is_new) known->second = mesh_of(shape->second);
-            add_surface(organ, known->second);
-        }
-    }
 }
 
 double LeafArea::crossed(const glm::dvec3& from, const glm::dvec3& direction) const {

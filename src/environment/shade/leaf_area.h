@@ -25,9 +25,6 @@ public:
 
 private:
     void add(const glm::dvec3& middle, double area);
-    void add_polygon(std::span<const glm::dvec3> corners);
-    void add_surface(const Organ& organ, const SurfaceMesh& mesh);
-    void add(const PlantGeometry& geometry);
 
     double voxel_, total_ = 0;
     openvdb::FloatGrid::Ptr areas_;  ///< m^2
