@@ -1,5 +1,7 @@
 #include "analysis/leaves.h"
 
+#include "geometry/vectors.h"
+
 #include <glm/geometric.hpp>
 
 #include <unordered_map>
@@ -16,15 +18,13 @@ public:
         const auto corner = [&](std::size_t i) {
             return glm::dvec3(geometry.points[static_cast<std::size_t>(facet[i])]);
         };
-        glm::dvec3 across(0);  // twice the area, by Newell's method
         for (std::size_t i = 0; i < facet.size(); ++i) {
             const glm::dvec3 here = corner(i);
             leaves.corners.push_back(here);
             sum_ += here;
             ++corners_;
-            if (i >= 2) across += glm::cross(corner(i - 1) - corner(0), here - corner(0));
         }
-        area_ += glm::length(across) / 2;
+        area_ += glm::length(geometry::area_vector(facet.size(), corner));
     }
     void end() {
         if (corners_ > 0) leaves.leaves.push_back({sum_ / static_cast<double>(corners_), area_});

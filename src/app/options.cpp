@@ -2,11 +2,11 @@
 
 #include "espalier/base/error.h"
 
+#include "base/number.h"
 #include "program_data.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <random>
 
@@ -52,19 +52,10 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::optional<double> finite_number(const std::string& text) {
-    double value = 0;
-    const auto [rest, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (wrong != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
 CLI::Validator above_zero() {
     const auto check = [](const std::string& text) {
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-        return is_number && value > 0 ? std::string() : fmt::format("expected a number above 0, found {}", text);
+        const std::optional<double> value = finite_number(text);
+        return value && *value > 0 ? std::string() : fmt::format("expected a number above 0, found {}", text);
     };
     return {check, "ABOVE 0"};
 }
@@ -132,8 +123,10 @@ void GrowthOptions::read_seed(const std::string& text) {
         fmt::print(stderr, "seed {}\n", seed_);
         return;
     }
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed_);
-    if (error == std::errc() && end == text.data() + text.size() && seed_ >= 0) return;
+    if (const auto seed = whole_text_as<decltype(seed_)>(text); seed && *seed >= 0) {
+        seed_ = *seed;
+        return;
+    }
     throw CLI::ValidationError("--seed", "a whole number of at least 0, or random, is expected, not " + text);
 }
 

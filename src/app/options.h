@@ -1,6 +1,7 @@
 // Options that several commands share, and what they mean.
 #pragma once
 
+#include "base/number.h"
 #include "model_arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -17,9 +18,6 @@ std::pair<std::string, std::string> key_and_value(const std::string& text, const
 
 /// "512M", "4G", "1.5GiB", "1000000": bytes; K, M, G, T are powers of 1024. Throws UserError naming the option.
 std::size_t size_in_bytes(const std::string& text, const std::string& option);
-
-/// The whole text as a finite number.
-std::optional<double> finite_number(const std::string& text);
 
 /// Accepts finite numbers above 0. CLI11's own tells of all of the range of a double.
 CLI::Validator above_zero();

@@ -2,6 +2,7 @@
 
 #include "espalier/base/settings.h"
 
+#include "base/number.h"
 #include "base/text.h"
 #include "options.h"
 

@@ -1,5 +1,7 @@
 #include "archive/organ_table.h"
 
+#include "geometry/vectors.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -78,13 +80,10 @@ private:
     void add_surface(std::size_t cell, std::span<const std::int32_t> corners) {
         const auto corner = [&](std::size_t i) { return geometry_.points[static_cast<std::size_t>(corners[i])]; };
         OrganRow row = row_of(geometry_.of_cells, cell, corner(0), corner(0), corners[0]);
-        glm::dvec3 across(0);  // twice the area, by Newell's method
         for (std::size_t i = 1; i < corners.size(); ++i) {
             if (glm::distance(row.base, corner(i)) > glm::distance(row.base, row.tip)) row.tip = corner(i);
-            across += glm::cross(glm::dvec3(corner(i - 1)) - glm::dvec3(row.base),
-                                 glm::dvec3(corner(i)) - glm::dvec3(row.base));
         }
-        row.area = glm::length(across) / 2;
+        row.area = glm::length(geometry::area_vector(corners.size(), corner));
         add(row);
     }
 

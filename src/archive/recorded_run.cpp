@@ -7,6 +7,7 @@
 #include "archive/geometry_file.h"
 #include "archive/xml.h"
 #include "base/csv_file.h"
+#include "base/number.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -30,12 +30,9 @@ using Json = nlohmann::json;
 }
 
 double number(const fs::path& file, const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-        fail(file, fmt::format("'{}' is no number", text));
-    }
-    return value;
+    const std::optional<double> value = finite_number(text);
+    if (!value) fail(file, fmt::format("'{}' is no number", text));
+    return *value;
 }
 
 struct CollectionEntry {

@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/base64.h"
+#include "base/number.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <span>
 
 namespace espalier::archive {
@@ -126,12 +126,11 @@ const XmlElement& VtkXmlFile::child(const XmlElement& parent, std::string_view n
 
 std::size_t VtkXmlFile::count(const XmlElement& element, std::string_view attribute) const {
     const std::string& text = element.attribute(attribute);
-    std::size_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value > text_.size() * most_ratio) {
+    const std::optional<std::size_t> value = whole_text_as<std::size_t>(text);
+    if (!value || *value > text_.size() * most_ratio) {
         fail(fmt::format("{} is no number that can be right: '{}'", attribute, text));
     }
-    return value;
+    return *value;
 }
 
 const XmlElement* VtkXmlFile::find(const XmlElement& section, std::string_view name) {

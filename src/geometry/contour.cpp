@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/math.h"
 
+#include "base/cubic_basis.h"
 #include "geometry/magnetic_cut.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <utility>
 
@@ -25,16 +27,12 @@ struct UniformSpline {
 
     int segments() const { return int(points.size()) - (closed ? 0 : 3); }
 
-    glm::dvec3 weighted(int segment, const double (&weights)[4]) const {
+    glm::dvec3 weighted(int segment, const std::array<double, 4>& weights) const {
         glm::dvec3 sum(0);
         for (int k = 0; k < 4; ++k) sum += weights[k] * points[std::size_t(segment + k) % points.size()];
         return sum / 6.0;
     }
-    glm::dvec3 at(int segment, double u) const {
-        const double v = 1 - u;
-        return weighted(segment,
-                        {v * v * v, 3 * u * u * u - 6 * u * u + 4, -3 * u * u * u + 3 * u * u + 3 * u + 1, u * u * u});
-    }
+    glm::dvec3 at(int segment, double u) const { return weighted(segment, b_spline_sixths(u)); }
     glm::dvec3 slope(int segment, double u) const {
         const double v = 1 - u;
         return weighted(segment, {-3 * v * v, 9 * u * u - 12 * u, -9 * u * u + 6 * u + 3, 3 * u * u});

@@ -2,6 +2,8 @@
 
 #include "espalier/base/math.h"
 
+#include "base/cubic_basis.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 namespace espalier::geometry {
 namespace {
 
-using Weights = double[4];
+using Weights = std::array<double, 4>;
 
 template <class T>
 T combined(const T (&values)[4], const Weights& weights) {
@@ -88,9 +90,7 @@ CylinderCurve::Place CylinderCurve::at(std::size_t i, double u) const {
     const double v = 1 - u;
     const Weights hermite{v * v * (1 + 2 * u), u * v * v, u * u * (3 - 2 * u), -u * u * v};
     const Weights hermite_slopes{-6 * u * v, v * (1 - 3 * u), 6 * u * v, u * (3 * u - 2)};
-    const Weights spline{v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6,
-                         (-3 * u * u * u + 3 * u * u + 3 * u + 1) / 6, u * u * u / 6};
-    const Weights spline_slopes{-v * v / 2, (3 * u * u - 4 * u) / 2, (-3 * u * u + 2 * u + 1) / 2, u * u / 2};
+    const Weights spline = b_spline_weights(u), spline_slopes = b_spline_slopes(u);
 
     Place place;
     place.position = combined(stretch.points, spline_ ? spline : hermite);

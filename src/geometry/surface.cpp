@@ -1,5 +1,7 @@
 #include "espalier/geometry/surface.h"
 
+#include "base/cubic_basis.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -17,8 +19,7 @@ Weights weights(BicubicPatch::Basis basis, double u) {
         case BicubicPatch::Basis::bezier:
             return {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u};
         case BicubicPatch::Basis::b_spline:
-            return {v * v * v / 6, (3 * u * u * u - 6 * u * u + 4) / 6, (-3 * u * u * u + 3 * u * u + 3 * u + 1) / 6,
-                    u * u * u / 6};
+            return b_spline_weights(u);
         case BicubicPatch::Basis::cardinal:
             return {(-u + 2 * u * u - u * u * u) / 2, (2 - 5 * u * u + 3 * u * u * u) / 2,
                     (u + 4 * u * u - 3 * u * u * u) / 2, (u * u * u - u * u) / 2};
@@ -33,7 +34,7 @@ Weights slopes(BicubicPatch::Basis basis, double u) {
         case BicubicPatch::Basis::bezier:
             return {-3 * v * v, 3 * v * v - 6 * u * v, 6 * u * v - 3 * u * u, 3 * u * u};
         case BicubicPatch::Basis::b_spline:
-            return {-v * v / 2, (3 * u * u - 4 * u) / 2, (-3 * u * u + 2 * u + 1) / 2, u * u / 2};
+            return b_spline_slopes(u);
         case BicubicPatch::Basis::cardinal:
             return {(-1 + 4 * u - 3 * u * u) / 2, (-10 * u + 9 * u * u) / 2, (1 + 8 * u - 9 * u * u) / 2,
                     (3 * u * u - 2 * u) / 2};

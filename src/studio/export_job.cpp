@@ -4,7 +4,7 @@
 #include "espalier/simulation/simulation.h"
 
 #include "studio/document_files.h"
-#include "studio/worn_pictures.h"
+#include "studio/textures.h"
 
 #include <exception>
 #include <set>
@@ -61,7 +61,7 @@ fs::path ExportRun::grow() {
     Opened opened = order_.opened;
     if (order_.step >= 0) opened.steps = order_.step;
     const Scene scene = order_.read(opened);
-    note_worn_files(scene);
+    note_texture_files(scene);
 
     RunOptions options;
     options.output = order_.scratch / "run";

@@ -4,7 +4,7 @@
 
 #include "studio/derivation_length.h"
 #include "studio/inquiry.h"
-#include "studio/likeness.h"
+#include "studio/reuse_plan.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -149,8 +149,8 @@ std::string Growth::column(int step, const std::string& name) const {
     return studio::column(*scene(), *steps_, number(), step, name);
 }
 
-nlohmann::ordered_json Growth::what_is_known(int step, std::uint32_t module) const {
-    return studio::what_is_known(*scene(), *steps_, step, module);
+nlohmann::ordered_json Growth::module_info(int step, std::uint32_t module) const {
+    return studio::module_info(*scene(), *steps_, step, module);
 }
 
 void Growth::rest(bool rests) {
@@ -170,7 +170,7 @@ void Growth::live() {
     try {
         const ReadLog reads(std::size_t(64) << 20, order_.unsaved, order_.permission);
         const Scene scene = order_.read(order_.opened);
-        note_worn_files(scene);
+        note_texture_files(scene);
         GrowthStart start;
         start.warnings = scene.notes.diagnostics;
         if (cancelled_) return;
@@ -181,12 +181,12 @@ void Growth::live() {
         begin(work, std::move(start));
         grow(work);
     } catch (const Stopped&) {
-        printed_.tell();
+        printed_.send();
         if (!cancelled_) listener_.failed(number(), said("it was stopped before the first step"));
     } catch (const std::bad_alloc&) {
         if (!cancelled_) listener_.failed(number(), said("the machine has no memory left"));
     } catch (const std::exception& error) {
-        printed_.tell();
+        printed_.send();
         if (!cancelled_) listener_.failed(number(), diagnostics_of(error));
     }
 }
@@ -218,7 +218,7 @@ void Growth::begin(Work& work, GrowthStart start) {
 
 void Growth::grow(Work& work) {
     while (!cancelled_) {
-        printed_.tell();
+        printed_.send();
         try {
             if (advance(work)) continue;
         } catch (const Stopped&) {

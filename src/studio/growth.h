@@ -8,8 +8,8 @@
 
 #include "studio/kept_fields.h"
 #include "studio/kept_steps.h"
+#include "studio/plant_source.h"
 #include "studio/printed_text.h"
-#include "studio/shown.h"
 #include "studio/workers.h"
 
 #include <atomic>
@@ -45,7 +45,7 @@ struct GrowthOrder {
     std::set<int> looked_at = {};  ///< besides the last step
 };
 
-class Growth final : public Shown {
+class Growth final : public PlantSource {
 public:
     /// The workers and the listener outlive it.
     Growth(GrowthOrder order, GrowthListener& listener, Workers& workers);
@@ -67,10 +67,10 @@ public:
     void draw(int step) override;
     std::string packet(int step) const override { return steps_->packet(step); }
     std::vector<std::string> shapes() const override { return steps_->shapes(); }
-    std::vector<WornPicture> textures() const override { return steps_->textures(); }
+    std::vector<BrowserTexture> textures() const override { return steps_->textures(); }
     std::vector<std::string> column_names() const override;
     std::string column(int step, const std::string& name) const override;
-    nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const override;
+    nlohmann::ordered_json module_info(int step, std::uint32_t module) const override;
     std::string field(int step, const std::string& name) const override { return fields_.message(step, name); }
 
     void cancel() override;

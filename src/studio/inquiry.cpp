@@ -265,7 +265,7 @@ int most_parameters(const Scene& scene) {
 
 }  // namespace
 
-Json what_is_known(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module) {
+Json module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module) {
     return Inquiry(scene, steps, step, module).answer();
 }
 

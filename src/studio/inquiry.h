@@ -15,7 +15,7 @@ namespace espalier::studio {
 
 /// The answer to `pick` of docs/studio-protocol.md. `module` is counted through all plants. Throws UserError if there
 /// is no such step or module.
-nlohmann::ordered_json what_is_known(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module);
+nlohmann::ordered_json module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module);
 
 /// What modules can be coloured by.
 std::vector<std::string> column_names(const Scene& scene);

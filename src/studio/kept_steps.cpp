@@ -20,20 +20,20 @@ int KeptSteps::inherit(const KeptSteps& before, const Origin& now) {
         const std::lock_guard lock(before.mutex_);
         theirs = before.steps_;
     }
-    std::map<const Origin*, std::shared_ptr<const Likeness>> known;  // by where strings come from: a few at most
+    std::map<const Origin*, std::shared_ptr<const ReusePlan>> known;  // by where strings come from: a few at most
     int last = -1;
     for (auto& [number, step] : theirs) {
         const std::shared_ptr<const Origin>& origin = step.strings->origin();
         if (!origin || number != last + 1 || number > now.last_step) break;
         const auto [place, is_new] = known.try_emplace(origin.get());
         if (is_new) {
-            if (std::optional<Likeness> found = likeness(*origin, now)) {
-                place->second = std::make_shared<const Likeness>(std::move(*found));
+            if (std::optional<ReusePlan> found = reuse_plan(*origin, now)) {
+                place->second = std::make_shared<const ReusePlan>(std::move(*found));
             }
         }
-        const std::shared_ptr<const Likeness>& alike = place->second;
-        if (!alike || number >= alike->steps) break;
-        keep(number, {nullptr, {}, step.strings, alike->changes_strings() ? alike : nullptr});
+        const std::shared_ptr<const ReusePlan>& plan = place->second;
+        if (!plan || number >= plan->steps) break;
+        keep(number, {nullptr, {}, step.strings, plan->changes_strings() ? plan : nullptr});
         last = number;
     }
     return last;
@@ -105,7 +105,7 @@ std::vector<std::string> KeptSteps::shapes() const {
     return shapes_;
 }
 
-std::vector<WornPicture> KeptSteps::textures() const {
+std::vector<BrowserTexture> KeptSteps::textures() const {
     const std::lock_guard lock(mutex_);
     return textures_;
 }

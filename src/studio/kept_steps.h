@@ -48,7 +48,7 @@ public:
     /// The messages with all surfaces that packets have used so far, in the order in which they came.
     std::vector<std::string> shapes() const;
     /// What packets have worn so far.
-    std::vector<WornPicture> textures() const;
+    std::vector<BrowserTexture> textures() const;
     /// What a step that there is goes on from.
     DerivedStep derived(int step) const;
     /// The strings of the plants at a step that there is.
@@ -61,7 +61,7 @@ private:
         std::shared_ptr<const std::string> packet;  ///< null: it was not drawn, or is in the file
         std::optional<Spool::Place> filed_packet;
         std::shared_ptr<const StepStrings> strings;
-        std::shared_ptr<const Likeness> changes;  ///< to be made in the strings; null: none
+        std::shared_ptr<const ReusePlan> changes;  ///< to be made in the strings; null: none
 
         std::size_t bytes() const { return (packet ? packet->size() : 0) + strings->bytes(); }
         bool is_in_memory() const { return packet || !strings->is_filed(); }
@@ -80,7 +80,7 @@ private:
     mutable std::mutex mutex_;
     std::map<int, Step> steps_;
     std::vector<std::string> shapes_;
-    std::vector<WornPicture> textures_;
+    std::vector<BrowserTexture> textures_;
 };
 
 }  // namespace espalier::studio

@@ -73,7 +73,7 @@ Head head_of(PacketCursor& in) {
     return head;
 }
 
-/// The textures of the internodes; none if no limb wears one.
+/// The textures of the internodes; none if no limb has one.
 std::vector<std::uint16_t> limb_textures(PacketCursor in, const Head& head) {
     in.go_to(head_bytes + 4 * std::size_t{head.plants} + sizeof(InternodeBytes) * head.internodes +
              vertex_bytes * std::size_t{head.vertices} + 4 * std::size_t{head.indices});
@@ -93,13 +93,14 @@ std::vector<std::uint16_t> limb_textures(PacketCursor in, const Head& head) {
 /// one of a lower order stands between.
 class Axes {
 public:
-    Axes(std::string_view packet, const std::vector<WornPicture>& textures) : in_(packet), head_(head_of(in_)) {
+    Axes(std::string_view packet, const std::vector<BrowserTexture>& textures) : in_(packet), head_(head_of(in_)) {
         geometry_.texture_files.emplace_back();
-        for (const WornPicture& worn : textures) geometry_.texture_files.push_back(worn.file.string());
-        const std::vector<std::uint16_t> worn = limb_textures(in_, head_);
+        for (const BrowserTexture& texture : textures) geometry_.texture_files.push_back(texture.file.string());
+        const std::vector<std::uint16_t> textures_of_limbs = limb_textures(in_, head_);
         std::vector<std::uint32_t> firsts;
         for (std::uint32_t i = 0; i < head_.plants; ++i) firsts.push_back(in_.next<std::uint32_t>());
-        for (std::uint32_t i = 0; i < head_.internodes; ++i) read(firsts, worn.empty() ? std::uint16_t{0} : worn[i]);
+        for (std::uint32_t i = 0; i < head_.internodes; ++i)
+            read(firsts, textures_of_limbs.empty() ? std::uint16_t{0} : textures_of_limbs[i]);
         close();
     }
 
@@ -252,8 +253,8 @@ std::vector<Tube> tubes_of_plant(std::span<const AxisLine> lines, const AxisSkin
 
 }  // namespace
 
-std::string limb_mesh(std::string_view packet, const std::vector<WornPicture>& textures, bool smooth,
-                      const GoOn& go_on) {
+std::string limb_mesh(std::string_view packet, const std::vector<BrowserTexture>& textures, bool smooth,
+                      const ContinueCallback& may_continue) {
     const Axes axes(packet, textures);
     const RecordedGeometry& geometry = axes.geometry();
     const std::vector<AxisLine> lines =
@@ -266,7 +267,7 @@ std::string limb_mesh(std::string_view packet, const std::vector<WornPicture>& t
     // Plant after plant, so that one may stop between them.
     for (std::size_t first = 0, end = 0; first < lines.size(); first = end) {
         while (end < lines.size() && lines[end].plant == lines[first].plant) ++end;
-        if (!go_on(static_cast<double>(first) / static_cast<double>(lines.size()))) return "";
+        if (!may_continue(static_cast<double>(first) / static_cast<double>(lines.size()))) return "";
         const auto plant = std::span(lines).subspan(first, end - first);
         const std::vector<Tube> tubes = tubes_of_plant(plant, skin);
         for (std::size_t i = 0; i < plant.size(); ++i) message.add(plant[i], tubes[i]);
@@ -287,11 +288,11 @@ LimbRun::~LimbRun() {
 
 void LimbRun::work() {
     try {
-        const auto go_on = [this](double share) {
+        const auto may_continue = [this](double share) {
             if (!cancelled_) progressed_(share);
             return !cancelled_;
         };
-        std::string bytes = limb_mesh(order_.packet, order_.textures, order_.smooth, go_on);
+        std::string bytes = limb_mesh(order_.packet, order_.textures, order_.smooth, may_continue);
         if (!cancelled_) done_(std::move(bytes), "");
     } catch (const std::exception& error) {
         if (!cancelled_) done_("", error.what());

@@ -1,7 +1,7 @@
 // The limbs of a step as pictures have them: tubes that run into each other or one smooth skin, with bark.
 #pragma once
 
-#include "studio/worn_pictures.h"
+#include "studio/textures.h"
 
 #include <atomic>
 #include <functional>
@@ -13,16 +13,16 @@
 namespace espalier::studio {
 
 /// Told which part is done; false: it is not wanted any more.
-using GoOn = std::function<bool(double share)>;
+using ContinueCallback = std::function<bool(double share)>;
 
 /// The message `ESM1` of docs/studio-protocol.md, from the packet `ESP1` of the step; "" if it was not wanted any
 /// more. Throws UserError as `skin_voxel` does.
-std::string limb_mesh(std::string_view packet, const std::vector<WornPicture>& textures, bool smooth,
-                      const GoOn& go_on);
+std::string limb_mesh(std::string_view packet, const std::vector<BrowserTexture>& textures, bool smooth,
+                      const ContinueCallback& may_continue);
 
 struct LimbOrder {
     std::string packet;
-    std::vector<WornPicture> textures;
+    std::vector<BrowserTexture> textures;
     bool smooth = false;
 };
 

@@ -4,6 +4,7 @@
 
 #include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
+#include "geometry/vectors.h"
 #include "studio/message_bytes.h"
 #include "studio/packet_parts.h"
 #include "timeline/meshes/organ_mesh.h"
@@ -65,13 +66,8 @@ std::array<float, 12> matrix(const glm::dvec3& x, const glm::dvec3& y, const glm
 
 /// Newell's normal: right for polygons that are not quite flat.
 glm::dvec3 normal_of_polygon(std::span<const glm::dvec3> corners) {
-    glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % corners.size()];
-        sum += glm::cross(a - corners.front(), b - corners.front());
-    }
-    const double length = glm::length(sum);
-    return length > 0 ? sum / length : glm::dvec3(0, 1, 0);
+    return geometry::unit_or(geometry::area_vector(corners.size(), [&](std::size_t i) { return corners[i]; }),
+                             {0, 1, 0});
 }
 
 }  // namespace
@@ -85,9 +81,9 @@ std::vector<std::uint32_t> first_modules(const timeline::Frame& frame) {
 }
 
 /// One packet while it is written.
-class PacketWriter::Scribe {
+class PacketWriter::PacketBuilder {
 public:
-    Scribe(PacketWriter& writer, const timeline::Frame& frame) : writer_(writer), frame_(frame) {
+    PacketBuilder(PacketWriter& writer, const timeline::Frame& frame) : writer_(writer), frame_(frame) {
         parts_.extent = extent_of(frame);
     }
 
@@ -146,7 +142,7 @@ private:
             parts_.triangles.add({corners[i], normal, uvs[i]}, colour, module);
         }
         for (const std::uint32_t corner : cut) parts_.triangles.indices.push_back(origin + corner);
-        parts_.triangles.wear(texture);
+        parts_.triangles.set_texture(texture);
     }
 
     void add_polygons(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
@@ -169,7 +165,7 @@ private:
                 if (place == unused) place = parts_.triangles.add(mesh.vertices[index], colour, first + piece.module);
                 parts_.triangles.indices.push_back(place);
             }
-            parts_.triangles.wear(picture(geometry, piece.look.texture));
+            parts_.triangles.set_texture(picture(geometry, piece.look.texture));
         }
     }
 
@@ -292,7 +288,7 @@ void PacketWriter::expect(const std::shared_ptr<const Shapes>& shapes) {
 }
 
 Packet PacketWriter::write(const timeline::Frame& frame) {
-    return Scribe(*this, frame).write();
+    return PacketBuilder(*this, frame).write();
 }
 
 }  // namespace espalier::studio

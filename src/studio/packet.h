@@ -3,7 +3,7 @@
 
 #include "espalier/timeline/frame.h"
 
-#include "studio/worn_pictures.h"
+#include "studio/textures.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -36,7 +36,7 @@ public:
     void expect(const std::shared_ptr<const Shapes>& shapes);
     Packet write(const timeline::Frame& frame);
     /// What the packets so far wear; texture 1 is the first.
-    const std::vector<WornPicture>& textures() const { return pictures_.all(); }
+    const std::vector<BrowserTexture>& textures() const { return pictures_.all(); }
 
 private:
     /// Of an organ with a surface: what stands for it in groups.
@@ -52,13 +52,13 @@ private:
         bool is_told = false;  ///< a message has told the pages
     };
 
-    class Scribe;
+    class PacketBuilder;
 
     KnownShape& shape(const std::shared_ptr<const Shapes>& shapes, std::uint32_t surface, std::uint32_t texture);
     std::uint32_t texture_of(const Shapes& shapes, std::uint32_t texture);
 
     std::uint32_t growth_;
-    WornPictures pictures_;
+    BrowserTextures pictures_;
     std::map<ShapeKey, KnownShape> shapes_;
     std::set<std::shared_ptr<const Shapes>> kept_;  ///< so that no other has the address of one
 };

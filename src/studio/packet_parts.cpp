@@ -84,7 +84,7 @@ std::uint32_t Triangles::add(const SurfaceVertex& vertex, Rgba colour, std::uint
 }
 
 void Triangles::sort() {
-    wear(0);
+    set_texture(0);
     if (std::is_sorted(textures.begin(), textures.end())) return;
     std::vector<std::uint32_t> order(textures.size()), sorted;
     std::iota(order.begin(), order.end(), 0);

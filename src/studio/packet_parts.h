@@ -54,7 +54,7 @@ struct Triangles {
 
     std::uint32_t add(const SurfaceVertex& vertex, Rgba colour, std::uint32_t module);
     /// What was added since wears this texture.
-    void wear(std::uint32_t texture) { textures.resize(indices.size() / 3, texture); }
+    void set_texture(std::uint32_t texture) { textures.resize(indices.size() / 3, texture); }
     /// Puts triangles that wear the same texture behind each other.
     void sort();
 };

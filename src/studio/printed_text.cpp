@@ -11,19 +11,19 @@ std::shared_ptr<lsystem::Printout> PrintedText::printout() {
 void PrintedText::add(const std::string& text) {
     constexpr std::chrono::milliseconds between(200);
     const std::lock_guard lock(mutex_);
-    untold_ += text;
-    if (std::chrono::steady_clock::now() - told_ > between) tell_locked();
+    unsent_ += text;
+    if (std::chrono::steady_clock::now() - sent_ > between) send_locked();
 }
 
-void PrintedText::tell() {
+void PrintedText::send() {
     const std::lock_guard lock(mutex_);
-    tell_locked();
+    send_locked();
 }
 
-void PrintedText::tell_locked() {
-    if (untold_.empty()) return;
-    told_ = std::chrono::steady_clock::now();
-    tell_(std::exchange(untold_, {}));
+void PrintedText::send_locked() {
+    if (unsent_.empty()) return;
+    sent_ = std::chrono::steady_clock::now();
+    send_(std::exchange(unsent_, {}));
 }
 
 }  // namespace espalier::studio

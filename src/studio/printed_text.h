@@ -14,23 +14,23 @@ namespace espalier::studio {
 /// Gathers what is printed, so that many small pieces are told as few.
 class PrintedText {
 public:
-    using Tell = std::function<void(std::string text)>;
+    using Send = std::function<void(std::string text)>;
 
-    explicit PrintedText(Tell tell) : tell_(std::move(tell)) {}
+    explicit PrintedText(Send tell) : send_(std::move(tell)) {}
 
     /// Where models print. It must not outlive this.
     std::shared_ptr<lsystem::Printout> printout();
     /// Tells what has not been told.
-    void tell();
+    void send();
 
 private:
     void add(const std::string& text);
-    void tell_locked();
+    void send_locked();
 
-    const Tell tell_;
+    const Send send_;
     std::mutex mutex_;
-    std::string untold_;
-    std::chrono::steady_clock::time_point told_{};
+    std::string unsent_;
+    std::chrono::steady_clock::time_point sent_{};
 };
 
 }  // namespace espalier::studio

@@ -253,7 +253,7 @@ std::string Recording::field(int /*step*/, const std::string& name) const {
     throw UserError(fmt::format("there is no field '{}': those of recorded runs are not shown", name));
 }
 
-Json Recording::what_is_known(int step, std::uint32_t module) const {
+Json Recording::module_info(int step, std::uint32_t module) const {
     const std::shared_ptr<const DrawnFrame> shown = frame(frame_at(step));
     if (module >= shown->modules().size()) throw UserError(fmt::format("step {} has no module {}", step, module));
     const RecordedModule& one = shown->modules()[module];

@@ -5,8 +5,8 @@
 #include "espalier/archive/recorded_run.h"
 
 #include "studio/growth.h"
+#include "studio/plant_source.h"
 #include "studio/recorded_frame.h"
-#include "studio/shown.h"
 #include "studio/workers.h"
 
 #include <atomic>
@@ -24,7 +24,7 @@
 namespace espalier::studio {
 
 /// Steps between two frames show the frame before.
-class Recording final : public Shown {
+class Recording final : public PlantSource {
 public:
     /// The workers and the listener outlive it.
     Recording(GrowthOrder order, GrowthListener& listener, Workers& workers);
@@ -43,10 +43,10 @@ public:
     void draw(int step) override;
     std::string packet(int step) const override;
     std::vector<std::string> shapes() const override { return {}; }
-    std::vector<WornPicture> textures() const override { return {}; }
+    std::vector<BrowserTexture> textures() const override { return {}; }
     std::vector<std::string> column_names() const override { return columns_; }
     std::string column(int step, const std::string& name) const override;
-    nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const override;
+    nlohmann::ordered_json module_info(int step, std::uint32_t module) const override;
     std::string field(int step, const std::string& name) const override;
 
     void cancel() override;

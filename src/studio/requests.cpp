@@ -206,8 +206,8 @@ Json Session::grow(Viewer&, const Json& request) {
         newest_.last_step = to;
         state_ = "growing";
         is_busy_ = true;
-        tell(document_json());
-        tell(growth_json());
+        broadcast(document_json());
+        broadcast(growth_json());
         follow_from_ = known + 1;
     } else {
         const fs::path before = document_.now().opened.path;
@@ -230,7 +230,7 @@ Json Session::look(Viewer& viewer, const Json& request) {
     return {{"step", newest_.step}};
 }
 
-Shown& Session::grown_by(const Json& request) const {
+PlantSource& Session::grown_by(const Json& request) const {
     if (!growth_ || growth_->number() != whole<std::uint32_t>(request, "growth")) {
         throw UserError("this growth is gone; another has begun");
     }
@@ -238,7 +238,7 @@ Shown& Session::grown_by(const Json& request) const {
 }
 
 Json Session::frame(Viewer& viewer, const Json& request) {
-    const Shown& growth = grown_by(request);
+    const PlantSource& growth = grown_by(request);
     const int step = whole<int>(request, "step");
     if (!growth.has(step)) throw UserError(fmt::format("step {} has not been grown", step));
     send_when_drawn(viewer, step);
@@ -252,7 +252,7 @@ Json Session::column(Viewer& viewer, const Json& request) {
 }
 
 Json Session::pick(Viewer&, const Json& request) {
-    return grown_by(request).what_is_known(whole<int>(request, "step"), whole<std::uint32_t>(request, "module"));
+    return grown_by(request).module_info(whole<int>(request, "step"), whole<std::uint32_t>(request, "module"));
 }
 
 Json Session::field(Viewer& viewer, const Json& request) {
@@ -281,7 +281,7 @@ Json Session::save(Viewer&, const Json& request) {
         written = save_as(writable(options_.folder / request["path"].get<std::string>()));
     } else {
         written = save_changes();
-        tell(document_json());
+        broadcast(document_json());
     }
     Json files = Json::array();
     for (const fs::path& file : written) files.push_back(file.string());
@@ -359,7 +359,7 @@ Json Session::export_run(Viewer&, const Json& request) {
     order.read = options_.read;
     order.permission = permission_of(order.opened.path, options_.library_folder);
     const auto progressed = [this](double share) {
-        post_([this, share] { tell({{"say", "progress"}, {"what", "export"}, {"done", share}}); });
+        post_([this, share] { broadcast({{"say", "progress"}, {"what", "export"}, {"done", share}}); });
     };
     const auto done = [this, scratch](std::vector<fs::path> files, std::string why) {
         post_([this, scratch, files = std::move(files), why = std::move(why)] {
@@ -377,8 +377,8 @@ void Session::note_exported(const std::vector<fs::path>& files, const fs::path& 
                         {"name", file.lexically_relative(folder).generic_string()},
                         {"bytes", static_cast<std::uint64_t>(fs::file_size(file))}});
     }
-    tell({{"say", "exported"}, {"files", list}});
-    if (!why.empty()) say("error", why);
+    broadcast({{"say", "exported"}, {"files", list}});
+    if (!why.empty()) notify("error", why);
 }
 
 Json Session::dismiss(Viewer&, const Json& request) {

@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 #include "espalier/studio/studio.h"
 
+#include "base/number.h"
 #include "studio/access.h"
 #include "studio/page_files.h"
 #include "studio/request_text.h"
@@ -17,7 +18,6 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-#include <charconv>
 #include <deque>
 #include <utility>
 
@@ -249,9 +249,7 @@ private:
         }
         state_.forget(*this);
         stream_.expires_after(patience_with_pages);
-        std::uint32_t wanted = 0;
-        std::from_chars(number.data(), number.data() + number.size(), wanted);
-        const auto file = state_.session->file(wanted);
+        const auto file = state_.session->file(whole_text_as<std::uint32_t>(number).value_or(0));
         if (!file) return answer(http::status::not_found, "text/plain", "there is no such file");
         try {
             answer(http::status::ok, "application/octet-stream", read_text(*file));

@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/csv_file.h"
+#include "base/number.h"
 #include "studio/document_files.h"
 #include "studio/recording.h"
 #include "studio/request_text.h"
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <system_error>
 #include <utility>
@@ -45,9 +45,7 @@ bool same_files(const std::map<fs::path, ReadLog::File>& a, const std::map<fs::p
 }
 
 Json cell_json(const std::string& cell) {
-    double value = 0;
-    const auto [rest, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error == std::errc() && rest == cell.data() + cell.size()) return value;
+    if (const std::optional<double> value = whole_text_as<double>(cell)) return *value;
     return cell.empty() ? Json() : Json(cell);
 }
 
@@ -100,7 +98,7 @@ void Session::receive(Page& page, const std::string& text) {
     }
     page.send_text(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
     // What a page shows at first it is told behind the reply to its greeting.
-    if ((*viewer)->is_new && !reply.contains("error")) guard([&] { tell_all_to(**viewer); });
+    if ((*viewer)->is_new && !reply.contains("error")) guard([&] { send_state_to(**viewer); });
 }
 
 void Session::tick() {
@@ -118,7 +116,7 @@ void Session::guard(const std::function<void()>& work) {
     try {
         work();
     } catch (const std::exception& error) {
-        say("error", error.what());
+        notify("error", error.what());
     }
 }
 
@@ -143,13 +141,13 @@ void Session::document_changed(const fs::path& before, std::optional<int> follow
     unkept_ = true;
     // Of another document nothing is known before it has been read.
     is_document_told_ = false;
-    if (!is_other) tell_document();
+    if (!is_other) broadcast_document();
     begin_growth();
 }
 
-void Session::tell_document() {
+void Session::broadcast_document() {
     is_document_told_ = true;
-    tell(document_json());
+    broadcast(document_json());
 }
 
 const DocumentState& Session::edited() const {
@@ -176,7 +174,7 @@ void Session::keep() {
         }
         write_private_text(options_.state, state.dump());
     } catch (const std::exception& error) {
-        say("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
+        notify("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
     }
 }
 
@@ -188,7 +186,7 @@ void Session::restore() {
             const Json on_disk = state.value("on_disk", Json::object());
             for (const auto& [file, digest] : on_disk.items()) watch_.know(file, digest);
         } catch (const std::exception&) {
-            say("warning", fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
+            notify("warning", fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
         }
     }
     if (options_.opened.path.empty() || (!options_.is_named && document_.is_open())) return;
@@ -209,7 +207,7 @@ void Session::begin_growth() {
 void Session::begin_next_growth() {
     if (!waits_ || !document_.is_open()) return;
     // A drag shows what it passes, even if it changes faster than the plant grows.
-    const std::unique_ptr<Shown>& latest = next_ ? next_ : growth_;
+    const std::unique_ptr<PlantSource>& latest = next_ ? next_ : growth_;
     if (document_.is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
     waits_ = false;
     is_busy_ = true;
@@ -258,7 +256,7 @@ void Session::failed(std::uint32_t growth, std::vector<Diagnostic> why) {
     post_([this, growth, why = std::move(why)] { note_failed(growth, why); });
 }
 
-void Session::retire(std::unique_ptr<Shown> growth) {
+void Session::retire(std::unique_ptr<PlantSource> growth) {
     if (!growth) return;
     growth->cancel();
     retired_.push_back(std::move(growth));
@@ -291,12 +289,12 @@ void Session::note_started(std::uint32_t growth, GrowthStart start) {
     reason_.clear();
     columns_.clear();
     rows_.clear();
-    if (!is_known) tell_document();
-    tell(problems_json());
-    tell(growth_json());
-    tell(columns_json());
-    tell(fields_json());
-    tell(view_json());
+    if (!is_known) broadcast_document();
+    broadcast(problems_json());
+    broadcast(growth_json());
+    broadcast(columns_json());
+    broadcast(fields_json());
+    broadcast(view_json());
     for (const auto& viewer : viewers_) {
         viewer->awaits.clear();
         if (viewer->step) send_when_drawn(*viewer, *viewer->step);
@@ -314,8 +312,8 @@ void Session::note_grown(std::uint32_t growth, const GrownStep& step) {
     const auto now = std::chrono::steady_clock::now();
     if (is_over || now - told_ > std::chrono::milliseconds(40)) {
         told_ = now;
-        tell(growth_json());
-        tell_statistics();
+        broadcast(growth_json());
+        broadcast_statistics();
     }
     for (const auto& viewer : viewers_) {
         const bool follows = step.step >= follow_from_ || step.seconds > patience;
@@ -333,7 +331,7 @@ void Session::note_drawn(std::uint32_t growth, int step, const std::string& stat
     const auto now = std::chrono::steady_clock::now();
     if (step == newest_.step || now - told_ > std::chrono::milliseconds(40)) {
         told_ = now;
-        tell_statistics();
+        broadcast_statistics();
     }
     for (const auto& viewer : viewers_) {
         if (viewer->awaits.contains(step)) send_packet(*viewer, step);
@@ -347,9 +345,9 @@ void Session::note_printed(std::uint32_t growth, const std::string& text) {
     printed_ += text;
     const bool is_cut = printed_.size() > most_shown;
     if (printed_message_ == 0) printed_message_ = ++last_message_;
-    say_as(printed_message_, "note",
-           "Printed by the model:\n" + printed_.substr(0, most_shown) +
-               (is_cut ? "\nMore is left out here; `espalier derive` prints it." : ""));
+    notify_as(printed_message_, "note",
+              "Printed by the model:\n" + printed_.substr(0, most_shown) +
+                  (is_cut ? "\nMore is left out here; `espalier derive` prints it." : ""));
 }
 
 // Pages that wait for a later step get the last there is.
@@ -357,8 +355,8 @@ void Session::note_stopped(std::uint32_t growth) {
     if (!growth_ || growth_->number() != growth) return;
     state_ = "stopped";
     is_busy_ = false;
-    tell(growth_json());
-    tell_statistics();
+    broadcast(growth_json());
+    broadcast_statistics();
     for (const auto& viewer : viewers_) show(*viewer);
     begin_next_growth();
 }
@@ -369,14 +367,14 @@ void Session::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& w
         retire(std::move(next_));
         if (growth_) growth_->rest(false);
         problems_ = why;
-        if (!is_document_told_) tell_document();
-        tell(problems_json());
+        if (!is_document_told_) broadcast_document();
+        broadcast(problems_json());
     } else if (growth_ && growth_->number() == growth) {
         state_ = "failed";
         for (const Diagnostic& diagnostic : why) reason_ += (reason_.empty() ? "" : "\n") + diagnostic.message;
         problems_ = why;
-        tell(problems_json());
-        tell(growth_json());
+        broadcast(problems_json());
+        broadcast(growth_json());
     }
     begin_next_growth();
 }
@@ -394,8 +392,8 @@ void Session::add_statistics(const std::string& rows) {
     }
 }
 
-void Session::tell_statistics() {
-    if (untold_rows_ < rows_.size()) tell(statistics_json(untold_rows_));
+void Session::broadcast_statistics() {
+    if (untold_rows_ < rows_.size()) broadcast(statistics_json(untold_rows_));
     untold_rows_ = rows_.size();
 }
 
@@ -423,23 +421,23 @@ void Session::send_packet(Viewer& viewer, int step) {
 
 // --- what pages are told
 
-void Session::tell(const Json& message) {
+void Session::broadcast(const Json& message) {
     const std::string text = message.dump(-1, ' ', false, Json::error_handler_t::replace);
     for (const auto& viewer : viewers_) viewer->page.send_text(text);
 }
 
-void Session::say(const std::string& severity, const std::string& text) {
-    say_as(++last_message_, severity, text);
+void Session::notify(const std::string& severity, const std::string& text) {
+    notify_as(++last_message_, severity, text);
 }
 
 // Instead of what this message said before.
-void Session::say_as(std::uint32_t number, const std::string& severity, const std::string& text) {
+void Session::notify_as(std::uint32_t number, const std::string& severity, const std::string& text) {
     Json& message = messages_[number];
     message = {{"say", "message"}, {"number", number}, {"severity", severity}, {"text", text}};
-    tell(message);
+    broadcast(message);
 }
 
-void Session::tell_all_to(Viewer& viewer) {
+void Session::send_state_to(Viewer& viewer) {
     viewer.is_new = false;
     const auto send = [&](const Json& message) {
         viewer.page.send_text(message.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -492,9 +490,9 @@ Json Session::fields_json() const {
 Json Session::textures_json() {
     Json files = Json::array(), reliefs = Json::array();
     const auto number = [this](const fs::path& file) { return file.empty() ? Json() : Json(files_.number(file)); };
-    for (const WornPicture& worn : growth_->textures()) {
-        files.push_back(number(worn.colours));
-        reliefs.push_back(number(worn.normals));
+    for (const BrowserTexture& texture : growth_->textures()) {
+        files.push_back(number(texture.colours));
+        reliefs.push_back(number(texture.normals));
     }
     return {{"say", "textures"}, {"growth", growth_->number()}, {"files", files}, {"reliefs", reliefs}};
 }

@@ -89,7 +89,7 @@ private:
     // The document.
     /// What a change begins with: of a run, what that grew from. Throws UserError if there is nothing to edit.
     const DocumentState& edited() const;
-    void tell_document();
+    void broadcast_document();
     void apply(DocumentState state, const std::string& label, bool transient);
     /// `before`: what was open. Pages that look at the last step see every one from `follow_from` on.
     void document_changed(const std::filesystem::path& before, std::optional<int> follow_from = {});
@@ -136,9 +136,9 @@ private:
     void note_stopped(std::uint32_t growth);
     void note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why);
     void add_statistics(const std::string& rows);
-    void retire(std::unique_ptr<Shown> growth);
+    void retire(std::unique_ptr<PlantSource> growth);
     void forget_ended();
-    Shown& grown_by(const Json& request) const;
+    PlantSource& grown_by(const Json& request) const;
     Json document_json() const;
     Json texts_json() const;
     Json settings_json() const;
@@ -153,16 +153,16 @@ private:
     /// From any thread: sends to a page, on the session's thread and if it is still here.
     void send_later(const Page* page, std::function<void(Page&)> send);
     Json statistics_json(std::size_t first) const;
-    void tell_statistics();
+    void broadcast_statistics();
     void show(Viewer& viewer);
     void send_when_drawn(Viewer& viewer, int step);
     void send_packet(Viewer& viewer, int step);
 
     // Pages.
-    void tell(const Json& message);
-    void say(const std::string& severity, const std::string& text);
-    void say_as(std::uint32_t number, const std::string& severity, const std::string& text);
-    void tell_all_to(Viewer& viewer);
+    void broadcast(const Json& message);
+    void notify(const std::string& severity, const std::string& text);
+    void notify_as(std::uint32_t number, const std::string& severity, const std::string& text);
+    void send_state_to(Viewer& viewer);
 
     const StudioOptions& options_;
     const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< gone: what threads have posted is not done
@@ -187,10 +187,10 @@ private:
 
     Workers workers_;
     std::uint32_t last_growth_ = 0;
-    bool waits_ = false;                           ///< a growth of the newest version is to begin
-    std::unique_ptr<Shown> next_;                  ///< reads its files; the present growth goes on if it cannot
-    std::unique_ptr<Shown> growth_;                ///< the one that pages see
-    std::vector<std::unique_ptr<Shown>> retired_;  ///< end after their step
+    bool waits_ = false;                                 ///< a growth of the newest version is to begin
+    std::unique_ptr<PlantSource> next_;                  ///< reads its files; the present growth goes on if it cannot
+    std::unique_ptr<PlantSource> growth_;                ///< the one that pages see
+    std::vector<std::unique_ptr<PlantSource>> retired_;  ///< end after their step
     GrowthStart start_;
     std::uint64_t own_seed_ = 0;  ///< what the files say, where nobody says more
     int own_steps_ = 0;

@@ -47,7 +47,7 @@ void Session::look_at_disk() {
         }
     }
     if (!unedited.empty()) read_again(unedited);
-    if (std::exchange(disputed_, disputed) != disputed_) tell_document();
+    if (std::exchange(disputed_, disputed) != disputed_) broadcast_document();
 }
 
 // As a change, which can be undone.
@@ -64,7 +64,8 @@ void Session::read_again(const std::vector<fs::path>& files) {
         names += (names.empty() ? "" : ", ") + file.filename().string();
     }
     if (read_again_message_ == 0) read_again_message_ = ++last_message_;
-    say_as(read_again_message_, "note", fmt::format("Another program has written {}: it has been read again.", names));
+    notify_as(read_again_message_, "note",
+              fmt::format("Another program has written {}: it has been read again.", names));
     apply(std::move(state), fmt::format("read {} again", names), false);
 }
 
@@ -76,7 +77,7 @@ Session::Json Session::settle(Viewer&, const Json& request) {
     if (disputed_.erase(file) == 0) throw UserError(fmt::format("no other program has written {}", file.string()));
     watch_.accept(file);
     if (take == "mine") {
-        tell_document();
+        broadcast_document();
     } else {
         DocumentState state = edited();
         state.unsaved.erase(file);

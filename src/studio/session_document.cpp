@@ -3,6 +3,7 @@
 #include "espalier/base/read_log.h"
 
 #include "base/folder.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "studio/document_files.h"
 #include "studio/graph_text.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <tuple>
 
@@ -30,12 +30,9 @@ void require_value(const WrittenNumber& number, const std::string& text) {
         if (text != "true" && text != "false") throw UserError(fmt::format("{} is true or false", number.name));
         return;
     }
-    double value = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || rest != text.data() + text.size() || !std::isfinite(value)) {
-        throw UserError(fmt::format("{}: '{}' is not a number", number.name, text));
-    }
-    if (value < number.lowest || value > number.highest) {
+    const std::optional<double> value = finite_number(text);
+    if (!value) throw UserError(fmt::format("{}: '{}' is not a number", number.name, text));
+    if (*value < number.lowest || *value > number.highest) {
         throw UserError(fmt::format("{} lies between {} and {}", number.name, format_general(number.lowest),
                                     format_general(number.highest)));
     }

@@ -26,7 +26,7 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
     if (running != limb_runs_.end()) running->second->cancel();
     waiting_limbs_.erase(&viewer.page);
     if (request.at("skin").is_null()) return Json::object();
-    const Shown& shown = grown_by(request);
+    const PlantSource& shown = grown_by(request);
     const int step = whole<int>(request, "step");
     if (!shown.has_packet(step)) throw UserError(fmt::format("step {} has not been drawn", step));
     const bool smooth = request["skin"].get<std::string>() == "smooth";
@@ -40,7 +40,7 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
         if (why.empty()) {
             send_later(page, [bytes = std::move(bytes)](Page& to) { to.send_bytes(bytes); });
         } else {
-            post_([this, why] { say("error", why); });
+            post_([this, why] { notify("error", why); });
         }
     };
     LimbOrder order{shown.packet(step), shown.textures(), smooth};

@@ -3,7 +3,7 @@
 
 #include "espalier/simulation/world.h"
 
-#include "studio/likeness.h"
+#include "studio/reuse_plan.h"
 #include "studio/spool.h"
 
 #include <memory>

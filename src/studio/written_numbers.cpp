@@ -4,13 +4,13 @@
 #include "espalier/language/model_settings.h"
 #include "espalier/language/notation.h"
 
+#include "base/number.h"
 #include "studio/scene_words.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstdlib>
 #include <optional>
 #include <regex>
@@ -203,7 +203,7 @@ private:
             at = std::min(text_.find_first_of("[], \t\r\n", from), end);
             if (from >= end) break;
             const std::string text = text_.substr(from, at - from);
-            const std::optional<double> value = number(text);
+            const std::optional<double> value = whole_text_as<double>(text);
             if (!value) return;  // a formula, or a comment
             const char axis = "xyz"[found.size() % 3];
             const std::size_t which = found.size() / 3;
@@ -252,7 +252,8 @@ private:
         const std::size_t behind = std::min(text_.find_first_of(" \t\r,}]#", at), end);
         const std::string text = at < behind ? text_.substr(at, behind - at) : "";
         const bool is_switch = text == "true" || text == "false";
-        const std::optional<double> value = is_switch ? std::optional(text == "true" ? 1.0 : 0.0) : number(text);
+        const std::optional<double> value =
+            is_switch ? std::optional(text == "true" ? 1.0 : 0.0) : whole_text_as<double>(text);
         if (!value) return;
         WrittenNumber found{.name = name, .label = comment(behind, end), .group = group, .text = text};
         if (found.label.empty()) found.label = words;
@@ -261,13 +262,6 @@ private:
         found.value = *value;
         found.offset = at;
         numbers_.push_back(std::move(found));
-    }
-
-    static std::optional<double> number(const std::string& text) {
-        double value = 0;
-        const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool is_whole = error == std::errc() && rest == text.data() + text.size();
-        return is_whole ? std::optional(value) : std::nullopt;
     }
 
     // What the rest of the line says behind its '#'.

@@ -34,7 +34,7 @@ void interpret(const Model& model, const SymbolTable& symbols, const ModuleStrin
                           options.plant, options.fields};
     result.clear();
     if (walk_in_parallel(input, options.chunk, result)) return;
-    const LentWalk walk(input, result);
+    const PooledWalk walk(input, result);
     walk->run(0, string.size(), 0);
     walk->finish();
 }

@@ -39,7 +39,7 @@ export class LimbLook {
     this.studio.connection.request("limbs", { skin: null }).catch(() => undefined);
     this.asked = "";
     this.studio.limbs = null;
-    this.scene.wear(null);
+    this.scene.setLimbs(null);
     this.note();
     this.ask(0);
   }
@@ -68,13 +68,13 @@ export class LimbLook {
     const packet = this.studio.frames.shown;
     if (!packet || packet.internodeCount === 0) return null;
     if (this.smooth) return "smooth";
-    return packet.wornLimbs && packet.internodeCount <= mostWithBark ? "tubes" : null;
+    return packet.texturedLimbs && packet.internodeCount <= mostWithBark ? "tubes" : null;
   }
 
   private follow(packet: Packet): void {
     const { limbs } = this.studio;
     if (limbs && limbs.growth === packet.growth && limbs.step === packet.step) {
-      this.scene.wear(limbs);
+      this.scene.setLimbs(limbs);
       return;
     }
     this.studio.limbs = null;
@@ -102,7 +102,7 @@ export class LimbLook {
     const { shown } = this.studio.frames;
     if (shown?.growth !== limbs.growth || shown.step !== limbs.step) return;
     this.studio.limbs = limbs;
-    this.scene.wear(limbs);
+    this.scene.setLimbs(limbs);
     this.note();
   }
 }

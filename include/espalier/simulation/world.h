@@ -48,7 +48,7 @@ public:
 
     /// Before start(): nobody will look at geometry or lineages. They are then not made, unless a process reads them or
     /// a model asks the turtle; frames have strings without lineage and empty interpretations.
-    void grow_unseen();
+    void skip_geometry();
     /// Before start(): the derivation length of all plants, instead of the scene's.
     void set_steps(int steps);
 

@@ -2,9 +2,10 @@
 
 #include "espalier/base/error.h"
 
+#include "base/number.h"
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <limits>
 #include <optional>
 
@@ -12,10 +13,8 @@ namespace espalier::app {
 namespace {
 
 std::optional<int> whole_number(const std::string& text) {
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 0) return std::nullopt;
-    return value;
+    const std::optional<int> value = whole_text_as<int>(text);
+    return value && *value >= 0 ? value : std::nullopt;
 }
 
 struct Steps {

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 
 #include "app/options.h"
+#include "base/number.h"
 #include "base/text.h"
 
 #include <fmt/format.h>

@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/run_command.h"
 #include "axis_surface_options.h"
+#include "base/number.h"
 #include "base/platform.h"
 #include "base/text.h"
 #include "frame_option.h"

@@ -48,9 +48,9 @@ bool is_done(const SweepRun& run) {
 }
 
 /// The runs that go on at the moment, by their process numbers.
-class Crew {
+class RunPool {
 public:
-    Crew(const Sweep& sweep, std::size_t total, bool quiet) : sweep_(sweep), total_(total), quiet_(quiet) {}
+    RunPool(const Sweep& sweep, std::size_t total, bool quiet) : sweep_(sweep), total_(total), quiet_(quiet) {}
 
     std::size_t size() const { return running_.size(); }
     std::size_t failed() const { return failed_; }
@@ -63,12 +63,12 @@ public:
         running_[start_run({command.begin() + 2, command.end()}, fs::current_path(), sweep_.log(run))] = &run;
     }
     /// None is left behind, even where the next cannot be started.
-    ~Crew() {
+    ~RunPool() {
         ask_to_end();
         for (const auto& entry : running_) platform::wait_for(entry.first);
     }
-    Crew(const Crew&) = delete;
-    Crew& operator=(const Crew&) = delete;
+    RunPool(const RunPool&) = delete;
+    RunPool& operator=(const RunPool&) = delete;
 
     /// Tells of those that have ended.
     void reap() {
@@ -191,17 +191,17 @@ Sweep::Outcome Sweep::run(int jobs, bool quiet) const {
     if (!quiet && left.size() < runs_.size()) {
         fmt::print(stderr, "{} of {} runs are already complete\n", runs_.size() - left.size(), runs_.size());
     }
-    Crew crew(*this, left.size(), quiet);
+    RunPool pool(*this, left.size(), quiet);
     int passed_on = 0;
-    for (std::size_t next = 0; crew.size() > 0 || (next < left.size() && signals.count() == 0);) {
-        while (signals.count() == 0 && next < left.size() && crew.size() < static_cast<std::size_t>(jobs)) {
-            crew.start(*left[next++]);
+    for (std::size_t next = 0; pool.size() > 0 || (next < left.size() && signals.count() == 0);) {
+        while (signals.count() == 0 && next < left.size() && pool.size() < static_cast<std::size_t>(jobs)) {
+            pool.start(*left[next++]);
         }
-        for (; passed_on < signals.count(); ++passed_on) crew.ask_to_end();
+        for (; passed_on < signals.count(); ++passed_on) pool.ask_to_end();
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        crew.reap();
+        pool.reap();
     }
-    return {crew.failed(), signals.count() > 0};
+    return {pool.failed(), signals.count() > 0};
 }
 
 std::vector<SweepResult> Sweep::results() const {

@@ -12,6 +12,7 @@
 #include "app/run_command.h"
 #include "app/setting_values.h"
 #include "app/temporary_folder.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "frame_option.h"
 #include "mesh_file_options.h"
@@ -21,7 +22,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <limits>
 #include <random>
@@ -95,9 +95,8 @@ std::uint64_t random_seed() {
 std::optional<std::uint64_t> parse_seed(const std::string& text) {
     if (text.empty()) return std::nullopt;
     if (text == "new") return random_seed();
-    std::int64_t seed = -1;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    if (error == std::errc() && end == text.data() + text.size() && seed >= 0) return static_cast<std::uint64_t>(seed);
+    const std::optional<std::int64_t> seed = whole_text_as<std::int64_t>(text);
+    if (seed && *seed >= 0) return static_cast<std::uint64_t>(*seed);
     throw UserError(fmt::format("--seed {}: expected a whole number of at least 0, or new", text));
 }
 

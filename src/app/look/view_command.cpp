@@ -9,12 +9,12 @@
 #include "app/options.h"
 #include "app/run_command.h"
 #include "app/temporary_folder.h"
+#include "base/number.h"
 #include "base/platform.h"
 #include "picture_options.h"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <sstream>
 #include <thread>
@@ -141,12 +141,9 @@ private:
     std::optional<int> step_of(const RecordedRun& recorded) const {
         if (step_.empty() || step_ == "last" || recorded.frames().empty()) return std::nullopt;
         if (step_ == "first") return recorded.frames().front().step;
-        int step = 0;
-        const auto [end, error] = std::from_chars(step_.data(), step_.data() + step_.size(), step);
-        if (error != std::errc() || end != step_.data() + step_.size()) {
-            throw UserError(fmt::format("--step {}: expected a step, first or last", step_));
-        }
-        return recorded.frame(step).step;
+        const std::optional<int> step = whole_text_as<int>(step_);
+        if (!step) throw UserError(fmt::format("--step {}: expected a step, first or last", step_));
+        return recorded.frame(*step).step;
     }
 
     int view_growing() {

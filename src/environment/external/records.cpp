@@ -3,11 +3,11 @@
 #include "espalier/base/error.h"
 
 #include "base/excerpt.h"
+#include "base/number.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 
 namespace espalier::environment {
@@ -39,13 +39,6 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// All of the text, or false.
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() && !text.empty();
-}
-
 [[noreturn]] void fail_at(std::string_view line, const std::string& why) {
     constexpr std::size_t most_shown = 80;
     throw RunError(
@@ -64,10 +57,11 @@ Record record_of(std::string_view line) {
     const std::size_t blank = line.find_first_of(" \t");
     const std::size_t open = std::min(line.find('('), line.size());
     const bool has_values = open < line.size();
-    if (blank == std::string_view::npos || blank > open || !read_number(line.substr(0, blank), record.address) ||
-        (has_values && line.back() != ')')) {
+    const auto address = whole_text_as<std::size_t>(line.substr(0, std::min(blank, line.size())));
+    if (blank == std::string_view::npos || blank > open || !address || (has_values && line.back() != ')')) {
         fail_at(line, "a line is ADDRESS MODULE(VALUE,...), or Control: FLAGS at the end");
     }
+    record.address = *address;
     record.module = trimmed(line.substr(blank, open - blank));
     if (!has_values) return record;
     std::string_view rest = line.substr(open + 1, line.size() - open - 2);
@@ -123,9 +117,9 @@ void AnswerReader::answer(std::string_view line) {
     }
     for (std::size_t i = 0; i < record.values.size(); ++i) {
         if (record.values[i].empty()) continue;
-        if (!read_number(record.values[i], answer[i])) {
-            fail_at(line, fmt::format("'{}' is no number", printable(std::string(record.values[i]))));
-        }
+        const std::optional<double> value = whole_text_as<double>(record.values[i]);
+        if (!value) fail_at(line, fmt::format("'{}' is no number", printable(std::string(record.values[i]))));
+        answer[i] = *value;
     }
 }
 

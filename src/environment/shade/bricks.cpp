@@ -66,7 +66,7 @@ void ShadeBricks::place_directory(const glm::ivec3& lower, const glm::ivec3& upp
     }
 }
 
-std::int32_t ShadeBricks::reach(const glm::ivec3& brick) {
+std::int32_t ShadeBricks::retain(const glm::ivec3& brick) {
     std::int32_t& number = directory_[place(brick)];
     if (number == none) {
         require_memory(places(), bricks_.size() - unused_.size() + 1);
@@ -78,7 +78,7 @@ std::int32_t ShadeBricks::reach(const glm::ivec3& brick) {
     return number;
 }
 
-void ShadeBricks::leave(std::int32_t number) {
+void ShadeBricks::release(std::int32_t number) {
     mark(static_cast<std::size_t>(number));
     if (--reach_[static_cast<std::size_t>(number)] == 0) remove(number);
 }

@@ -68,9 +68,9 @@ public:
     }
 
     /// One pyramid more reaches this brick, which there must be room for; a new brick is all 0.
-    std::int32_t reach(const glm::ivec3& brick);
+    std::int32_t retain(const glm::ivec3& brick);
     /// One pyramid less; the last leaves it all 0.
-    void leave(std::int32_t number);
+    void release(std::int32_t number);
     /// No pyramid reaches any brick.
     void clear();
     /// As many pyramids reach each place as `counts` says. The sums of all bricks are then unknown.

@@ -1,5 +1,7 @@
 #include "environment/shade/drawn_leaves.h"
 
+#include "geometry/vectors.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -73,11 +75,7 @@ void DrawnLeaves::add_disc(const Organ& organ) {
 }
 
 glm::dvec3 area_vector(std::span<const glm::dvec3> corners) {
-    glm::dvec3 twice(0);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        twice += glm::cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
-    }
-    return 0.5 * twice;
+    return geometry::area_vector(corners.size(), [&](std::size_t i) { return corners[i]; });
 }
 
 glm::dvec3 middle_of(std::span<const glm::dvec3> corners) {

@@ -184,8 +184,8 @@ void ShadeField::list(const ShadeCasts& casts, const ShadeCast& cast, const Shad
         parts_.push_back({layer, part.left, part.right, part.back, part.front, weight});
     };
     const auto list_brick = [&](const glm::ivec3& brick) {
-        const std::int32_t number = sign > 0 ? bricks_.reach(brick) : bricks_.find(brick);
-        if (sign < 0) bricks_.leave(number);
+        const std::int32_t number = sign > 0 ? bricks_.retain(brick) : bricks_.find(brick);
+        if (sign < 0) bricks_.release(number);
         Shade* sums = bricks_.sums(static_cast<std::size_t>(number));
         const glm::ivec3 origin = brick * edge;
         const Square whole = Square{bounds.lower.x, bounds.upper.x, bounds.lower.z, bounds.upper.z}.seen_from(origin);

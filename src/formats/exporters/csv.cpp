@@ -5,6 +5,7 @@
 #include "archive/meshes/surface_mesh.h"
 #include "base/csv_file.h"
 #include "base/text.h"
+#include "geometry/vectors.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -128,14 +129,11 @@ private:
         double area = 0;
         for (std::size_t cell = first; cell < end; ++cell) {
             const auto polygon = geometry.polygons[cell];
-            glm::dvec3 twice(0);  // Newell's
+            const auto corner = [&](std::size_t i) { return geometry.points[static_cast<std::size_t>(polygon[i])]; };
             for (std::size_t i = 0; i < polygon.size(); ++i) {
-                const glm::vec3 here = geometry.points[static_cast<std::size_t>(polygon[i])];
-                const glm::vec3 next = geometry.points[static_cast<std::size_t>(polygon[(i + 1) % polygon.size()])];
-                twice += glm::cross(glm::dvec3(here) - glm::dvec3(base), glm::dvec3(next) - glm::dvec3(base));
-                if (glm::distance(here, base) > glm::distance(farthest, base)) farthest = here;
+                if (glm::distance(corner(i), base) > glm::distance(farthest, base)) farthest = corner(i);
             }
-            area += glm::length(twice) / 2;
+            area += glm::length(geometry::area_vector(polygon.size(), corner));
         }
         const RecordedAttributes& of = geometry.of_cells;
         begin_row(frame, geometry,

@@ -1,6 +1,7 @@
 #include "geometry/foliage/bearing_nodes.h"
 
 #include "geometry/internode_bearers.h"
+#include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
 
@@ -23,9 +24,7 @@ glm::dvec3 direction_of(const Internode& internode) {
 glm::dvec3 across(const glm::dvec3& direction, const glm::dvec3& reference) {
     const glm::dvec3 part = reference - direction * glm::dot(reference, direction);
     const double length = glm::length(part);
-    if (length > 1e-6) return part / length;
-    const glm::dvec3 other = std::abs(direction.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    return glm::normalize(other - direction * glm::dot(other, direction));
+    return length > 1e-6 ? part / length : any_across(direction);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "geometry/foliage/leaf_shade.h"
 #include "geometry/foliage/leaf_shapes.h"
 #include "geometry/surface_id.h"
+#include "geometry/vectors.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -116,8 +117,7 @@ private:
     }
 
     Pose facing_light(const glm::dvec3& position, double around) const {
-        const glm::dvec3 other = std::abs(light_.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-        const glm::dvec3 a = glm::normalize(glm::cross(light_, other)), b = glm::cross(light_, a);
+        const glm::dvec3 a = glm::normalize(glm::cross(light_, axis_apart_from(light_))), b = glm::cross(light_, a);
         const glm::dvec3 heading = math::cos(around) * a + math::sin(around) * b;
         return {position, heading, glm::cross(heading, light_), light_};
     }

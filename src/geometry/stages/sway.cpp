@@ -7,6 +7,7 @@
 
 #include "geometry/internode_bearers.h"
 #include "geometry/rigid_motion.h"
+#include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -79,8 +80,7 @@ Rods::Rods(const Column<Internode>& internodes, const std::vector<std::uint32_t>
 
 /// Two directions across another, at right angles to each other.
 std::array<glm::dvec3, 2> axes_across(const glm::dvec3& along) {
-    const glm::dvec3 other = std::abs(along.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    const glm::dvec3 a = glm::normalize(glm::cross(along, other));
+    const glm::dvec3 a = glm::normalize(glm::cross(along, axis_apart_from(along)));
     return {a, glm::cross(along, a)};
 }
 

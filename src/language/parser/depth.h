@@ -5,15 +5,15 @@
 
 namespace espalier::language {
 
-class ExpressionParser::Deeper {
+class ExpressionParser::DepthGuard {
 public:
-    Deeper(int& depth, const Scanner& in) : depth_(depth) {
+    DepthGuard(int& depth, const Scanner& in) : depth_(depth) {
         if (depth_ >= deepest) throw SyntaxError{in.here(), "this is nested too deeply (more than 500 levels)"};
         ++depth_;
     }
-    ~Deeper() { --depth_; }
-    Deeper(const Deeper&) = delete;
-    Deeper& operator=(const Deeper&) = delete;
+    ~DepthGuard() { --depth_; }
+    DepthGuard(const DepthGuard&) = delete;
+    DepthGuard& operator=(const DepthGuard&) = delete;
 
 private:
     static constexpr int deepest = 500;

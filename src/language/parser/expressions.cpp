@@ -62,7 +62,7 @@ ExpressionParser::AssignmentSign ExpressionParser::sign_after_name() {
 }
 
 Expression ExpressionParser::expression() {
-    const Deeper deeper(depth_, in_);
+    const DepthGuard guard(depth_, in_);
     in_.skip();
     const Location at = in_.here();
     if (const AssignmentSign sign = sign_after_name(); sign.length > 0 && !sign.step) {
@@ -105,7 +105,7 @@ Expression ExpressionParser::assignment(Expression target, Location at) {
 Expression ExpressionParser::conditional() {
     Expression test = binary(1);
     if (!in_.accept("?")) return test;
-    const Deeper deeper(depth_, in_);
+    const DepthGuard guard(depth_, in_);
     const int test_height = height_;
     Expression result;
     result.kind = Expression::Kind::conditional;
@@ -189,7 +189,7 @@ Expression ExpressionParser::infixed(Operator op, Location at, Expression left, 
 }
 
 Expression ExpressionParser::unary() {
-    const Deeper deeper(depth_, in_);
+    const DepthGuard guard(depth_, in_);
     in_.skip();
     const Location at = in_.here();
     if (in_.peek() == '!' && in_.peek(1) != '=') {
@@ -347,7 +347,7 @@ bool ExpressionParser::is_before_braces() const {
 
 Expression ExpressionParser::call(std::string_view name, Location at) {
     const Scanner::Inside inside(in_);
-    const Deeper deeper(depth_, in_);
+    const DepthGuard guard(depth_, in_);
     const bool ends_at_arrow = std::exchange(ends_at_arrow_, false);
     const FunctionEntry* entry = find_function(name);
     if (!entry) {

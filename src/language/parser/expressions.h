@@ -73,7 +73,7 @@ private:
     void end_of_statement();
     void recover_in_block();
 
-    class Deeper;
+    class DepthGuard;
 
     Scanner& in_;
     Names& names_;

@@ -1,5 +1,6 @@
 #include "language/parser/model.h"
 
+#include "base/number.h"
 #include "base/text.h"
 #include "language/parser/constant.h"
 #include "language/parser/declarations.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <utility>
 #include <vector>
@@ -144,12 +144,9 @@ private:
         std::string_view text = in_.text(begin, in_.position());
         while (!text.empty() && (is_blank(text.back()) || text.back() == ';')) text.remove_suffix(1);
         system_->label = text;
-        int number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool is_number = error == std::errc() && end == text.data() + text.size();
-        if (is_number) {
-            system_->label = std::to_string(number);
-            const auto [first, is_new] = labels_.try_emplace(number, at);
+        if (const std::optional<int> number = whole_text_as<int>(text)) {
+            system_->label = std::to_string(*number);
+            const auto [first, is_new] = labels_.try_emplace(*number, at);
             if (is_new) return;
             mistakes_.error(at, fmt::format("an L-system with the label {} is in {} already", number,
                                             to_string(names_.place(first->second))));

@@ -10,7 +10,7 @@ namespace espalier::language {
 
 Block ExpressionParser::block() {
     const Scanner::Inside inside(in_, Scanner::Inside::braces);
-    const Deeper deeper(depth_, in_);
+    const DepthGuard guard(depth_, in_);
     const bool ends_at_arrow = std::exchange(ends_at_arrow_, false);
     in_.skip();
     const Location begin = in_.here();

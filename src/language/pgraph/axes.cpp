@@ -59,8 +59,8 @@ std::string end_of_surface(const ComponentText& text) {
 
 /// What is drawn where an axis begins; nothing where it goes on along the surface of the one before.
 void write_beginning(ComponentText& text, const std::string& module, const std::string& rest) {
-    const bool may_go_on = text.structure().may_go_on(text.component().name);
-    if (may_go_on)
+    const bool can_continue = text.structure().can_continue(text.component().name);
+    if (can_continue)
         text.homomorphism.push_back(fmt::format("{} : joined > 0 --> {}", module, rest.empty() ? "*" : rest));
     const std::string drawn = surface(text) + rest;
     text.homomorphism.push_back(fmt::format("{} --> {}", module, drawn.empty() ? "*" : drawn));
@@ -112,7 +112,7 @@ void write_horn(ComponentText& text) {
     Parameters parameters = text.parameters(keys);
     parameters.emplace_back("pieces", text.values().whole("pieces"));
     const std::string names = names_of(parameters), piece = text.kept() + "Piece";
-    if (text.structure().may_go_on(text.component().name)) parameters.emplace_back("joined", "joined");
+    if (text.structure().can_continue(text.component().name)) parameters.emplace_back("joined", "joined");
     const std::string horn = text.declared(text.kept(), names_of(parameters));
     text.productions.push_back(fmt::format("{}({}) --> {}{}({}){}{}", text.bud(), text.place(), text.placing(),
                                            text.kept(), values_of(parameters), text.followers(LinkKind::child),
@@ -166,8 +166,8 @@ void write_tree(ComponentText& text) {
     const std::string axis = text.kept() + "Axis";
     const std::string start = has_branches ? fmt::format("branches > 0 ? {} : 0", highest) : "0";
     const std::string branches = has_branches ? fmt::format("{}(0, branches{}, {}) ", each, text.depths(), names) : "";
-    const bool may_go_on = text.structure().may_go_on(text.component().name);
-    const std::string kept = text.declared(text.kept(), may_go_on ? joined(names, "joined") : names);
+    const bool can_continue = text.structure().can_continue(text.component().name);
+    const std::string kept = text.declared(text.kept(), can_continue ? joined(names, "joined") : names);
     text.decomposition.push_back(fmt::format("{} --> {} {}{}({}, 1, {}){}{}{}", whole, kept, branches, axis, start,
                                              axis_names, end_of_surface(text), text.followers(LinkKind::child),
                                              text.continuation()));

@@ -28,9 +28,9 @@ ComponentText::ComponentText(const Graph& graph, const Structure& structure, con
       origins_(origins),
       component_(component),
       values_(component, structure, origins) {
-    for (const std::string& head : structure.heads_around(component.name)) depths_ += ", depth_" + head;
+    for (const std::string& head : structure.enclosing_recursions(component.name)) depths_ += ", depth_" + head;
     declared(bud(), place());
-    const std::vector<std::string>& heads = structure.heads_around(component.name);
+    const std::vector<std::string>& heads = structure.enclosing_recursions(component.name);
     if (!heads.empty() && heads.back() == component.name) {
         decomposition.push_back(fmt::format("{}({}) : depth_{} > {} --> *", bud(), place(), component.name,
                                             structure.limit(component.name)));
@@ -114,13 +114,13 @@ std::string ComponentText::pull(const std::string& share) const {
 
 std::string ComponentText::bud_of(const Link& link) const {
     std::string arguments = "i, n";
-    const std::vector<std::string>& here = structure_.heads_around(link.from);
-    for (const std::string& head : structure_.heads_around(link.to)) {
+    const std::vector<std::string>& here = structure_.enclosing_recursions(link.from);
+    for (const std::string& head : structure_.enclosing_recursions(link.to)) {
         const bool is_inside = std::find(here.begin(), here.end(), head) != here.end();
         const char* deeper = head == link.to ? " + 1" : "";
         arguments += is_inside ? fmt::format(", depth_{}{}", head, deeper) : ", 1";
     }
-    if (structure_.may_go_on(link.to)) {
+    if (structure_.can_continue(link.to)) {
         arguments += &link == structure_.continuing_link(link.from) ? ", 1" : ", 0";
     }
     return call(link.to, arguments);

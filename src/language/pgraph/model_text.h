@@ -27,7 +27,9 @@ public:
     std::string bud() const { return component_.name; }
     std::string kept() const;
     /// Parameters that say where an instance stands: "i, n" and the depths of the recursions around.
-    std::string place() const { return "i, n" + depths_ + (structure_.may_go_on(component_.name) ? ", joined" : ""); }
+    std::string place() const {
+        return "i, n" + depths_ + (structure_.can_continue(component_.name) ? ", joined" : "");
+    }
     const std::string& depths() const { return depths_; }
 
     /// A module with parameters in parentheses, or without both; declares it on the left of an arrow.

@@ -168,7 +168,7 @@ void Structure::order_heads() {
     }
 }
 
-const std::vector<std::string>& Structure::heads_around(const std::string& component) const {
+const std::vector<std::string>& Structure::enclosing_recursions(const std::string& component) const {
     return heads_.at(component);
 }
 
@@ -213,7 +213,7 @@ const Link* Structure::continuing_link(const std::string& from) const {
     return nullptr;
 }
 
-bool Structure::may_go_on(const std::string& component) const {
+bool Structure::can_continue(const std::string& component) const {
     return std::any_of(graph_.components.begin(), graph_.components.end(), [&](const Component& each) {
         const Link* link = continuing_link(each.name);
         return link && link->to == component;
@@ -230,7 +230,7 @@ int Structure::generations() const {
         int steps = 0;
         for (const Link* link : links_from(name)) {
             Depths next;
-            for (const std::string& head : heads_around(link->to)) {
+            for (const std::string& head : enclosing_recursions(link->to)) {
                 const auto here = depths.find(head);
                 next[head] = here == depths.end() ? 1 : here->second + (head == link->to);
             }

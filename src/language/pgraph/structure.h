@@ -22,7 +22,7 @@ public:
     /// True if the link leads back to a component on the way to it.
     bool leads_back(const Link& link) const { return back_.contains(&link); }
     /// The heads of the recursions that a component is part of, outermost first.
-    const std::vector<std::string>& heads_around(const std::string& component) const;
+    const std::vector<std::string>& enclosing_recursions(const std::string& component) const;
     /// Instances of a head on one path.
     int limit(const std::string& head) const;
     std::vector<const Link*> links_from(const std::string& component) const;
@@ -33,7 +33,7 @@ public:
     /// The first child link to an axis with as many sides: the surface goes on there. Null if there is none.
     const Link* continuing_link(const std::string& from) const;
     /// Such a link leads to it.
-    bool may_go_on(const std::string& component) const;
+    bool can_continue(const std::string& component) const;
     /// Steps from the camera to the last instance of the longest path.
     int generations() const;
 

@@ -58,8 +58,8 @@ std::string axiom(const Structure& structure) {
     std::string text;
     for (const Link* link : structure.links_from(camera)) {
         text += fmt::format(" [ {}(0, 1", link->to);
-        for (std::size_t k = 0; k < structure.heads_around(link->to).size(); ++k) text += ", 1";
-        if (structure.may_go_on(link->to)) text += ", 0";
+        for (std::size_t k = 0; k < structure.enclosing_recursions(link->to).size(); ++k) text += ", 1";
+        if (structure.can_continue(link->to)) text += ", 0";
         text += ") ]";
     }
     return text;

@@ -207,7 +207,7 @@ std::vector<double> numbers_of(const Graph& graph, const Value& list) {
 
 Values::Values(const Component& component, const Structure& structure, const Origins& origins)
     : component_(component), origins_(origins), depth_("1") {
-    const std::vector<std::string>& heads = structure.heads_around(component.name);
+    const std::vector<std::string>& heads = structure.enclosing_recursions(component.name);
     if (!heads.empty()) depth_ = "depth_" + heads.back();
 }
 

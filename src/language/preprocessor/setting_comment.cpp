@@ -1,8 +1,8 @@
 #include "language/preprocessor/setting_comment.h"
 
+#include "base/number.h"
 #include "language/preprocessor/macros.h"
 
-#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -33,8 +33,9 @@ std::vector<std::string_view> parts_of(std::string_view comment) {
 bool read_end(std::string_view text, double& end) {
     text = trimmed(text);
     if (text.empty()) return true;
-    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), end);
-    return error == std::errc() && last == text.data() + text.size() && std::isfinite(end);
+    const std::optional<double> number = finite_number(text);
+    end = number.value_or(end);
+    return number.has_value();
 }
 
 /// "0..1", "0..", "1..400 whole".

@@ -1,11 +1,11 @@
 #include "base/characters.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "language/weber_penn/species.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -116,14 +116,10 @@ private:
                                                     name.text, did_you_mean(name.text, names)));
         }
         if (!seen_.insert(name.text).second) return mistake(name.column, fmt::format("'{}' is set twice", name.text));
-        double number = 0;
-        const char *begin = value.text.data(), *end = begin + value.text.size();
-        const auto [read, error] = std::from_chars(begin, end, number);
-        if (value.text.empty() || error != std::errc() || read != end || !std::isfinite(number)) {
-            return mistake(value.column, fmt::format("'{}' is a number, not '{}'", name.text, value.text));
-        }
-        check_range(*found->second.parameter, name.text, number, value.column);
-        species_.set(name.text, number, {0, number_, static_cast<int>(name.column) + 1});
+        const std::optional<double> number = finite_number(value.text);
+        if (!number) return mistake(value.column, fmt::format("'{}' is a number, not '{}'", name.text, value.text));
+        check_range(*found->second.parameter, name.text, *number, value.column);
+        species_.set(name.text, *number, {0, number_, static_cast<int>(name.column) + 1});
     }
 
     void check_range(const Parameter& parameter, const std::string& name, double number, std::size_t column) {

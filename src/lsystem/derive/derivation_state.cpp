@@ -42,7 +42,7 @@ Derivation::State::State(std::shared_ptr<const CompiledModel> compiled, Derivati
     if (!main.length.reads_variables()) {
         evaluate_length();
     } else {
-        rehearse([&](Services& silent) {
+        dry_run([&](Services& silent) {
             block_machine.attach(&variables, &silent, Stream::blocks);
             run_block(main.start, "the Start block");
             evaluate_length();
@@ -56,7 +56,7 @@ bool Derivation::State::keeps_lineage(bool asked) const {
     return asked || model->nested || model->samples || model->any(&CompiledSystem::picture_samples);
 }
 
-void Derivation::State::rehearse(const std::function<void(Services& silent)>& work) {
+void Derivation::State::dry_run(const std::function<void(Services& silent)>& work) {
     ModelFiles scratch_files(settings.input_folder, {});
     Services silent = services;
     silent.print = [](const std::string&) {};

@@ -26,7 +26,7 @@ struct Derivation::State {
     void in_block(Machine& machine, const std::string& name, const std::function<void()>& work);
     RandomKey key(Stream stream) const { return RandomKey(settings.seed, settings.plant, stream, services.salt); }
     /// Runs something with services that print nothing and write nothing.
-    void rehearse(const std::function<void(Services& silent)>& work);
+    void dry_run(const std::function<void(Services& silent)>& work);
     void evaluate_seed();
     void evaluate_length();
     void evaluate_axiom(ModuleString& string);

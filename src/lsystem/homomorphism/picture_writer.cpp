@@ -194,7 +194,7 @@ Variables& PictureWriter::variables_of(std::uint32_t scope) {
 
 // Its real Start block is still to come: this one is neither heard nor seen.
 void PictureWriter::run_start(const CompiledSystem& system, Variables& variables) {
-    state_->rehearse([&](Services& silent) {
+    state_->dry_run([&](Services& silent) {
         Machine machine = system.machine();
         machine.attach(&variables, &silent, Stream::blocks);
         machine.sample_with(state_->block_random);

@@ -1,6 +1,7 @@
 #include "espalier/base/error.h"
 #include "espalier/lsystem/resources.h"
 
+#include "base/cubic_basis.h"
 #include "lsystem/model/clamped_spline.h"
 
 #include <fmt/format.h>
@@ -25,10 +26,8 @@ Four four(const std::vector<glm::dvec3>& points, std::size_t first) {
 }
 
 glm::dvec3 uniform(const Four& q, double u) {
-    const double v = 1 - u;
-    return (v * v * v * q[0] + (3 * u * u * u - 6 * u * u + 4) * q[1] +
-            (-3 * u * u * u + 3 * u * u + 3 * u + 1) * q[2] + u * u * u * q[3]) /
-           6.0;
+    const auto [a, b, c, d] = b_spline_sixths(u);
+    return (a * q[0] + b * q[1] + c * q[2] + d * q[3]) / 6.0;
 }
 
 glm::dvec3 bezier(const Four& q, double u) {

@@ -1,12 +1,12 @@
 #include "picture/charts/sweep_charts.h"
 
+#include "base/number.h"
 #include "picture/charts/quantity.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -32,23 +32,16 @@ struct Axis {
     double place(std::size_t i) const { return numbers.empty() ? static_cast<double>(i) : numbers[i]; }
 };
 
-std::optional<double> number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-    return is_number ? std::optional(value) : std::nullopt;
-}
-
 Axis axis_of(const SweptRuns& sweep, std::size_t column) {
     Axis axis{column, sweep.keys[column], {}, {}};
     for (const SweptRun& run : sweep.runs) {
         if (axis.index(run) == axis.names.size()) axis.names.push_back(run.values[column]);
     }
-    const auto is_number = [](const std::string& name) { return number(name).has_value(); };
+    const auto is_number = [](const std::string& name) { return finite_number(name).has_value(); };
     if (!std::all_of(axis.names.begin(), axis.names.end(), is_number)) return axis;
     std::sort(axis.names.begin(), axis.names.end(),
-              [](const std::string& a, const std::string& b) { return *number(a) < *number(b); });
-    for (const std::string& name : axis.names) axis.numbers.push_back(*number(name));
+              [](const std::string& a, const std::string& b) { return *finite_number(a) < *finite_number(b); });
+    for (const std::string& name : axis.names) axis.numbers.push_back(*finite_number(name));
     return axis;
 }
 

@@ -3,6 +3,7 @@
 #include "archive/meshes/axis_lines.h"
 #include "archive/meshes/skin.h"
 #include "archive/meshes/surface_mesh.h"
+#include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
@@ -192,11 +193,7 @@ glm::dvec3 area_of(const RecordedGeometry& geometry, std::size_t cell) {
     const auto corner = [&](std::size_t k) {
         return glm::dvec3(geometry.points[static_cast<std::size_t>(corners[k])]);
     };
-    glm::dvec3 area(0);
-    for (std::size_t k = 2; k < corners.size(); ++k) {
-        area += glm::cross(corner(k - 1) - corner(0), corner(k) - corner(0)) / 2.0;
-    }
-    return area;
+    return geometry::area_vector(corners.size(), corner);
 }
 
 /// How many cells from `cell` on belong to its module.

@@ -36,7 +36,7 @@ public:
           record_(world_, options) {
         warn();
         if (!options.output.empty()) open_timeline();
-        if (!timeline_ || !timeline_->reads_plants()) world_.grow_unseen();
+        if (!timeline_ || !timeline_->reads_plants()) world_.skip_geometry();
     }
 
     RunResult walk() {

@@ -1,12 +1,12 @@
 #include "simulation/scene/scene_keyframes.h"
 
+#include "base/number.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -23,10 +23,8 @@ namespace {
 
 /// The table that a number in a key counts, if there are so many.
 std::optional<std::size_t> index_of(const std::string& word, std::size_t count) {
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
-    const bool is_number = error == std::errc() && end == word.data() + word.size();
-    return is_number && index < count ? std::optional(index) : std::nullopt;
+    const std::optional<std::size_t> index = whole_text_as<std::size_t>(word);
+    return index && *index < count ? index : std::nullopt;
 }
 
 std::string joined(const std::vector<std::string>& words, std::size_t from) {

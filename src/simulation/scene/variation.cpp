@@ -2,12 +2,13 @@
 
 #include "espalier/base/error.h"
 
+#include "base/number.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -27,20 +28,13 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
     return parts;
 }
 
-std::optional<double> number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
-}
-
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
     throw UserError(fmt::format("--vary {}: {}", text, why));
 }
 
 // Twelve digits: 0.3 is written so, whatever the last bit of its sum was.
 std::vector<std::string> evenly(const std::string& text, const std::vector<std::string>& parts) {
-    const auto first = number(parts[0]), last = number(parts[1]), count = number(parts[2]);
+    const auto first = finite_number(parts[0]), last = finite_number(parts[1]), count = finite_number(parts[2]);
     if (!first || !last || !count || !std::isfinite(*last - *first) || *count != std::trunc(*count) ||
         !(*count >= 1 && *count <= most)) {
         refuse(text, "FIRST:LAST:COUNT are expected, such as 0.1:0.9:9");
@@ -54,7 +48,7 @@ std::vector<std::string> evenly(const std::string& text, const std::vector<std::
 }
 
 std::vector<std::string> one_by_one(const std::string& text, const std::vector<std::string>& parts) {
-    const auto first = number(parts[0]), last = number(parts[1]);
+    const auto first = finite_number(parts[0]), last = finite_number(parts[1]);
     const bool whole = first && last && *first == std::trunc(*first) && *last == std::trunc(*last);
     if (!whole || *first > *last || std::max(-*first, *last) > 1e15) {
         refuse(text, "FIRST..LAST are expected, whole numbers such as 1..10");

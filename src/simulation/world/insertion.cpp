@@ -1,23 +1,15 @@
 #include "simulation/world/insertion.h"
 
+#include "base/number.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace espalier::simulation {
 namespace {
-
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 /// Reads modules in the letters of an alphabet, as strings are printed: symbols side by side, parameters as numbers.
 class ModuleReader {
@@ -61,7 +53,7 @@ private:
         const std::size_t end = rest_.find(')');
         if (end == std::string_view::npos) fail("')' is missing");
         for (const std::string& word : words_of(rest_.substr(1, end - 1), ", \t")) {
-            const std::optional<double> value = number_of<double>(word);
+            const std::optional<double> value = whole_text_as<double>(word);
             if (!value || !std::isfinite(*value)) fail(fmt::format("'{}' is no number", word));
             values.push_back(*value);
         }
@@ -101,14 +93,14 @@ Insertion read_insertion(const std::string& text, const Place& place) {
     // Symbols may contain `@` and `:`; the step is a number behind the last `@` that has one.
     for (std::size_t at = text.rfind('@'); at != std::string::npos && at > 0; at = text.rfind('@', at - 1)) {
         const std::size_t end = std::min(text.find(':', at), text.size());
-        const auto step = number_of<int>(std::string_view(text).substr(at + 1, end - at - 1));
+        const auto step = whole_text_as<int>(std::string_view(text).substr(at + 1, end - at - 1));
         if (!step || *step < 0) continue;
         insertion.modules = text.substr(0, at);
         insertion.step = *step;
         insertion.before = end < text.size() ? text.substr(end + 1) : "";
         const std::size_t dot = insertion.before.rfind('.');
         if (dot == std::string::npos || dot == 0) return insertion;
-        const auto number = number_of<int>(std::string_view(insertion.before).substr(dot + 1));
+        const auto number = whole_text_as<int>(std::string_view(insertion.before).substr(dot + 1));
         if (!number || *number < 1) break;
         insertion.number = *number;
         insertion.before.erase(dot);

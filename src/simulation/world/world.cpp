@@ -51,7 +51,7 @@ std::string folder_of(const std::string& name) {
 }
 
 // What a scene leaves open: plants draw by their number in the scene, and bear their model's name with a number.
-Scene decided(Scene scene) {
+Scene with_defaults(Scene scene) {
     std::set<std::string> names;
     for (const Plant& plant : scene.plants) names.insert(plant.name);
     for (std::size_t i = 0; i < scene.plants.size(); ++i) {
@@ -234,7 +234,7 @@ std::filesystem::path folder_with(const Model& model) {
 World::State::State(const Scene& described, std::size_t bytes, const std::filesystem::path& files,
                     std::shared_ptr<Printout> prints)
     : printout(prints ? std::move(prints) : std::make_shared<Printout>()),
-      scene(decided(described)),
+      scene(with_defaults(described)),
       budget(bytes),
       memory(share_memory(bytes, 0).plants) {
     make_environment();
@@ -324,7 +324,7 @@ void World::attach(Recorder& recorder) {
     state_->memory.count_recorder(recorder);
 }
 
-void World::grow_unseen() {
+void World::skip_geometry() {
     State& state = *state_;
     const bool asks = std::any_of(state.plants.begin(), state.plants.end(),
                                   [](const GrowingPlant& plant) { return has_queries(plant.model().alphabet); });

@@ -1,12 +1,12 @@
 #include "timeline/meshes/chosen_parameters.h"
 
+#include "base/number.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -74,9 +74,8 @@ ChosenParameter chosen_parameter(const std::string& text, const std::string& nam
     // The last dot separates: `.` may itself be a symbol.
     const std::size_t dot = text.rfind('.');
     const std::string_view digits = dot == std::string::npos ? "" : std::string_view(text).substr(dot + 1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), chosen.number);
-    if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() || chosen.number < 1 ||
-        dot == 0) {
+    chosen.number = whole_text_as<decltype(chosen.number)>(digits).value_or(0);
+    if (chosen.number < 1 || dot == 0) {
         throw UserError(place, fmt::format("'{}' must be a symbol, a dot and the number of a parameter counted "
                                            "from 1, as in \"F.2\" or \"?E.1\", not \"{}\"",
                                            name, text));

@@ -4,6 +4,7 @@
 
 #include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
+#include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>
 
@@ -51,12 +52,7 @@ private:
 
 /// The normal of a polygon by Newell's method, which no vertex in line with its neighbours disturbs.
 glm::dvec3 normal_of(const glm::dvec3* vertices, std::uint32_t count) {
-    glm::dvec3 sum(0);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        sum += glm::cross(vertices[i] - vertices[0], vertices[(i + 1) % count] - vertices[0]);
-    }
-    const double length = glm::length(sum);
-    return length > 0 ? sum / length : glm::dvec3(0, 0, 1);
+    return geometry::unit_or(geometry::area_vector(count, [&](std::size_t i) { return vertices[i]; }), {0, 0, 1});
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ void Stretch::walk(const WalkInput& input, const Stretch* last, Interpretation& 
     const Walk::Room room{internodes(result), std::span(result.queries).subspan(before.queries, plan.counts().queries),
                           std::span(result.answers).subspan(before.answers, plan.counts().answers)};
     try {
-        const LentWalk walk(input, rest, &room);
+        const PooledWalk walk(input, rest, &room);
         const bool goes_on = last && last->numbered;
         walk->state() = goes_on ? last->end : start;
         if (goes_on) rest.geometry.axes = last->rest.geometry.axes;
@@ -121,7 +121,7 @@ bool predict(const WalkInput& input, std::deque<Stretch>& stretches) {
     for (std::size_t k = 0; k + 1 < stretches.size(); ++k) ahead += stretches[k].plan.kept();
     if (ahead > input.string.size() / least_share) return false;
     Interpretation scratch;
-    stretches[0].start = LentWalk(input, scratch)->state();
+    stretches[0].start = PooledWalk(input, scratch)->state();
     scratch.geometry.axes = taken_over;
     try {
         for (std::size_t k = 1; k < stretches.size(); ++k) {

@@ -98,7 +98,7 @@ void WalkPlan::advance(const WalkInput& input, std::size_t parameters, WalkState
     const std::uint32_t axes = scratch.geometry.axes;
     scratch.clear();
     scratch.geometry.axes = axes;
-    const LentWalk walk(input, scratch);
+    const PooledWalk walk(input, scratch);
     walk->state() = state;
     for (std::size_t pop = 0; pop < pops_; ++pop) walk->walk().pop();
     for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {

@@ -17,7 +17,7 @@ std::vector<std::unique_ptr<StringWalk>>& spare_walks() {
 
 }  // namespace
 
-LentWalk::LentWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room) {
+PooledWalk::PooledWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room) {
     std::vector<std::unique_ptr<StringWalk>>& spare = spare_walks();
     if (spare.empty()) {
         walk_ = std::make_unique<StringWalk>();
@@ -28,7 +28,7 @@ LentWalk::LentWalk(const WalkInput& input, Interpretation& result, const Walk::R
     walk_->begin(input, result, room);
 }
 
-LentWalk::~LentWalk() {
+PooledWalk::~PooledWalk() {
     walk_->end();
     spare_walks().push_back(std::move(walk_));
 }

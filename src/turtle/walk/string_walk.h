@@ -59,12 +59,12 @@ private:
 };
 
 /// A walk of this thread's: plants are many, and its memory and the angles it knows are those of the next.
-class LentWalk {
+class PooledWalk {
 public:
-    LentWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room = nullptr);
-    ~LentWalk();
-    LentWalk(const LentWalk&) = delete;
-    LentWalk& operator=(const LentWalk&) = delete;
+    PooledWalk(const WalkInput& input, Interpretation& result, const Walk::Room* room = nullptr);
+    ~PooledWalk();
+    PooledWalk(const PooledWalk&) = delete;
+    PooledWalk& operator=(const PooledWalk&) = delete;
 
     StringWalk& operator*() const { return *walk_; }
     StringWalk* operator->() const { return walk_.get(); }

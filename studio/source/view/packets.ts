@@ -54,7 +54,7 @@ export interface Packet extends TriangleMesh {
   internodes: Uint32Array;
   groups: ShapeGroup[];
   /** Whether limbs wear pictures, such as bark. */
-  wornLimbs: boolean;
+  texturedLimbs: boolean;
   labels: Label[];
 }
 
@@ -184,13 +184,13 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
   const indices = reader.numbers(indexCount);
   const groups: ShapeGroup[] = [];
   for (let i = 0; i < groupCount; i++) groups.push(readGroup(reader));
-  const [rangeCount, labelCount, wornLimbs] = reader.numbers(3);
-  const worn = readRanges(reader, rangeCount);
+  const [rangeCount, labelCount, texturedLimbs] = reader.numbers(3);
+  const textured = readRanges(reader, rangeCount);
   const onPicture = rangeCount > 0 ? reader.floats(vertices * 2) : null;
-  if (wornLimbs > 0) reader.bytes(Math.ceil(internodeCount / 2) * 4);
+  if (texturedLimbs > 0) reader.bytes(Math.ceil(internodeCount / 2) * 4);
   const labels: Label[] = [];
   for (let i = 0; i < labelCount; i++) labels.push(readLabel(reader));
-  const plain = worn[0]?.first ?? indexCount;
+  const plain = textured[0]?.first ?? indexCount;
   return {
     kind: "packet",
     growth,
@@ -208,10 +208,10 @@ function readPacket(reader: Reader, message: ArrayBuffer): Packet {
     colours,
     modules,
     indices,
-    ranges: [{ texture: 0, first: 0, count: plain }, ...worn],
+    ranges: [{ texture: 0, first: 0, count: plain }, ...textured],
     onPicture,
     groups,
-    wornLimbs: wornLimbs > 0,
+    texturedLimbs: texturedLimbs > 0,
     labels,
   };
 }

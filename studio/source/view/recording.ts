@@ -106,7 +106,7 @@ class Player {
     const packet = await this.packet(index);
     if (this.at !== index) return;
     this.scene.show(packet);
-    this.scene.wear(this.limbs.get(packet.step) ?? null);
+    this.scene.setLimbs(this.limbs.get(packet.step) ?? null);
     this.slider.value = String(index);
     this.label.textContent = `step ${packet.step}`;
     document.body.dataset.step = String(packet.step);

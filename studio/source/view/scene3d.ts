@@ -204,7 +204,7 @@ export class PlantScene {
   }
 
   /** Draws the limbs of the packet with bark or skin from now on; null: as internodes. */
-  wear(limbs: Limbs | null): void {
+  setLimbs(limbs: Limbs | null): void {
     if (limbs) this.limbs.show(limbs);
     else this.limbs.clear();
     this.shadowStale = true;

@@ -9,7 +9,7 @@ in vec3 position;
 in vec4 normal;
 in vec4 tint;
 in uint module;
-#ifdef WORN
+#ifdef TEXTURED
 in vec2 onPicture;
 out vec2 onImage;
 #endif
@@ -22,7 +22,7 @@ void main() {
   gl_Position = clip;
   identity = module;
   mixed.a = tint.a;
-#ifdef WORN
+#ifdef TEXTURED
   onImage = onPicture;
 #endif
   if (pass != 0) return;
@@ -99,7 +99,7 @@ export class Triangles {
     const hasRelief = this.pictures.hasRelief(texture);
     return plantMaterial({
       uniforms: { ...this.shared, image, relief: normals },
-      vertex: `#define WORN\n${vertex}`,
+      vertex: `#define TEXTURED\n${vertex}`,
       fragment: surfaceFragment(
         hasRelief ? relief : picture,
         "texture(image, onImage)",

@@ -1,4 +1,4 @@
-#include "studio/likeness.h"
+#include "studio/reuse_plan.h"
 
 #include "espalier/lsystem/derivation.h"
 
@@ -243,17 +243,17 @@ void ParameterChanges::apply(ModuleString& string) const {
     }
 }
 
-bool Likeness::changes_strings() const {
+bool ReusePlan::changes_strings() const {
     return std::any_of(plants.begin(), plants.end(), [](const auto& plant) { return plant != nullptr; });
 }
 
-std::optional<Likeness> likeness(const Origin& before, const Origin& now) {
+std::optional<ReusePlan> reuse_plan(const Origin& before, const Origin& now) {
     const std::size_t count = now.scene.plants.size();
     if (before.scene.seed != now.scene.seed || before.scene.plants.size() != count || !has_same_length(before, now))
         return std::nullopt;
     const bool reads_resources = derivations_read_resources(now.scene);
     if (reads_resources && !has_same_side_files(before, now)) return std::nullopt;
-    Likeness found;
+    ReusePlan found;
     std::map<std::pair<const CompiledModel*, const CompiledModel*>, std::shared_ptr<const ParameterChanges>> compared;
     for (std::size_t i = 0; i < count; ++i) {
         const Plant &a = before.scene.plants[i], &b = now.scene.plants[i];

@@ -45,7 +45,7 @@ private:
     std::map<std::pair<LetterId, std::size_t>, Values> changes_;
 };
 
-struct Likeness {
+struct ReusePlan {
     int steps = INT_MAX;                                          ///< derived alike: from step 0 on
     std::vector<std::shared_ptr<const ParameterChanges>> plants;  ///< to be made in the strings; null: none
 
@@ -53,6 +53,6 @@ struct Likeness {
 };
 
 /// None if strings of `before` do not serve `now`. Both draw apart.
-std::optional<Likeness> likeness(const Origin& before, const Origin& now);
+std::optional<ReusePlan> reuse_plan(const Origin& before, const Origin& now);
 
 }  // namespace espalier::studio

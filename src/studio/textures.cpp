@@ -1,4 +1,4 @@
-#include "studio/worn_pictures.h"
+#include "studio/textures.h"
 
 #include "espalier/base/file.h"
 #include "espalier/base/read_log.h"
@@ -65,22 +65,22 @@ void note_worn_file(const fs::path& file) {
 
 }  // namespace
 
-void note_worn_files(const Scene& scene) {
+void note_texture_files(const Scene& scene) {
     for (const Plant& plant : scene.plants) {
         if (!plant.turtle.shapes) continue;
-        for (const Texture& texture : plant.turtle.shapes->textures) note_worn_file(texture.file);
+        for (const BrowserTexture& texture : plant.turtle.shapes->textures) note_worn_file(texture.file);
     }
 }
 
-std::uint32_t WornPictures::number(const fs::path& file) {
+std::uint32_t BrowserTextures::number(const fs::path& file) {
     const auto known =
-        std::find_if(pictures_.begin(), pictures_.end(), [&](const WornPicture& one) { return one.file == file; });
+        std::find_if(pictures_.begin(), pictures_.end(), [&](const BrowserTexture& one) { return one.file == file; });
     const auto number = static_cast<std::uint32_t>(known - pictures_.begin()) + 1;
-    if (known == pictures_.end()) pictures_.push_back(worn(file));
+    if (known == pictures_.end()) pictures_.push_back(texture_of(file));
     return number;
 }
 
-WornPicture WornPictures::worn(const fs::path& file) const {
+BrowserTexture BrowserTextures::texture_of(const fs::path& file) const {
     if (!fs::is_regular_file(file)) return {file, {}, {}};
     if (is_shown_by_browsers(file)) return {file, file, {}};
     const std::string name = fmt::format("picture-{:016x}", digest_of(file));

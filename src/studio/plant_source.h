@@ -6,7 +6,7 @@
 #include "espalier/studio/studio.h"
 
 #include "studio/document.h"
-#include "studio/worn_pictures.h"
+#include "studio/textures.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -64,9 +64,9 @@ public:
 };
 
 /// Works beside the thread that serves and calls this.
-class Shown {
+class PlantSource {
 public:
-    virtual ~Shown() = default;
+    virtual ~PlantSource() = default;
 
     virtual std::uint32_t number() const = 0;
     /// Of the document.
@@ -82,10 +82,10 @@ public:
     // As docs/studio-protocol.md has them. A packet is that of a step that was drawn.
     virtual std::string packet(int step) const = 0;
     virtual std::vector<std::string> shapes() const = 0;
-    virtual std::vector<WornPicture> textures() const = 0;
+    virtual std::vector<BrowserTexture> textures() const = 0;
     virtual std::vector<std::string> column_names() const = 0;
     virtual std::string column(int step, const std::string& name) const = 0;
-    virtual nlohmann::ordered_json what_is_known(int step, std::uint32_t module) const = 0;
+    virtual nlohmann::ordered_json module_info(int step, std::uint32_t module) const = 0;
     /// Throws UserError if there is no such field at this step.
     virtual std::string field(int step, const std::string& name) const = 0;
 
