@@ -200,19 +200,19 @@ TEST_CASE_METHOD(Nursery, "an early end of growth has an exit code and a reason,
         const json told = json::parse(outcome.out);
         CHECK(told["end"] == reason);
         CHECK(told["code"] == code);
-        CHECK(fs::exists(told["files"][0]["path"].get<std::string>()));
+        CHECK(fs::exists(path() / told["files"][0]["path"].get<std::string>()));
         CHECK((outcome.err.find("growth has ended") != std::string::npos) == (code != 0));
     };
     end("--age 4", 0, "age");
-    end("--age 100", 3, "no-point-left");
-    end("--height 400 --age 3", 4, "no-point-in-reach");
+    end("--width 2 --age 100", 3, "no-point-left");
+    end("--height 400 --stem 2 --age 3", 4, "no-point-in-reach");
 }
 
 TEST_CASE_METHOD(Nursery, "leaves wear a picture of one's own, wherever the run is read from", "[tree]") {
     write("environments/tree.toml",
           text("environments/tree.toml") + "[[plant.stage]]\nstage = \"leaves\"\ntexture = \"../models/plain.png\"\n");
-    REQUIRE(run("leaf-texture --output models/plain.png --size 16").code == 0);
-    REQUIRE(run("leaf-texture --output mine.png --size 32").code == 0);
+    REQUIRE(run("leaf-texture --output models/plain.png --size 64").code == 0);
+    REQUIRE(run("leaf-texture --output mine.png --size 80").code == 0);
     REQUIRE(run("tree --output plain.obj").code == 0);
     REQUIRE(run("tree --leaf-picture mine.png --output own.obj --run kept").code == 0);
     CHECK(text("own.mtl").find("own-mine.png") != std::string::npos);

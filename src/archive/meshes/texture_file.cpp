@@ -68,20 +68,26 @@ vtkSmartPointer<vtkImageData> read_image(const fs::path& path) {
     return is_ours(path) ? read_ours(path) : read_by_vtk(path);
 }
 
-/// The folder that the files of a run were named from; "" if it does not say so.
-fs::path folder_of_command(const fs::path& run) {
+/// Where the scene of a run lies, and where the run was started; "" if it does not say so.
+struct RunFolders {
+    fs::path scene, command;
+};
+RunFolders folders_of(const fs::path& run) {
     const fs::path file = run / "run.json";
     if (run.empty() || !is_readable(file)) return {};
     const auto json = nlohmann::json::parse(read_text(file), nullptr, /*allow_exceptions=*/false);
-    if (!json.is_object() || !json.contains("command") || !json["command"].is_object()) return {};
-    const auto folder = json["command"].find("folder");
-    return folder != json["command"].end() && folder->is_string() ? fs::path(folder->get<std::string>()) : fs::path();
+    const auto text = [&](const char* table, const char* key) -> fs::path {
+        const auto pointer = nlohmann::json::json_pointer(std::string("/") + table + "/" + key);
+        return json.contains(pointer) && json[pointer].is_string() ? json[pointer].get<std::string>() : "";
+    };
+    const fs::path command = text("command", "folder");
+    return {(command / text("scene", "path")).parent_path(), command};
 }
 
-/// Where a texture's file may be, of these where one is.
+/// Where a texture's file may be, of these where one is: it is named from the scene.
 std::vector<fs::path> places_of(const fs::path& run, const std::string& file) {
-    std::vector<fs::path> places{file, run / file};
-    if (fs::path(file).is_relative()) places.push_back(folder_of_command(run) / file);
+    const RunFolders folders = fs::path(file).is_relative() ? folders_of(run) : RunFolders();
+    std::vector<fs::path> places{folders.scene / file, folders.command / file, run / file, file};
     std::erase_if(places, [](const fs::path& path) { return !is_readable(path); });
     return places;
 }

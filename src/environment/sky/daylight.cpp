@@ -147,13 +147,17 @@ sun           [0, 1, 0]: direction to the sun
 diffuse       1
 
 Without it, the sun goes its way (Michalsky 1988), and a share of the light above the air reaches the ground:
-latitude      50 degrees;  longitude  0 degrees to the east;  zone  0 hours ahead of Greenwich
-year          2025;  day  172: the first day, from 1 on 1 January
+latitude      50 degrees to the north
+longitude     0 degrees to the east
+zone          0: hours by which civil time is ahead of Greenwich
+year          2025: of the first day
+day           172: the first day, counted from 1 on 1 January
 hours         [0.5, 1.5, ... 23.5]: hours of civil time at which the sun is looked at; each stands for the time
               to the middles between it and its neighbours. Of a step of several days, the middle day stands for all
 clearness     0.5: light on level ground over that above the air (1361 W/m2 across it)
 diffuse       after Erbs et al. 1982, from the clearness
-par_share     0.5: PAR's share of the light's energy;  photons  4.57 umol per joule of PAR (McCree 1972)
+par_share     0.5: share of PAR in the light's energy
+photons       4.57 umol per joule of PAR (McCree 1972)
 )";
     return text;
 }

@@ -26,6 +26,15 @@ void for_each_owner(const Owners& owners, const Visit& visit) {
     }
 }
 
+/// How a file is reached from a folder; both are relative to the current one, or absolute.
+std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    if (file.empty()) return "";
+    const auto whole = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal();
+    };
+    return whole(file).lexically_relative(whole(folder.empty() ? "." : folder)).generic_string();
+}
+
 }  // namespace
 
 void OwnerArrays::begin() {
@@ -91,7 +100,7 @@ void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) 
     });
 }
 
-void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
+void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners, const std::filesystem::path& folder,
                                 std::vector<std::string>& texture_files) const {
     // Texture k of a plant is file numbers[k] of the run, whose file 0 is none.
     if (texture_files.empty()) texture_files.emplace_back();
@@ -101,9 +110,10 @@ void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
         const Shapes* shapes = plant.frame->interpretation->geometry.shapes.get();
         if (!shapes) continue;
         for (const Texture& texture : shapes->textures) {
-            const auto known = std::find(texture_files.begin() + 1, texture_files.end(), texture.file.string());
+            const std::string name = name_from(folder, texture.file);
+            const auto known = std::find(texture_files.begin() + 1, texture_files.end(), name);
             numbers.back().push_back(static_cast<std::uint16_t>(known - texture_files.begin()));
-            if (known == texture_files.end()) texture_files.push_back(texture.file.string());
+            if (known == texture_files.end()) texture_files.push_back(name);
         }
     }
     const auto texture = arrays.append<std::uint16_t>("texture", owners);

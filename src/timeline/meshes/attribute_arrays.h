@@ -71,8 +71,10 @@ public:
 
     /// identity, parent, plant, symbol, birth, order, colour, kind; zero where a string keeps no lineage.
     void add_attributes(OwnerArrays& arrays, const Owners& owners) const;
-    /// texture (index into `texture_files`) and back_colour.
-    void add_looks(OwnerArrays& arrays, const Owners& owners, std::vector<std::string>& texture_files) const;
+    /// texture (index into `texture_files`) and back_colour. Files are named from `folder`, so that their names are the
+    /// same wherever the folders lie.
+    void add_looks(OwnerArrays& arrays, const Owners& owners, const std::filesystem::path& folder,
+                   std::vector<std::string>& texture_files) const;
     /// rgb, as the plants' palettes say, white where a plant has none; nothing if no plant has one.
     void add_colours(OwnerArrays& arrays, const Owners& owners) const;
     /// The chosen parameters, as doubles; NaN where a module has none.

@@ -100,6 +100,7 @@ class Skeleton final : public Recorder {
 public:
     Skeleton(const Settings& settings, const RecorderContext& context)
         : folder_(context.folder),
+          scene_folder_(std::filesystem::path(settings.place().file).parent_path()),
           collection_(context.folder / "plants.pvd"),
           chosen_(read_chosen_parameters(settings.table("parameters"))),
           shows_queries_(std::any_of(chosen_.begin(), chosen_.end(), [](const auto& one) { return one.of_query(); })) {}
@@ -194,7 +195,7 @@ private:
         arrays.add_colours(data_.of_points, of_points);
         arrays.add_parameters(data_.of_points, of_points);
         arrays.add_attributes(data_.of_cells, data_.cell_owners);
-        arrays.add_looks(data_.of_cells, data_.cell_owners, texture_files_);
+        arrays.add_looks(data_.of_cells, data_.cell_owners, scene_folder_, texture_files_);
         arrays.add_colours(data_.of_cells, data_.cell_owners);
         data_.texts_changed = data_.texture_files != texture_files_ || data_.symbol_names != symbols_.names();
         data_.texture_files = texture_files_;
@@ -240,7 +241,7 @@ private:
         add_cells(file, "Polys", mesh.polygons);
     }
 
-    std::filesystem::path folder_;
+    std::filesystem::path folder_, scene_folder_;
     CollectionFile collection_;
     std::vector<ChosenParameter> chosen_;
     bool shows_queries_;

@@ -231,7 +231,8 @@ TEST_CASE_METHOD(ScriptFolder, "a program that cannot be started is a mistake of
     CHECK(lacks(said("command = [\"./nothing\"]\n"), {"scene.toml:4", "/nothing is no file that can be executed"}) ==
           "");
     CHECK(lacks(said("command = [\"./script\"]\n"), {"is no file that can be executed"}) == "");
-    CHECK(lacks(said("command = [\"script\"]\n"), {"no program script in the folders of PATH", "./script"}) == "");
+    CHECK(lacks(said("command = [\"no-such-script\"]\n"),
+                {"no program no-such-script in the folders of PATH", "./no-such-script"}) == "");
     CHECK(lacks(said("command = [\"./lost\"]\n"), {"/lost cannot be started: No such file"}) == "");
     CHECK(lacks(said("command = []\n"), {"'command' must be a program"}) == "");
     CHECK(lacks(said(""), {"'command' must be a program"}) == "");

@@ -112,9 +112,9 @@ TEST_CASE("a leader is thicker than all that reaches its height, and no thinner 
     bool was_thinner = false;
     for (std::size_t i = 0; i < led.size(); ++i) {
         CHECK(led[i].tip_radius >= plain[i].tip_radius);
-        if (led[i].axis != 0) CHECK(led[i].tip_radius == plain[i].tip_radius);
-        for (std::size_t k = 0; led[i].axis == 0 && k < led.size(); ++k) {
-            if (led[k].axis == 0 || led[k].tip.y <= led[i].base.y) continue;
+        if (led[i].order != 0) CHECK(led[i].tip_radius == plain[i].tip_radius);
+        for (std::size_t k = 0; led[i].order == 0 && k < led.size(); ++k) {
+            if (led[k].order == 0 || led[k].tip.y <= led[i].base.y) continue;
             CHECK(led[i].tip_radius >= Approx(1.2 * led[k].tip_radius));
             was_thinner = was_thinner || plain[i].tip_radius < plain[k].tip_radius;
         }
