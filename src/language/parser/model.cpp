@@ -148,7 +148,7 @@ private:
             system_->label = std::to_string(*number);
             const auto [first, is_new] = labels_.try_emplace(*number, at);
             if (is_new) return;
-            mistakes_.error(at, fmt::format("an L-system with the label {} is in {} already", number,
+            mistakes_.error(at, fmt::format("an L-system with the label {} is in {} already", *number,
                                             to_string(names_.place(first->second))));
         } else if (model_.systems.size() > 1) {
             mistakes_.error(
