@@ -54,7 +54,7 @@ void require_readable_if_there(const fs::path& file) {
     if (fs::exists(file, ignored)) require_readable(file);
 }
 
-void note_worn_file(const fs::path& file) {
+void note_texture_file(const fs::path& file) {
     require_readable_if_there(file);
     if (!is_bark(file.string()) || !is_readable(file)) return;
     const Bark bark = read_bark(file);
@@ -68,7 +68,7 @@ void note_worn_file(const fs::path& file) {
 void note_texture_files(const Scene& scene) {
     for (const Plant& plant : scene.plants) {
         if (!plant.turtle.shapes) continue;
-        for (const BrowserTexture& texture : plant.turtle.shapes->textures) note_worn_file(texture.file);
+        for (const Texture& texture : plant.turtle.shapes->textures) note_texture_file(texture.file);
     }
 }
 
