@@ -215,8 +215,8 @@ TEST_CASE_METHOD(Nursery, "leaves wear a picture of one's own, wherever the run 
     REQUIRE(run("leaf-texture --output mine.png --size 80").code == 0);
     REQUIRE(run("tree --output plain.obj").code == 0);
     REQUIRE(run("tree --leaf-picture mine.png --output own.obj --run kept").code == 0);
-    CHECK(text("own.mtl").find("own-mine.png") != std::string::npos);
-    CHECK(text("own-mine.png") == text("mine.png"));
+    CHECK(text("own.mtl").find("tree-mine.png") != std::string::npos);
+    CHECK(text("tree-mine.png") == text("mine.png"));
     CHECK(text("plain.mtl").find("mine.png") == std::string::npos);
     const Outcome missing = run("tree --leaf-picture nothing.png");
     CHECK(missing.code == 1);

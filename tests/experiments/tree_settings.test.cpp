@@ -144,8 +144,8 @@ void grow_at_random(int trees) {
 
 }  // namespace
 
-TEST_CASE("the tree has 36 settings, and each changes what is drawn", "[tree]") {
-    CHECK(settings().size() == 36);
+TEST_CASE("the tree has 37 settings, and each changes what is drawn", "[tree]") {
+    CHECK(settings().size() == 37);
     const RecordedGeometry before = grown(small);
     for (const ModelSetting& setting : settings()) {
         INFO(setting.name);
