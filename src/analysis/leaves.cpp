@@ -24,7 +24,7 @@ public:
             sum_ += here;
             ++corners_;
         }
-        area_ += glm::length(geometry::area_vector(facet.size(), corner));
+        area_ += glm::length(area_vector(facet.size(), corner));
     }
     void end() {
         if (corners_ > 0) leaves.leaves.push_back({sum_ / static_cast<double>(corners_), area_});

@@ -83,7 +83,7 @@ private:
         for (std::size_t i = 1; i < corners.size(); ++i) {
             if (glm::distance(row.base, corner(i)) > glm::distance(row.base, row.tip)) row.tip = corner(i);
         }
-        row.area = glm::length(geometry::area_vector(corners.size(), corner));
+        row.area = glm::length(area_vector(corners.size(), corner));
         add(row);
     }
 

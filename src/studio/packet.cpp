@@ -66,8 +66,7 @@ std::array<float, 12> matrix(const glm::dvec3& x, const glm::dvec3& y, const glm
 
 /// Newell's normal: right for polygons that are not quite flat.
 glm::dvec3 normal_of_polygon(std::span<const glm::dvec3> corners) {
-    return geometry::unit_or(geometry::area_vector(corners.size(), [&](std::size_t i) { return corners[i]; }),
-                             {0, 1, 0});
+    return unit_or(geometry::area_vector(corners.size(), [&](std::size_t i) { return corners[i]; }), {0, 1, 0});
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 #include "espalier/base/file.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/formats/exporter.h"
-#include "espalier/geometry/geometry_stage.h"
 #include "espalier/language/notation.h"
 #include "espalier/timeline/recorder.h"
+#include "espalier/turtle/geometry_stage.h"
 #include "espalier/turtle/symbol.h"
 
 #include "base/text.h"

@@ -2,8 +2,8 @@
 
 #include "espalier/base/registry.h"
 #include "espalier/environment/environment_process.h"
-#include "espalier/geometry/geometry_stage.h"
 #include "espalier/simulation/scene.h"
+#include "espalier/turtle/geometry_stage.h"
 
 #include <fmt/format.h>
 

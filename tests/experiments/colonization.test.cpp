@@ -2,7 +2,7 @@
 #include "catch.h"
 #include "environment/markers/cloud.h"
 #include "experiments/growth.h"
-#include "geometry/internode_bearers.h"
+#include "turtle/internode_bearers.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -111,13 +111,13 @@ std::vector<glm::dvec3> tips(const World& world, std::size_t plant = 0) {
 }
 
 std::vector<std::uint32_t> bearers(const World& world) {
-    return geometry::internode_bearers(world.interpretation(0).geometry, world.string(0));
+    return internode_bearers(world.interpretation(0).geometry, world.string(0));
 }
 
 std::size_t ends(const World& world) {
     std::vector<char> bears(tips(world).size(), 0);
     for (const std::uint32_t bearer : bearers(world)) {
-        if (bearer != geometry::no_bearer) bears[bearer] = 1;
+        if (bearer != turtle::no_bearer) bears[bearer] = 1;
     }
     return static_cast<std::size_t>(std::count(bears.begin(), bears.end(), 0));
 }
@@ -132,8 +132,7 @@ double tortuosity(const World& world) {
     for (std::size_t i = 0; i < internodes.size(); ++i) {
         std::uint32_t first = static_cast<std::uint32_t>(i);
         int passed = 1;
-        while (passed < pieces && on[first] != geometry::no_bearer &&
-               internodes[on[first]].axis == internodes[i].axis) {
+        while (passed < pieces && on[first] != turtle::no_bearer && internodes[on[first]].axis == internodes[i].axis) {
             first = on[first];
             ++passed;
         }
@@ -183,7 +182,7 @@ TEST_CASE("no internode turns from its bearer by more than half the angle of per
     const auto& internodes = world.interpretation(0).geometry.internodes;
     const std::vector<std::uint32_t> on = bearers(world);
     for (std::size_t i = 0; i < on.size(); ++i) {
-        if (on[i] == geometry::no_bearer) continue;
+        if (on[i] == turtle::no_bearer) continue;
         const glm::dvec3 along = internodes[i].tip - internodes[i].base;
         const glm::dvec3 before = internodes[on[i]].tip - internodes[on[i]].base;
         REQUIRE(glm::dot(glm::normalize(along), glm::normalize(before)) >= std::cos(glm::radians(45.0)) - 1e-9);

@@ -3,8 +3,8 @@
 #include "geometry/side_files/side_files.h"
 
 #include "espalier/base/read_log.h"
-#include "espalier/geometry/background.h"
 #include "espalier/geometry/palette.h"
+#include "espalier/turtle/background.h"
 #include "espalier/turtle/view_file.h"
 
 #include "archive/meshes/bark.h"

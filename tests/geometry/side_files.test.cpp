@@ -1,7 +1,7 @@
 #include "geometry/side_files/side_files.h"
 
-#include "espalier/geometry/background.h"
 #include "espalier/geometry/palette.h"
+#include "espalier/turtle/background.h"
 
 #include "catch.h"
 #include "temporary_folder.h"

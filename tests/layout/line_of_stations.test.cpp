@@ -1,4 +1,4 @@
-// grow: base -> lsystem -> language -> geometry -> turtle -> environment -> timeline -> simulation
+// grow: base -> geometry -> lsystem -> language -> turtle -> environment -> timeline -> simulation
 // look: base -> geometry -> archive -> analysis | formats | picture -> view
 // studio stands behind both, and the command line, app, above all.
 #include "catch.h"

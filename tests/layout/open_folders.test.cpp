@@ -1,8 +1,8 @@
 // A file in an open folder is all a new part needs: what lies there and what is registered must be the same.
 #include "espalier/environment/environment_process.h"
 #include "espalier/formats/exporter.h"
-#include "espalier/geometry/geometry_stage.h"
 #include "espalier/language/notation.h"
+#include "espalier/turtle/geometry_stage.h"
 
 #include "catch.h"
 #include "sources.h"
@@ -50,9 +50,9 @@ TEST_CASE("every process explains itself", "[layout]") {
     }
 }
 
-TEST_CASE("every file of geometry/stages registers the geometry stage it is named after and explains it", "[layout]") {
-    CHECK(!parts_in("src/geometry/stages").empty());
-    CHECK(parts_in("src/geometry/stages") == names_of<espalier::GeometryStageType>());
+TEST_CASE("every file of turtle/stages registers the geometry stage it is named after and explains it", "[layout]") {
+    CHECK(!parts_in("src/turtle/stages").empty());
+    CHECK(parts_in("src/turtle/stages") == names_of<espalier::GeometryStageType>());
     for (const auto& [name, stage] : espalier::registered<espalier::GeometryStageType>()) {
         INFO(name);
         CHECK(!stage->summary.empty());

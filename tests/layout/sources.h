@@ -12,7 +12,7 @@ namespace layout {
 namespace fs = std::filesystem;
 
 /// The growing half, then what looks at its files, each in the order of its line.
-inline const std::vector<std::string> growing{"base",   "lsystem",     "language", "geometry",
+inline const std::vector<std::string> growing{"base",   "geometry",    "lsystem",  "language",
                                               "turtle", "environment", "timeline", "simulation"};
 inline const std::vector<std::string> looking{"base", "geometry", "archive", "analysis", "formats", "picture", "view"};
 

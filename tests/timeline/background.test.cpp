@@ -1,5 +1,5 @@
 // What stands around the plants, recorded once.
-#include "espalier/geometry/background.h"
+#include "espalier/turtle/background.h"
 
 #include "catch.h"
 #include "timeline/frames.h"

@@ -3,10 +3,10 @@
 
 #include "espalier/base/settings.h"
 #include "espalier/environment/environment.h"
-#include "espalier/geometry/geometry_stage.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/language/reader.h"
 #include "espalier/timeline/frame_selection.h"
+#include "espalier/turtle/geometry_stage.h"
 #include "espalier/turtle/view_file.h"
 
 #include <filesystem>

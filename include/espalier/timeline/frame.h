@@ -2,9 +2,9 @@
 #pragma once
 
 #include "espalier/environment/environment.h"
-#include "espalier/geometry/background.h"
 #include "espalier/geometry/palette.h"
 #include "espalier/lsystem/module_string.h"
+#include "espalier/turtle/background.h"
 #include "espalier/turtle/interpretation.h"
 
 #include <cstdint>

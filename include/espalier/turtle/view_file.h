@@ -2,8 +2,8 @@
 #pragma once
 
 #include "espalier/base/error.h"
-#include "espalier/geometry/background.h"
 #include "espalier/language/reader.h"
+#include "espalier/turtle/background.h"
 #include "espalier/turtle/turtle.h"
 
 #include <glm/vec3.hpp>

@@ -231,11 +231,11 @@ std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& 
 std::vector<TubeFrame> frames_along(const TubeLine& line) {
     const std::vector<glm::dvec3> tangents = tangents_of(line);
     std::vector<TubeFrame> frames;
-    glm::dvec3 across = line.first ? line.first->across : geometry::any_across(tangents.front());
+    glm::dvec3 across = line.first ? line.first->across : any_across(tangents.front());
     double along = line.first ? line.first->along : 0;
     for (std::size_t i = 0; i < line.nodes.size(); ++i) {
         across -= tangents[i] * glm::dot(across, tangents[i]);
-        across = glm::length(across) > 1e-6 ? glm::normalize(across) : geometry::any_across(tangents[i]);
+        across = glm::length(across) > 1e-6 ? glm::normalize(across) : any_across(tangents[i]);
         if (i > 0) along += texture_length(line, line.nodes[i - 1], line.nodes[i]);
         frames.push_back({tangents[i], across, along});
     }

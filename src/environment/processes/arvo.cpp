@@ -4,8 +4,8 @@
 #include "espalier/base/math.h"
 #include "espalier/environment/environment_process.h"
 #include "espalier/environment/shape.h"
-#include "espalier/geometry/background.h"
 #include "espalier/lsystem/lsystem.h"
+#include "espalier/turtle/background.h"
 
 #include "base/bytes.h"
 #include "base/parallel.h"

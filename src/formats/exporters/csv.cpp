@@ -133,7 +133,7 @@ private:
             for (std::size_t i = 0; i < polygon.size(); ++i) {
                 if (glm::distance(corner(i), base) > glm::distance(farthest, base)) farthest = corner(i);
             }
-            area += glm::length(geometry::area_vector(polygon.size(), corner));
+            area += glm::length(area_vector(polygon.size(), corner));
         }
         const RecordedAttributes& of = geometry.of_cells;
         begin_row(frame, geometry,

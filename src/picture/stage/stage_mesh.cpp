@@ -193,7 +193,7 @@ glm::dvec3 area_of(const RecordedGeometry& geometry, std::size_t cell) {
     const auto corner = [&](std::size_t k) {
         return glm::dvec3(geometry.points[static_cast<std::size_t>(corners[k])]);
     };
-    return geometry::area_vector(corners.size(), corner);
+    return area_vector(corners.size(), corner);
 }
 
 /// How many cells from `cell` on belong to its module.

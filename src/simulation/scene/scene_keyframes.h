@@ -2,7 +2,7 @@
 #pragma once
 
 #include "espalier/environment/environment.h"
-#include "espalier/geometry/geometry_stage.h"
+#include "espalier/turtle/geometry_stage.h"
 #include "espalier/turtle/turtle.h"
 
 #include "simulation/scene/keyframes.h"

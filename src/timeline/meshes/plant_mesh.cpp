@@ -52,7 +52,7 @@ private:
 
 /// The normal of a polygon by Newell's method, which no vertex in line with its neighbours disturbs.
 glm::dvec3 normal_of(const glm::dvec3* vertices, std::uint32_t count) {
-    return geometry::unit_or(geometry::area_vector(count, [&](std::size_t i) { return vertices[i]; }), {0, 0, 1});
+    return unit_or(geometry::area_vector(count, [&](std::size_t i) { return vertices[i]; }), {0, 0, 1});
 }
 
 }  // namespace
