@@ -1,0 +1,14 @@
+// Low-discrepancy numbers for light paths.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace espalier::environment {
+
+/// Four numbers in [0, 1): sample `index` of the first four dimensions of Sobol's sequence (direction numbers of Joe &
+/// Kuo 2008), shuffled and Owen-scrambled by `seed` (Burley 2020, Practical hash-based Owen scrambling). Each seed
+/// gives an independent randomisation; 2^k samples from a multiple of 2^k on are evenly spread.
+std::array<double, 4> scrambled_sobol(std::uint32_t index, std::uint32_t seed);
+
+}  // namespace espalier::environment

@@ -1,0 +1,266 @@
+#include "espalier/base/random.h"
+
+#include "catch.h"
+#include "environment/exchange_plants.h"
+
+#include <glm/geometric.hpp>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+using namespace espalier;
+using namespace espalier::environment;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const std::string sun_above = "sky = { par = 1000, diffuse = 0, sun = [0, 1, 0] }\n";
+const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
+
+Environment light_of(const std::string& lines, const std::string& process = "ray-light") {
+    EnvironmentContext context;
+    context.domain = Box{{0, 0, 0}, {2, 3, 2}};
+    context.plants = 2;
+    return environment_of("[light]\nprocess = \"" + process + "\"\n" + lines, context);
+}
+
+double statistic(const Environment& environment, const std::string& name, std::uint32_t plant = 0) {
+    for (const Quantity& quantity : environment.statistics(plant)) {
+        if (quantity.name == "light." + name) return quantity.value;
+    }
+    throw std::runtime_error("no statistic " + name);
+}
+
+/// A square in the plane of two unit vectors, drawn by module `module`.
+void draw_square(PlantGeometry& geometry, std::uint32_t module, const glm::dvec3& middle, const glm::dvec3& along,
+                 const glm::dvec3& across, double side) {
+    Polygon polygon{};
+    polygon.module = module;
+    polygon.first = static_cast<std::uint32_t>(geometry.vertices.size());
+    polygon.count = 4;
+    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        geometry.vertices.push_back(middle + side / 2 * (a * along + b * across));
+    }
+    geometry.polygons.push_back(polygon);
+}
+
+/// Squares of all directions anywhere in the domain.
+void draw_at_random(PlantGeometry& geometry, std::uint32_t module, int count, double side, std::uint64_t seed) {
+    RandomSamples samples(RandomKey(seed, 0, Stream::process, 1), 5, 0);
+    for (int i = 0; i < count; ++i) {
+        const double y = samples.uniform(), turn = 2 * pi * samples.uniform(), across = std::sqrt(1 - y * y);
+        const glm::dvec3 normal(across * std::cos(turn), y, across * std::sin(turn));
+        const glm::dvec3 along = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.4, 0.86)));
+        const glm::dvec3 middle(2 * samples.uniform(), 0.05 + 2.9 * samples.uniform(), 2 * samples.uniform());
+        draw_square(geometry, module, middle, along, glm::cross(normal, along), side);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a level black leaf under the open sky absorbs what falls on it", "[ray-light]") {
+    for (const double height : {0.07, 1.3, 55.0}) {
+        Environment environment = light_of(black + sun_above);
+        AskingPlants plants;
+        plants.add({{{0.2, height, 0.1}, {0, 0, 0}}, {{0, 0, 0}, {0}}});
+        draw_square(plants.interpretation(0).geometry, 1, {0.2, height, 0.1}, {1, 0, 0}, {0, 0, 1}, 0.02);
+        plants.exchange(environment);
+        const std::vector<double> answer = plants.parameters();
+        const double error = 4 * statistic(environment, "absorbed_error") + 1e-9;
+        CHECK(answer[1] == Approx(0.0004 * 1e-3 * 86400).margin(error));
+        CHECK(answer[0] == Approx(1).margin(error / (0.0004 * 86.4)));
+        CHECK(answer[2] == Approx(1000 * answer[0]));
+    }
+}
+
+TEST_CASE("over a soil that reflects a share of the light, a small leaf gets that share from below", "[ray-light]") {
+    for (const double soil : {0.1, 0.4}) {
+        Environment environment =
+            light_of("periodic = true\npaths = 4000000\nbands.par = { leaf = [0, 0], soil = " + std::to_string(soil) +
+                     " }\n" + sun_above);
+        AskingPlants plants;
+        plants.add({{{1, 1, 1}, {0}}, {{0, 0, 0}, {0}}});
+        draw_square(plants.interpretation(0).geometry, 1, {1, 1, 1}, {1, 0, 0}, {0, 0, 1}, 0.05);
+        plants.exchange(environment);
+        // The soil around it is lit but for its own shadow, a 1600th of the period.
+        CHECK(plants.parameters()[0] == Approx(1 + soil).epsilon(0.02));
+    }
+}
+
+TEST_CASE("one and two layers of level leaves divide the light as the exact series says", "[ray-light]") {
+    const double back = 0.3, through = 0.2;
+    for (const int layers : {1, 2}) {
+        Environment environment =
+            light_of("periodic = true\nresidual = 1e-6\nbands.par = { leaf = [0.3, 0.2], soil = 0 }\n" + sun_above);
+        AskingPlants plants;
+        plants.add({{{1, 1, 1}, {0}}, {{0, 0, 0}, {0}}});
+        for (int layer = 0; layer < layers; ++layer) {
+            draw_square(plants.interpretation(0).geometry, 1, {1, 1 + 0.5 * layer, 1}, {1, 0, 0}, {0, 0, 1}, 2);
+        }
+        plants.exchange(environment);
+        const double passed = layers == 1 ? through : through * through / (1 - back * back);
+        const double escaped = layers == 1 ? back : back + through * through * back / (1 - back * back);
+        CHECK(statistic(environment, "soil") == Approx(passed).margin(0.003));
+        CHECK(statistic(environment, "escaped") == Approx(escaped).margin(0.003));
+        CHECK(std::abs(statistic(environment, "closure")) < 1e-6);
+    }
+}
+
+TEST_CASE("an upright plate at the edge of a lit one gets what the view factor of an L says", "[ray-light]") {
+    Environment environment =
+        light_of("paths = 1000000\nresidual = 1e-5\nbands.par = { leaf = [0.5, 0], soil = 0 }\n" + sun_above);
+    AskingPlants plants;
+    plants.add({{{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}, {{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}});
+    PlantGeometry& geometry = plants.interpretation(0).geometry;
+    draw_square(geometry, 1, {0.5, 0.5, 0.5}, {1, 0, 0}, {0, 0, 1}, 1);
+    draw_square(geometry, 3, {0, 1, 0.5}, {0, 1, 0}, {0, 0, 1}, 1);
+    plants.exchange(environment);
+    const double factor = 0.20004;  // two unit squares that share an edge (Howell, Siegel & Menguc 2010, C-14)
+    const double from_level = 0.5 * factor / (1 - 0.25 * factor * factor);
+    CHECK(plants.parameters()[4] == Approx(0.5 * from_level * 86.4).epsilon(0.005));
+    CHECK(std::abs(statistic(environment, "closure")) < 1e-6);
+}
+
+TEST_CASE("random black leaves of a periodic stand let exp(-G LAI / cos zenith) through", "[ray-light]") {
+    constexpr double side = 0.011;
+    constexpr int count = 100000;
+    const double area_index = count * side * side / 4;
+    for (const double zenith : {0.0, 0.5, 0.9, 1.2}) {
+        Environment environment =
+            light_of("periodic = true\npaths = 1000000\n" + black + "sky = { par = 500, diffuse = 0, sun = [" +
+                     std::to_string(std::sin(zenith)) + ", " + std::to_string(std::cos(zenith)) + ", 0] }\n");
+        AskingPlants plants;
+        plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+        draw_at_random(plants.interpretation(0).geometry, 1, count, side, 77 + std::uint64_t(10 * zenith));
+        plants.exchange(environment);
+        const double exact = std::exp(-0.5 * area_index / std::cos(zenith));
+        CHECK(statistic(environment, "soil") == Approx(exact).epsilon(0.01));
+        CHECK(statistic(environment, "leaf_area") == Approx(4 * area_index).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("scattered light is neither lost nor made, in any band", "[ray-light]") {
+    Environment environment = light_of("periodic = true\nbands.par = {}\nbands.nir = { share = 1.3 }\n" + sun_above);
+    AskingPlants plants;
+    plants.add({{{1, 1, 1}, {0, 0, 0, 0, 0}}, {{0, 0, 0}, {0}}});
+    draw_at_random(plants.interpretation(0).geometry, 1, 3000, 0.06, 3);
+    plants.exchange(environment);
+    CHECK(std::abs(statistic(environment, "closure")) < 1e-6);
+    const double par = statistic(environment, "absorbed"), nir = statistic(environment, "absorbed.nir");
+    CHECK(plants.parameters()[1] == Approx(par));
+    CHECK(plants.parameters()[4] == Approx(nir));
+    CHECK(nir / 1.3 < 0.6 * par);  // leaves absorb a fifth of it at each meeting, and of PAR four fifths
+    CHECK(statistic(environment, "escaped") > 0.01);
+}
+
+TEST_CASE("black leaves absorb per organ what a ray tracer without tree or scatter counts", "[ray-light]") {
+    constexpr int leaves = 40;
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.4, 1, 0.2));
+    Environment environment =
+        light_of("paths = 1000000\n" + black + "sky = { par = 1000, diffuse = 0, sun = [0.4, 1, 0.2] }\n");
+    AskingPlants plants;
+    std::vector<Asked> asked;
+    for (int i = 0; i < leaves; ++i) asked.insert(asked.end(), {{{0, 0, 0}, {0, 0}}, {{0, 0, 0}, {0}}});
+    plants.add(asked);
+    PlantGeometry& geometry = plants.interpretation(0).geometry;
+    for (std::uint32_t i = 0; i < leaves; ++i) draw_at_random(geometry, 2 * i + 1, 1, 0.7, 900 + i);
+    plants.exchange(environment);
+
+    // Rays from a fine grid on each leaf towards the light, against all squares.
+    const auto is_met = [&](const glm::dvec3& from, std::uint32_t own) {
+        for (std::uint32_t k = 0; k < leaves; ++k) {
+            const glm::dvec3* const v = &geometry.vertices[geometry.polygons[k].first];
+            const glm::dvec3 x = v[1] - v[0], y = v[3] - v[0], normal = glm::cross(x, y);
+            const double t = glm::dot(v[0] - from, normal) / glm::dot(towards, normal);
+            const glm::dvec3 at = from + t * towards - v[0];
+            const double a = glm::dot(at, x) / glm::dot(x, x), b = glm::dot(at, y) / glm::dot(y, y);
+            if (k != own && t > 0 && a >= 0 && a <= 1 && b >= 0 && b <= 1) return true;
+        }
+        return false;
+    };
+    double all = 0, all_counted = 0;
+    for (std::uint32_t k = 0; k < leaves; ++k) {
+        const glm::dvec3* const v = &geometry.vertices[geometry.polygons[k].first];
+        const glm::dvec3 x = v[1] - v[0], y = v[3] - v[0];
+        constexpr int grid = 100;
+        int lit = 0;
+        for (int i = 0; i < grid * grid; ++i) {
+            lit += !is_met(v[0] + (i % grid + 0.5) / grid * x + (i / grid + 0.5) / grid * y, k);
+        }
+        const double across = std::abs(glm::dot(glm::cross(x, y), towards)) / towards.y;
+        const double counted = double(lit) / (grid * grid) * across * 86.4;
+        const double absorbed = plants.parameters()[3 * k + 1];
+        CHECK(absorbed == Approx(counted).margin(0.01 * 0.49 * 86.4));
+        all += absorbed;
+        all_counted += counted;
+    }
+    CHECK(all == Approx(all_counted).epsilon(0.003));
+}
+
+TEST_CASE("canopy-light and ray-light agree on random black leaves", "[ray-light]") {
+    const std::string sky = "periodic = true\nsky = { par = 800, diffuse = 0.6, sun = [0.5, 1, 0.3] }\n";
+    Environment rays = light_of(black + sky), voxels = light_of("voxel = 0.5\n" + sky, "canopy-light");
+    AskingPlants plants;
+    plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+    draw_at_random(plants.interpretation(0).geometry, 1, 20000, 0.02, 8);
+    plants.exchange(rays);
+    plants.exchange(voxels);
+    CHECK(statistic(rays, "absorbed") == Approx(statistic(voxels, "absorbed")).epsilon(0.02));
+    CHECK(statistic(rays, "incoming") == statistic(voxels, "incoming"));
+}
+
+TEST_CASE("one thread and two, plants in any order, and a plant moved by a period absorb the same", "[ray-light]") {
+    const auto absorbed = [](int threads, std::uint32_t first, double shift) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+        Environment environment = light_of("periodic = true\n" + sun_above);
+        AskingPlants plants;
+        for (int i = 0; i < 2; ++i) plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+        draw_at_random(plants.interpretation(first).geometry, 1, 300, 0.1, 4);
+        draw_at_random(plants.interpretation(1 - first).geometry, 1, 300, 0.1, 5);
+        for (glm::dvec3& vertex : plants.interpretation(first).geometry.vertices) vertex.x += shift;
+        plants.exchange(environment);
+        return std::array{statistic(environment, "absorbed", first), statistic(environment, "absorbed", 1 - first)};
+    };
+    const auto one = absorbed(1, 0, 0);
+    CHECK(absorbed(2, 0, 0) == one);
+    CHECK(absorbed(2, 1, 0) == one);
+    const auto moved = absorbed(2, 0, 2);
+    CHECK(moved[0] == Approx(one[0]).epsilon(1e-3));
+    CHECK(moved[1] == Approx(one[1]).epsilon(1e-3));
+}
+
+TEST_CASE("the standard error is that of repeated runs, and falls at least as the root of the paths", "[ray-light]") {
+    const auto trial = [](const std::string& lines, int step) {
+        Environment environment = light_of(lines + sun_above);
+        AskingPlants plants;
+        plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+        draw_at_random(plants.interpretation(0).geometry, 1, 200, 0.1, 4);
+        plants.exchange(environment, step);
+        return std::pair{statistic(environment, "absorbed"), statistic(environment, "absorbed_error")};
+    };
+    double sum = 0, squares = 0, errors = 0, errors_of_more = 0;
+    constexpr int count = 24;
+    for (int step = 0; step < count; ++step) {
+        const auto [absorbed, error] = trial("paths = 1024\n", step);
+        sum += absorbed;
+        squares += absorbed * absorbed;
+        errors += error;
+        errors_of_more += trial("paths = 65536\n", step).second;
+    }
+    const double spread = std::sqrt((squares - sum * sum / count) / (count - 1));
+    CHECK(errors / count == Approx(spread).epsilon(0.4));
+    CHECK(errors_of_more < errors / 8 * 1.1);
+    const auto [absorbed, error] = trial("paths = 64\naccuracy = 0.005\n", 3);
+    CHECK(error <= 0.005 * absorbed);
+}
+
+TEST_CASE("optical numbers that cannot be are refused in words", "[ray-light]") {
+    const auto message = [](const std::string& lines) { return message_of([&] { light_of(lines); }); };
+    CHECK(lacks(message("bands.par = { leaf = [0.7, 0.4] }\n"), {"scene.toml", "1 together at most"}) == "");
+    CHECK(lacks(message("bands.par = { leaf = [0.7] }\n"), {"[reflectance, transmittance]"}) == "");
+    CHECK(lacks(message("bands.red = { soil = 0.1 }\n"), {"the band 'red' needs leaf"}) == "");
+    CHECK(lacks(message("paths = 1\n"), {"paths"}) == "");
+}
