@@ -200,6 +200,7 @@ entry environments/two-trees-unshaded.toml "Two trees without shadows" "Mech & P
 entry environments/lone-tree.toml "The tree alone" "Mech & Prusinkiewicz 1996"
 grown_by environments/default-process.toml models/light/bush.l "Bush that avoids its own shade" "after Mech & Prusinkiewicz 1996"
 entry environments/stand.toml "Stand of herbs in daylight" "after Monsi & Saeki 1953"
+entry environments/stand-rays.toml "Stand of herbs, with scattered light" "after Monsi & Saeki 1953"
 grown_by environments/stand.toml models/light/stand.l "Herb whose leaves live on light" "after Monsi & Saeki 1953"
 grown_by environments/two-trees.toml models/light/competing-tree.l "Tree that grows on light" "Mech & Prusinkiewicz 1996"
 grown_by environments/forest-patch.toml models/light/conifer.l "Conifer that grows on light" "Mech & Prusinkiewicz 1996"
