@@ -166,3 +166,21 @@ TEST_CASE("a night brings no light, and asks for none", "[canopy-light]") {
     CHECK(plants.parameters() == std::vector<double>{0, 0, 0});
     CHECK(statistic(environment, "incoming") == 0);
 }
+
+TEST_CASE("larger voxels smooth a clump of leaves away, and absorb more", "[canopy-light]") {
+    double before = 0;
+    for (const char* voxel : {"0.1", "0.25", "0.5", "1"}) {
+        Environment environment = light_of("periodic = true\nvoxel = " + std::string(voxel) + "\n" + sun_above);
+        AskingPlants plants;
+        plants.add({{{0, 0, 0}, {0}}, {{0, 0, 0}, {0}}});
+        RandomSamples samples(RandomKey(3, 0, Stream::process, 1), 5, 0);
+        for (int i = 0; i < 2000; ++i) {  // 0.8 m2 above 0.16 m2
+            const glm::dvec3 middle(0.8 + 0.4 * samples.uniform(), 1 + 0.4 * samples.uniform(),
+                                    0.8 + 0.4 * samples.uniform());
+            draw_square(plants.interpretation(0).geometry, 1, middle, {1, 0, 0}, {0, 0, 1}, 0.02);
+        }
+        plants.exchange(environment);
+        CHECK(statistic(environment, "absorbed") > before);
+        before = statistic(environment, "absorbed");
+    }
+}
