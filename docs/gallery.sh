@@ -209,6 +209,10 @@ grown_by environments/self-thinning.toml models/environment/self-thinning.l "Sel
 entry environments/terminalia-two-tiers.toml "Two tiers of Terminalia" "Honda, Tomlinson & Fisher 1981" -- --azimuth 0 --elevation 90 --no-ground
 entry environments/terminalia.toml "Tier of Terminalia" "Honda, Tomlinson & Fisher 1981" -- --azimuth 0 --elevation 90 --no-ground
 grown_by environments/terminalia.toml models/environment/terminalia.l "Tiers that end where they meet" "Honda, Tomlinson & Fisher 1981"
+entry environments/clover.toml "Clover that fills the light" "Mech & Prusinkiewicz 1996" -- --azimuth 0 --elevation 90 --no-ground --size 360x360
+entry environments/clover-cover.toml "Clover that leaves a dark patch" "Bell 1986" --steps 60 -- --azimuth 0 --elevation 90 --no-ground --size 360x360
+grown_by environments/clover.toml models/environment/clover.l "Clover: the model" "Mech & Prusinkiewicz 1996"
+grown_by environments/clover-cover.toml models/environment/cover.l "A cover that takes the light" ""
 
 shelf "Roots and water"
 entry environments/two-roots.toml "Two roots in one soil" "Clausnitzer & Hopmans 1994" -- --field water:volume --no-legend

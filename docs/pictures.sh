@@ -103,6 +103,13 @@ grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --se
 render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground
 grow reaction-diffusion environments/reaction-diffusion.toml
 render reaction-diffusion.png reaction-diffusion --size 220x320 --elevation 20
+grow clover environments/clover-cover.toml
+for step in 34 56 120; do
+    render "clover-$step.png" clover --step $step --size 300x300 --azimuth 0 --elevation 90 --no-ground
+done
+# The ground as the pictures above show it: +z is down.
+ffmpeg -loglevel error -y -i environments/grounds/patches.png -vf vflip,scale=300:300:flags=neighbor -fflags +bitexact \
+    "$pictures/clover-ground.png"
 grow vein-net-tree environments/vein-net.toml --set environment.veins.uptake=0.1
 render vein-net-tree.png vein-net-tree --size 260x200
 grow vein-net environments/vein-net.toml
