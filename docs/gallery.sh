@@ -304,6 +304,8 @@ entry environments/cells.toml "Cells on a lattice" "Ulam 1962" -- --azimuth 0 --
 grown_by environments/cells.toml models/environment/cells.l "Cells on a lattice: the model" "Ulam 1962"
 entry environments/ulam-branching.toml "Ulam's cells: branching pattern" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
 entry environments/ulam.toml "Ulam's cells: simple pattern" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
+entry environments/sierpinski-triangle.toml "Sierpinski's triangle by collision" "Sierpinski 1915" --steps 31 -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/sierpinski-triangle.toml models/environment/sierpinski-triangle.l "Sierpinski's triangle: collision" "Sierpinski 1915"
 grown_by environments/ulam-branching.toml models/environment/ulam-branching.l "Ulam's cells that keep their distance" "Ulam 1962"
 grown_by environments/ulam.toml models/environment/ulam.l "Ulam's cells: collision" "Ulam 1962"
 

@@ -101,6 +101,10 @@ for sides in 3 6 12 24; do
 done
 grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --set 'environment.cells.rule="wishes"' --steps 27
 render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground
+grow sierpinski environments/sierpinski-triangle.toml
+for step in 6 32; do
+    render "sierpinski-$step.png" sierpinski --step $step --size 260x260 --azimuth 0 --elevation 90 --no-ground
+done
 grow reaction-diffusion environments/reaction-diffusion.toml
 render reaction-diffusion.png reaction-diffusion --size 220x320 --elevation 20
 grow clover environments/clover-cover.toml
