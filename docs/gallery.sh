@@ -154,6 +154,7 @@ entry models/pgraph/sunflower.pgraph "Sunflower" "Lintermann & Deussen 1997"
 entry models/pgraph/dandelion.pgraph "Dandelion" "Lintermann & Deussen 1997"
 entry models/sdl/daisy.sdl "Daisies" "after Szemla 1999"
 entry models/sdl/agave.sdl "Agave" "after Szemla 1999"
+entry models/herbs/grass.l "Grass of particles" "Reeves & Blau 1985"
 entry models/sdl/grass.sdl "Tuft of grass" "after Szemla 1999"
 entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999" -- --size 360x360
 entry models/signals/acropetal-flowering.l "Flowering from below" "Prusinkiewicz & Lindenmayer 1990, section 3.2"

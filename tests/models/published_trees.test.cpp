@@ -1,4 +1,4 @@
-// Trees of published procedures: Holton's strands, Viennot's ramification matrices, Reeves' and Blau's particles.
+// Plants of published procedures: Holton's strands, Viennot's ramification matrices, Reeves' and Blau's particles.
 #include "catch.h"
 #include "experiments/growth.h"
 #include "models/measure.h"
@@ -256,4 +256,40 @@ TEST_CASE("structured-particles: the mean height of 1000 trees is the one that w
         sum += values_of(string, source_of(*compiled).alphabet, "Trunk", 1).front();
     }
     CHECK(sum / 1000 == Approx(9).epsilon(0.01));
+}
+
+TEST_CASE("grass: blades are parabolas that their particles flew, as high on average as the formula says", "[herbs]") {
+    constexpr int least = 9, most = 12;
+    constexpr double gravity = 0.0045, speed = 0.055, lean = 28 * std::numbers::pi / 180;
+    double expected = 0;
+    for (int n = least; n <= most; ++n) {
+        expected += (n * speed * std::sin(lean) / lean - gravity / 2 * n * n) / (most - least + 1);
+    }
+    for (const std::uint64_t seed : {71u, 72u, 73u}) {
+        LonePlant grass("models/herbs/grass.l", {{"TUFTS", "200"}}, seed);
+        grass.grow(most);
+        // Blade by blade: each begins on the ground.
+        std::vector<std::vector<glm::dvec3>> blades;
+        for (const Internode& internode : grass.interpretation.geometry.internodes) {
+            CHECK(internode.order == 2);
+            if (std::abs(internode.base.y) < 1e-12) blades.push_back({internode.base});
+            CHECK(glm::distance(blades.back().back(), internode.base) < 1e-12);
+            blades.back().push_back(internode.tip);
+        }
+        REQUIRE(blades.size() == 200 * 45);
+        double heights = 0;
+        for (const std::vector<glm::dvec3>& nodes : blades) {
+            const int pieces = static_cast<int>(nodes.size()) - 1;
+            CHECK((pieces >= least && pieces <= most));
+            heights += nodes.back().y;
+            for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+                const glm::dvec3 bend = nodes[i + 1] - 2. * nodes[i] + nodes[i - 1];
+                CHECK(glm::distance(bend, glm::dvec3(0, -gravity, 0)) < 1e-12);
+            }
+            const glm::dvec3 first = nodes[1] - nodes[0] + glm::dvec3(0, gravity / 2, 0);
+            CHECK(degrees_between(first, {0, 1, 0}) <= 28 + 1e-9);
+            CHECK(std::abs(glm::length(first) - speed) <= 0.025 + 1e-12);
+        }
+        CHECK(heights / static_cast<double>(blades.size()) == Approx(expected).epsilon(0.01));
+    }
 }
