@@ -93,6 +93,9 @@ entry models/trees/oppenheimer.l "Oppenheimer's fractal tree" "Oppenheimer 1986"
 entry models/trees/maple.l "Bark, saddles and roots" "Bloomenthal 1985" --view models/trees/maple.v -- --skin smooth
 entry models/trees/structured-particles.l "Structured particles" "Reeves & Blau 1985"
 entry models/trees/buds.l "Buds that die, rest or grow" "de Reffye et al. 1988" -- --size 360x360
+entry environments/buds/coffee.toml "Coffee by its buds" "after de Reffye et al. 1988"
+entry environments/buds/poplar.toml "Poplar by its buds" "after de Reffye et al. 1988"
+entry environments/buds/spruce.toml "Spruce by its buds" "after de Reffye et al. 1988"
 entry models/trees/growth-kinds.l "Kinds of growth" "Barthelemy & Caraglio 2007" -- --size 360x360
 entry models/trees/holton.l "Tree of strands" "Holton 1994"
 entry models/trees/ramification.l "Tree of a ramification matrix" "Viennot et al. 1989" -- --size 360x360

@@ -101,6 +101,14 @@ for sides in 3 6 12 24; do
 done
 grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --set 'environment.cells.rule="wishes"' --steps 27
 render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground
+for tree in coffee poplar spruce; do
+    grow "buds-$tree" "environments/buds/$tree.toml" --every 1000
+    render "buds-$tree.png" "buds-$tree" --size 220x260
+done
+grow buds-spruce-young environments/buds/spruce.toml --steps 40 --every 1000
+render buds-spruce-young.png buds-spruce-young --size 220x260
+grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=1 --every 1000
+render buds-dead.png buds-dead --size 220x260
 grow sierpinski environments/sierpinski-triangle.toml
 for step in 6 32; do
     render "sierpinski-$step.png" sierpinski --step $step --size 260x260 --azimuth 0 --elevation 90 --no-ground
