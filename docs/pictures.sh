@@ -109,6 +109,14 @@ grow buds-spruce-young environments/buds/spruce.toml --steps 40 --every 1000
 render buds-spruce-young.png buds-spruce-young --size 220x260
 grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=1 --every 1000
 render buds-dead.png buds-dead --size 220x260
+holton() { # NAME [OPTIONS]
+    grow "$1" models/trees/holton.l --every 1000 "${@:2}"
+    render "$1.png" "$1" --size 220x260
+}
+holton holton-fir
+holton holton-pine --define CROWN=5 --define LENGTH=0.9 --define LEAST_BRANCH=0.8 --define STRANDS=900 \
+    --define SHARE_0=0.97 --define ANGLE_0=70 --define CROWN_SHARE_0=0.6
+holton holton-broadleaf --define CROWN=0 --define LENGTH=1 --define STRANDS=900
 grow sierpinski environments/sierpinski-triangle.toml
 for step in 6 32; do
     render "sierpinski-$step.png" sierpinski --step $step --size 260x260 --azimuth 0 --elevation 90 --no-ground

@@ -112,6 +112,61 @@ TEST_CASE("holton: strands and squares of diameters are kept at every fork, and 
     CHECK(measured == 59);
 }
 
+TEST_CASE("holton: shares and angles are those of Gravelius' and Weibel's order, as a separate program finds",
+          "[trees]") {
+    // A branch of s strands, its order, and the forks that lead to it; then those that grow from it, side branch first.
+    struct Tables {
+        double share[2][2] = {{0.985, 0.55}, {0.6, 0.7}}, angle[2][2] = {{115, 55}, {35, 45}};
+    } const tables;
+    for (const int crown : {0, 3, 12}) {
+        struct Branch {
+            double strands;
+            int order, forks;
+        };
+        std::vector<Branch> expected;
+        std::vector<double> angles;
+        const auto part = [&](const auto& again, const Branch& branch) -> void {
+            expected.push_back(branch);
+            if (branch.strands < 2) return;
+            const int g = std::min(branch.order, 1), w = branch.forks >= crown;
+            const double on = 1 + std::round(tables.share[g][w] * (branch.strands - 2));
+            angles.push_back(tables.angle[g][w]);
+            again(again, {branch.strands - on, branch.order + 1, branch.forks + 1});
+            again(again, {on, branch.order, branch.forks + 1});
+        };
+        part(part, {90, 0, 0});
+
+        const LonePlant tree =
+            grown_tree("holton", {{"STRANDS", "90"}, {"CROWN", std::to_string(crown)}, {"CROWN_SHARE_1", "0.7"}});
+        const ModuleTree branches = tree_of(tree, "Internode");
+        REQUIRE(branches.nodes.size() == expected.size());
+        std::vector<int> forks(expected.size(), 0);
+        const auto& internodes = tree.interpretation.geometry.internodes;
+        std::map<double, int> found, wanted;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            CHECK(branches.nodes[i][0] == expected[i].strands);
+            for (const std::size_t child : branches.children[i]) forks[child] = forks[i] + 1;
+            CHECK(forks[i] == expected[i].forks);
+        }
+        const auto children = children_of(tree.interpretation.geometry);
+        for (const auto& pair : children) {
+            if (pair.size() != 2) continue;
+            ++found[std::round(degrees_between(direction_of(internodes[pair[0]]), direction_of(internodes[pair[1]])))];
+        }
+        for (const double angle : angles) ++wanted[angle];
+        CHECK(found == wanted);
+        // The ends of the string know their orders.
+        std::size_t end = 0;
+        const auto tips = parameters_of(tree.string, tree.model->alphabet, "Tip");
+        for (const Branch& branch : expected) {
+            if (branch.strands >= 2) continue;
+            CHECK(tips[end][2] == branch.order);
+            CHECK(tips[end++][3] == branch.forks);
+        }
+        CHECK(end == tips.size());
+    }
+}
+
 TEST_CASE("holton: lengths go with the root of the strands, within their bounds; drawn ones do not act on", "[trees]") {
     const LonePlant fir = derived_tree("holton", {{"STRANDS", "200"}}, 0);
     const auto tips = parameters_of(fir.string, fir.model->alphabet, "Tip");
