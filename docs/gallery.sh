@@ -93,6 +93,9 @@ entry models/trees/oppenheimer.l "Oppenheimer's fractal tree" "Oppenheimer 1986"
 entry models/trees/maple.l "Bark, saddles and roots" "Bloomenthal 1985" --view models/trees/maple.v -- --skin smooth
 entry models/trees/structured-particles.l "Structured particles" "Reeves & Blau 1985"
 entry models/trees/buds.l "Buds that die, rest or grow" "de Reffye et al. 1988" -- --size 360x360
+entry environments/buds/coffee.toml "Coffee by its buds" "after de Reffye et al. 1988"
+entry environments/buds/poplar.toml "Poplar by its buds" "after de Reffye et al. 1988"
+entry environments/buds/spruce.toml "Spruce by its buds" "after de Reffye et al. 1988"
 entry models/trees/growth-kinds.l "Kinds of growth" "Barthelemy & Caraglio 2007" -- --size 360x360
 entry models/trees/holton.l "Tree of strands" "Holton 1994"
 entry models/trees/ramification.l "Tree of a ramification matrix" "Viennot et al. 1989" -- --size 360x360
@@ -154,6 +157,7 @@ entry models/pgraph/sunflower.pgraph "Sunflower" "Lintermann & Deussen 1997"
 entry models/pgraph/dandelion.pgraph "Dandelion" "Lintermann & Deussen 1997"
 entry models/sdl/daisy.sdl "Daisies" "after Szemla 1999"
 entry models/sdl/agave.sdl "Agave" "after Szemla 1999"
+entry models/herbs/grass.l "Grass of particles" "Reeves & Blau 1985"
 entry models/sdl/grass.sdl "Tuft of grass" "after Szemla 1999"
 entry models/sdl/straw.sdl "Straw, as printed" "Szemla 1999" -- --size 360x360
 entry models/signals/acropetal-flowering.l "Flowering from below" "Prusinkiewicz & Lindenmayer 1990, section 3.2"
@@ -212,6 +216,10 @@ grown_by environments/self-thinning.toml models/environment/self-thinning.l "Sel
 entry environments/terminalia-two-tiers.toml "Two tiers of Terminalia" "Honda, Tomlinson & Fisher 1981" -- --azimuth 0 --elevation 90 --no-ground
 entry environments/terminalia.toml "Tier of Terminalia" "Honda, Tomlinson & Fisher 1981" -- --azimuth 0 --elevation 90 --no-ground
 grown_by environments/terminalia.toml models/environment/terminalia.l "Tiers that end where they meet" "Honda, Tomlinson & Fisher 1981"
+entry environments/clover.toml "Clover that fills the light" "Mech & Prusinkiewicz 1996" -- --azimuth 0 --elevation 90 --no-ground --size 360x360
+entry environments/clover-cover.toml "Clover that leaves a dark patch" "Bell 1986" --steps 60 -- --azimuth 0 --elevation 90 --no-ground --size 360x360
+grown_by environments/clover.toml models/environment/clover.l "Clover: the model" "Mech & Prusinkiewicz 1996"
+grown_by environments/clover-cover.toml models/environment/cover.l "A cover that takes the light" ""
 
 shelf "Roots and water"
 entry environments/two-roots.toml "Two roots in one soil" "Clausnitzer & Hopmans 1994" -- --field water:volume --no-legend
@@ -303,6 +311,8 @@ entry environments/cells.toml "Cells on a lattice" "Ulam 1962" -- --azimuth 0 --
 grown_by environments/cells.toml models/environment/cells.l "Cells on a lattice: the model" "Ulam 1962"
 entry environments/ulam-branching.toml "Ulam's cells: branching pattern" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
 entry environments/ulam.toml "Ulam's cells: simple pattern" "Ulam 1962" -- --azimuth 0 --elevation 90 --no-ground
+entry environments/sierpinski-triangle.toml "Sierpinski's triangle by collision" "Sierpinski 1915" --steps 31 -- --azimuth 0 --elevation 90 --no-ground
+grown_by environments/sierpinski-triangle.toml models/environment/sierpinski-triangle.l "Sierpinski's triangle: collision" "Sierpinski 1915"
 grown_by environments/ulam-branching.toml models/environment/ulam-branching.l "Ulam's cells that keep their distance" "Ulam 1962"
 grown_by environments/ulam.toml models/environment/ulam.l "Ulam's cells: collision" "Ulam 1962"
 

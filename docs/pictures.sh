@@ -101,8 +101,35 @@ for sides in 3 6 12 24; do
 done
 grow cells-holladay environments/cells.toml --set plant.0.define.STRAIGHT=1 --set 'environment.cells.rule="wishes"' --steps 27
 render cells-holladay.png cells-holladay --size 260x260 --azimuth 0 --elevation 90 --no-ground
+for tree in coffee poplar spruce; do
+    grow "buds-$tree" "environments/buds/$tree.toml" --every 1000
+    render "buds-$tree.png" "buds-$tree" --size 220x260
+done
+grow buds-spruce-young environments/buds/spruce.toml --steps 40 --every 1000
+render buds-spruce-young.png buds-spruce-young --size 220x260
+grow buds-dead models/trees/buds.l --define DEATH=0.03 --define MARK=1 --every 1000
+render buds-dead.png buds-dead --size 220x260
+holton() { # NAME [OPTIONS]
+    grow "$1" models/trees/holton.l --every 1000 "${@:2}"
+    render "$1.png" "$1" --size 220x260
+}
+holton holton-fir
+holton holton-pine --define CROWN=5 --define LENGTH=0.9 --define LEAST_BRANCH=0.8 --define STRANDS=900 \
+    --define SHARE_0=0.97 --define ANGLE_0=70 --define CROWN_SHARE_0=0.6
+holton holton-broadleaf --define CROWN=0 --define LENGTH=1 --define STRANDS=900
+grow sierpinski environments/sierpinski-triangle.toml
+for step in 6 32; do
+    render "sierpinski-$step.png" sierpinski --step $step --size 260x260 --azimuth 0 --elevation 90 --no-ground
+done
 grow reaction-diffusion environments/reaction-diffusion.toml
 render reaction-diffusion.png reaction-diffusion --size 220x320 --elevation 20
+grow clover environments/clover-cover.toml
+for step in 34 56 120; do
+    render "clover-$step.png" clover --step $step --size 300x300 --azimuth 0 --elevation 90 --no-ground
+done
+# The ground as the pictures above show it: +z is down.
+ffmpeg -loglevel error -y -i environments/grounds/patches.png -vf vflip,scale=300:300:flags=neighbor -fflags +bitexact \
+    "$pictures/clover-ground.png"
 grow vein-net-tree environments/vein-net.toml --set environment.veins.uptake=0.1
 render vein-net-tree.png vein-net-tree --size 260x200
 grow vein-net environments/vein-net.toml

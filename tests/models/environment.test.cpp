@@ -69,6 +69,30 @@ TEST_CASE("ulam: the published counts of cells, and births by the binary digits 
     }
 }
 
+TEST_CASE("sierpinski-triangle: the cells of 64 steps are the odd numbers of Pascal's triangle", "[environment]") {
+    const std::vector<int> counts = cells_of("environments/sierpinski-triangle.toml", 64);
+    CHECK(std::vector<int>(counts.begin(), counts.begin() + 7) == std::vector<int>{1, 3, 5, 9, 11, 15, 19});
+    CHECK(counts[32] == 245);
+    CHECK(counts[63] == 729);
+    for (unsigned n = 1; n < counts.size(); ++n) CHECK(counts[n] - counts[n - 1] == 1 << std::popcount(n));
+
+    SceneOptions options;
+    options.steps = 64;
+    const auto world = grown("environments/sierpinski-triangle.toml", options);
+    std::set<std::pair<unsigned, unsigned>> cells, odd;
+    for (const Organ& organ : world->interpretation(0).geometry.organs) {
+        const double row = organ.pose.position.z / std::sqrt(0.75), column = organ.pose.position.x + row / 2;
+        CHECK(std::abs(row - std::round(row)) + std::abs(column - std::round(column)) < 1e-9);
+        cells.emplace(std::lround(row), std::lround(column));
+    }
+    for (unsigned n = 0; n <= 64; ++n) {
+        for (unsigned k = 0; k <= n; ++k) {
+            if ((k & (n - k)) == 0) odd.emplace(n, k);  // Kummer 1852
+        }
+    }
+    CHECK(cells == odd);
+}
+
 TEST_CASE("ulam-branching: 80 steps of the variant whose candidates exclude each other even if they fail",
           "[environment]") {
     CHECK(cells_of("environments/ulam-branching.toml", 80) == UlamAutomaton({"wishes"}).cells(80));

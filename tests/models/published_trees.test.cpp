@@ -1,4 +1,4 @@
-// Trees of published procedures: Holton's strands, Viennot's ramification matrices, Reeves' and Blau's particles.
+// Plants of published procedures: Holton's strands, Viennot's ramification matrices, Reeves' and Blau's particles.
 #include "catch.h"
 #include "experiments/growth.h"
 #include "models/measure.h"
@@ -110,6 +110,61 @@ TEST_CASE("holton: strands and squares of diameters are kept at every fork, and 
         ++measured;
     }
     CHECK(measured == 59);
+}
+
+TEST_CASE("holton: shares and angles are those of Gravelius' and Weibel's order, as a separate program finds",
+          "[trees]") {
+    // A branch of s strands, its order, and the forks that lead to it; then those that grow from it, side branch first.
+    struct Tables {
+        double share[2][2] = {{0.985, 0.55}, {0.6, 0.7}}, angle[2][2] = {{115, 55}, {35, 45}};
+    } const tables;
+    for (const int crown : {0, 3, 12}) {
+        struct Branch {
+            double strands;
+            int order, forks;
+        };
+        std::vector<Branch> expected;
+        std::vector<double> angles;
+        const auto part = [&](const auto& again, const Branch& branch) -> void {
+            expected.push_back(branch);
+            if (branch.strands < 2) return;
+            const int g = std::min(branch.order, 1), w = branch.forks >= crown;
+            const double on = 1 + std::round(tables.share[g][w] * (branch.strands - 2));
+            angles.push_back(tables.angle[g][w]);
+            again(again, {branch.strands - on, branch.order + 1, branch.forks + 1});
+            again(again, {on, branch.order, branch.forks + 1});
+        };
+        part(part, {90, 0, 0});
+
+        const LonePlant tree =
+            grown_tree("holton", {{"STRANDS", "90"}, {"CROWN", std::to_string(crown)}, {"CROWN_SHARE_1", "0.7"}});
+        const ModuleTree branches = tree_of(tree, "Internode");
+        REQUIRE(branches.nodes.size() == expected.size());
+        std::vector<int> forks(expected.size(), 0);
+        const auto& internodes = tree.interpretation.geometry.internodes;
+        std::map<double, int> found, wanted;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            CHECK(branches.nodes[i][0] == expected[i].strands);
+            for (const std::size_t child : branches.children[i]) forks[child] = forks[i] + 1;
+            CHECK(forks[i] == expected[i].forks);
+        }
+        const auto children = children_of(tree.interpretation.geometry);
+        for (const auto& pair : children) {
+            if (pair.size() != 2) continue;
+            ++found[std::round(degrees_between(direction_of(internodes[pair[0]]), direction_of(internodes[pair[1]])))];
+        }
+        for (const double angle : angles) ++wanted[angle];
+        CHECK(found == wanted);
+        // The ends of the string know their orders.
+        std::size_t end = 0;
+        const auto tips = parameters_of(tree.string, tree.model->alphabet, "Tip");
+        for (const Branch& branch : expected) {
+            if (branch.strands >= 2) continue;
+            CHECK(tips[end][2] == branch.order);
+            CHECK(tips[end++][3] == branch.forks);
+        }
+        CHECK(end == tips.size());
+    }
 }
 
 TEST_CASE("holton: lengths go with the root of the strands, within their bounds; drawn ones do not act on", "[trees]") {
@@ -256,4 +311,40 @@ TEST_CASE("structured-particles: the mean height of 1000 trees is the one that w
         sum += values_of(string, source_of(*compiled).alphabet, "Trunk", 1).front();
     }
     CHECK(sum / 1000 == Approx(9).epsilon(0.01));
+}
+
+TEST_CASE("grass: blades are parabolas that their particles flew, as high on average as the formula says", "[herbs]") {
+    constexpr int least = 9, most = 12;
+    constexpr double gravity = 0.0045, speed = 0.055, lean = 28 * std::numbers::pi / 180;
+    double expected = 0;
+    for (int n = least; n <= most; ++n) {
+        expected += (n * speed * std::sin(lean) / lean - gravity / 2 * n * n) / (most - least + 1);
+    }
+    for (const std::uint64_t seed : {71u, 72u, 73u}) {
+        LonePlant grass("models/herbs/grass.l", {{"TUFTS", "200"}}, seed);
+        grass.grow(most);
+        // Blade by blade: each begins on the ground.
+        std::vector<std::vector<glm::dvec3>> blades;
+        for (const Internode& internode : grass.interpretation.geometry.internodes) {
+            CHECK(internode.order == 2);
+            if (std::abs(internode.base.y) < 1e-12) blades.push_back({internode.base});
+            CHECK(glm::distance(blades.back().back(), internode.base) < 1e-12);
+            blades.back().push_back(internode.tip);
+        }
+        REQUIRE(blades.size() == 200 * 45);
+        double heights = 0;
+        for (const std::vector<glm::dvec3>& nodes : blades) {
+            const int pieces = static_cast<int>(nodes.size()) - 1;
+            CHECK((pieces >= least && pieces <= most));
+            heights += nodes.back().y;
+            for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+                const glm::dvec3 bend = nodes[i + 1] - 2. * nodes[i] + nodes[i - 1];
+                CHECK(glm::distance(bend, glm::dvec3(0, -gravity, 0)) < 1e-12);
+            }
+            const glm::dvec3 first = nodes[1] - nodes[0] + glm::dvec3(0, gravity / 2, 0);
+            CHECK(degrees_between(first, {0, 1, 0}) <= 28 + 1e-9);
+            CHECK(std::abs(glm::length(first) - speed) <= 0.025 + 1e-12);
+        }
+        CHECK(heights / static_cast<double>(blades.size()) == Approx(expected).epsilon(0.01));
+    }
 }

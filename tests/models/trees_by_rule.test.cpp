@@ -217,6 +217,99 @@ TEST_CASE("buds: with death the ticks a bud lives are geometric with mean 1 / DE
     CHECK(beyond / 2000.0 == Approx(std::pow(1 - death, 10)).margin(0.04));
 }
 
+TEST_CASE("buds: every axis ends in a bud that lives or in the cross of a dead one", "[trees]") {
+    for (const std::uint64_t seed : {61u, 62u, 63u}) {
+        LonePlant tree("models/trees/buds.l", {{"DEATH", "0.04"}}, seed);
+        tree.grow(40);
+        auto counts = tree.counts();
+        const int branches = counts["["] - counts["Leaf"];
+        CHECK(counts["Dead"] > 0);
+        CHECK(counts["Dead"] + counts["Bud"] == 1 + branches);
+        const auto& internodes = tree.interpretation.geometry.internodes;
+        CHECK(static_cast<int>(internodes.size()) == counts["Internode"] + 4 * counts["Dead"]);
+    }
+}
+
+TEST_CASE("buds: with vigour V a bud rests with probability PAUSE ^ V, and internodes are V times as long", "[trees]") {
+    for (const double vigour : {0.6, 1.7}) {
+        std::vector<double> lengths;
+        for (std::uint64_t seed = 500; seed < 800; ++seed) {
+            LonePlant axis("models/trees/buds.l",
+                           {{"DEATH", "0"}, {"BRANCHING", "0"}, {"PAUSE", "0.3"}, {"VIGOUR", std::to_string(vigour)}},
+                           seed);
+            axis.grow(40);
+            for (const Internode& internode : axis.interpretation.geometry.internodes) {
+                CHECK(length_of(internode) == Approx(vigour));
+            }
+            lengths.push_back(axis.counts()["Internode"]);
+        }
+        const double grows = 1 - std::pow(0.3, vigour);
+        CHECK(mean_of(lengths) == Approx(20 * grows).margin(4 * std::sqrt(20 * grows * (1 - grows) / 300)));
+    }
+}
+
+TEST_CASE("buds: a tree of the library never shrinks with age, and the same seed gives the same tree", "[trees]") {
+    const std::string species = GENERATE("coffee", "poplar", "spruce");
+    const auto size = [](const World& world) {
+        glm::dvec2 extent(0);  // height and radius
+        for (const Internode& internode : world.interpretation(0).geometry.internodes) {
+            extent = glm::max(extent, glm::dvec2(internode.tip.y, std::hypot(internode.tip.x, internode.tip.z)));
+        }
+        return extent;
+    };
+    for (const std::uint64_t seed : {81u, 82u}) {
+        INFO(species << ", seed " << seed);
+        SceneOptions options;
+        options.seed = seed;
+        const Scene scene = read_scene(source_path("environments/buds/" + species + ".toml"), options);
+        World tree(scene), same(scene);
+        tree.start();
+        same.start();
+        double height = 0;
+        while (!tree.at_end()) {
+            tree.step();
+            same.step();
+            CHECK(size(tree).x >= height);
+            height = size(tree).x;
+        }
+        CHECK(tree.string(0).parameters == same.string(0).parameters);
+        CHECK(height > (species == "coffee" ? 1 : 5));
+        CHECK((height > 4 * size(tree).y) == (species == "poplar"));
+    }
+}
+
+TEST_CASE("buds: coffee has opposite branches in crossing pairs, and spruce whorls of up to five", "[trees]") {
+    SceneOptions options;
+    options.seed = 83;
+    for (const auto& [species, most] : {std::pair{"coffee", 2}, std::pair{"spruce", 5}}) {
+        options.overrides = {{"plant.0.turtle.tropism", "[]"}};
+        const auto tree = grown(std::string("environments/buds/") + species + ".toml", options);
+        // Azimuths of the branches of each node of the trunk, by its height in internodes.
+        std::map<long, std::vector<double>> nodes;
+        const auto& internodes = tree->interpretation(0).geometry.internodes;
+        const double length = internodes.front().tip.y;
+        for (const Internode& internode : internodes) {
+            if (internode.order != 1 || std::hypot(internode.base.x, internode.base.z) > 1e-9) continue;
+            const glm::dvec3 direction = direction_of(internode);
+            nodes[std::lround(internode.base.y / length)].push_back(std::atan2(direction.z, direction.x) * 180 /
+                                                                    std::numbers::pi);
+        }
+        CHECK(nodes.size() > 8);
+        const double between = 360. / most, turn = most == 2 ? 90 : 37;
+        const auto& [first_node, first] = *nodes.begin();
+        for (const auto& [node, azimuths] : nodes) {
+            CHECK(azimuths.size() <= static_cast<std::size_t>(most));
+            const double turned = turn * static_cast<double>(node - first_node);
+            for (const double azimuth : azimuths) {
+                // The turtle's roll is seen from above, or from below.
+                const double left = std::remainder(azimuth - first[0] - turned, between);
+                const double right = std::remainder(azimuth - first[0] + turned, between);
+                CHECK(std::min(std::abs(left), std::abs(right)) < 1e-6);
+            }
+        }
+    }
+}
+
 TEST_CASE("buds: half the period makes twice the nodes, and nodes bear the buds of the table", "[trees]") {
     LonePlant tree("models/trees/buds.l",
                    {{"DEATH", "0"}, {"PAUSE", "0"}, {"BRANCHING", "1"}, {"BUDS_0", "3"}, {"BUDS_1", "2"}});
