@@ -263,9 +263,9 @@ TEST_CASE_METHOD(Nursery, "tubes have three sides unless told otherwise", "[tree
         const std::string out = run("tree --json --quiet --age 3 " + options).out;
         return json::parse(out)["files"][0]["triangles"].get<double>();
     };
-    CHECK(triangles("--rings 6") > 1.8 * triangles(""));
-    CHECK(triangles("--rings 3") == triangles(""));
-    CHECK(triangles("--rings 12 --triangles 400") <= 440);
+    CHECK(triangles("--sides 6") > 1.8 * triangles(""));
+    CHECK(triangles("--sides 3") == triangles(""));
+    CHECK(triangles("--sides 12 --triangles 400") <= 440);
 }
 
 TEST_CASE_METHOD(Workplace, "a run takes the settings of tree, and the tree by default warns of nothing", "[app]") {

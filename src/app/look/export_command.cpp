@@ -39,7 +39,7 @@ Json json_of(const ExportedFile& file) {
 class ExportCommand final : public Command {
 public:
     explicit ExportCommand(CLI::App& program)
-        : Command(program, "export", "write a recorded run as files of other programs"), mesh_(app(), "--sides", 8) {
+        : Command(program, "export", "write a recorded run as files of other programs"), mesh_(app(), 8) {
         app().add_option("run", folder_, "the folder of a run")->required();
         app()
             .add_option("--format", formats_, fmt::format("one or several of {}", fmt::join(known_formats(), ", ")))

@@ -6,11 +6,10 @@
 
 namespace espalier::app {
 
-MeshFileOptions::MeshFileOptions(CLI::App& command, const std::string& sides_name, int sides, const std::string& group)
-    : sides_(sides) {
+MeshFileOptions::MeshFileOptions(CLI::App& command, int sides, const std::string& group) : sides_(sides) {
     const std::string before = command.option_defaults()->get_group();
     command.option_defaults()->group(group);
-    command.add_option(sides_name, sides_, "number of corners of the rings of tubes")
+    command.add_option("--sides", sides_, "number of corners of the rings of tubes")
         ->check(CLI::Range(3, 256))
         ->capture_default_str();
     command

@@ -14,9 +14,8 @@ namespace espalier::app {
 
 class MeshFileOptions {
 public:
-    /// `sides_name` is the name of the option that says how many corners the rings of tubes have, `group` the heading
-    /// of all in the command's help.
-    MeshFileOptions(CLI::App& command, const std::string& sides_name, int sides, const std::string& group = "Options");
+    /// `sides` is the default of --sides, `group` the heading of all these options in the command's help.
+    MeshFileOptions(CLI::App& command, int sides, const std::string& group = "Options");
 
     /// What was said of the meshes; files are none's yet. Throws UserError for what does not go together.
     void put_into(ExportJob& job) const;

@@ -104,7 +104,7 @@ class Tree final : public Command {
 public:
     explicit Tree(CLI::App& program)
         : Command(program, "tree", "grow a tree from a few settings, and write its mesh"),
-          mesh_(app(), "--rings", fewest_sides, "Mesh") {
+          mesh_(app(), fewest_sides, "Mesh") {
         app().add_option("--output", output_,
                          "file, whose extension selects the format; default: tree-VERTICES-TRIANGLES.obj");
         app().add_option("--preset", preset_, "a named table of settings, listed below");
