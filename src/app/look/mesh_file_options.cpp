@@ -38,7 +38,7 @@ MeshFileOptions::MeshFileOptions(CLI::App& command, int sides, const std::string
     command.add_flag("--mesh-axes", mesh_axes_,
                      fmt::format("usd: axes as meshes, with {} and textures, and not as curves; "
                                  "--bark and --skin smooth imply it",
-                                 sides_name));
+                                 "--sides"));
     command.add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
     axes_.emplace(command);
     command.option_defaults()->group(before);
