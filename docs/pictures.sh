@@ -123,6 +123,9 @@ for step in 6 32; do
 done
 grow reaction-diffusion environments/reaction-diffusion.toml
 render reaction-diffusion.png reaction-diffusion --size 220x320 --elevation 20
+grow reaction-diffusion-two environments/reaction-diffusion.toml --set environment.pattern.second_inhibitor=0.1 \
+    --set environment.pattern.second_spread=0.05
+render reaction-diffusion-two.png reaction-diffusion-two --size 220x320 --elevation 20
 grow clover environments/clover-cover.toml
 for step in 34 56 120; do
     render "clover-$step.png" clover --step $step --size 300x300 --azimuth 0 --elevation 90 --no-ground

@@ -81,6 +81,7 @@ public:
           noise_(settings.number_or("noise", 0.01, Range::between(0, 1))),
           strength_(settings.number_or("second_inhibitor", 0, Range::between(0, 10))),
           memory_(settings.number_or("memory", 0.003, Range::between(0, 1))),
+          second_spread_(settings.number_or("second_spread", 0, Range::between(0, 0.2))),
           activator_(sheet_.cells(), 0),
           inhibitor_(sheet_.cells(), 0.1),
           second_(sheet_.cells(), 0),
@@ -141,8 +142,9 @@ private:
     void react() {
         next_activator_.resize(sheet_.cells());
         next_inhibitor_.resize(sheet_.cells());
-        const double *a = activator_.data(), *h = inhibitor_.data(), *source = source_.data();
-        double *next_a = next_activator_.data(), *next_h = next_inhibitor_.data(), *second = second_.data();
+        next_second_.resize(sheet_.cells());
+        const double *a = activator_.data(), *h = inhibitor_.data(), *second = second_.data(), *source = source_.data();
+        double *next_a = next_activator_.data(), *next_h = next_inhibitor_.data(), *next_second = next_second_.data();
         const std::size_t fertile = sheet_.cell(0, barren_rows);
         sheet_.each([=, this](std::size_t i, std::size_t up, std::size_t down, std::size_t left, std::size_t right) {
             const double square = a[i] * a[i], made = i < fertile ? 0 : production * source[i];
@@ -150,10 +152,13 @@ private:
                         spread * (a[up] + a[down] + a[left] + a[right] - 4 * a[i]);
             next_h[i] = h[i] + made * square - inhibitor_decay * h[i] +
                         inhibitor_spread * (h[up] + h[down] + h[left] + h[right] - 4 * h[i]);
-            second[i] += memory_ * (a[i] - second[i]);
+            next_second[i] =
+                second[i] + memory_ * (a[i] - second[i]) +
+                second_spread_ * (second[up] + second[down] + second[left] + second[right] - 4 * second[i]);
         });
         activator_.swap(next_activator_);
         inhibitor_.swap(next_inhibitor_);
+        second_.swap(next_second_);
     }
 
     // The new row at the tip is like the one that was there.
@@ -218,8 +223,8 @@ private:
     RandomKey key_;
     double cell_;
     std::int64_t rounds_;
-    double noise_, strength_, memory_;
-    Substance activator_, inhibitor_, second_, source_, next_activator_, next_inhibitor_;
+    double noise_, strength_, memory_, second_spread_;
+    Substance activator_, inhibitor_, second_, source_, next_activator_, next_inhibitor_, next_second_;
     std::vector<Maximum> maxima_;
     int grown_ = 0;
     std::uint64_t drawn_ = 0;  ///< rows of sources
@@ -370,8 +375,10 @@ noise            0.01, for a net 0.1: cells produce more or less by up to this p
 "organs"
 ?name(k, a, h)    k: the number of an organ, from 1 -> k if it has arisen, else 0
                   a -> its azimuth, degrees;  h -> its height above the base, m
-second_inhibitor  0: strength of an inhibitor that stays in its cell (Bernasconi 1994)
+second_inhibitor  0: strength of a second inhibitor
 memory            0.003: how fast it follows the activator, part of the difference per round
+second_spread     0: it stays in its cell (Bernasconi 1994); up to 0.2: it spreads too (Meinhardt 1982), part of the
+                  difference to each neighbouring cell per round
 
 "net"
 ?name(v)          v -> how much of a vein this place is: 0, or about 0.9; the sheet begins at the origin of x and y

@@ -3,6 +3,7 @@
 
 #include "catch.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -172,6 +173,32 @@ TEST_CASE("reaction-diffusion: a weak second inhibitor leaves the order as it is
     CHECK(strong > none + 0.08);
 }
 
+TEST_CASE(
+    "reaction-diffusion: two antagonists that spread make the spiral, which noise disturbs; one that stays disturbs "
+    "more",
+    "[reaction]") {
+    const auto order = [](const char* noise, const char* spread) {
+        return order_of(fmt::format("noise = {}\nsecond_inhibitor = 0.1\nsecond_spread = {}", noise, spread), 5001);
+    };
+    const auto broken = [](const Order& of) { return static_cast<double>(of.broken) / static_cast<double>(of.all); };
+    const Order calm = order("0.01", "0.05"), disturbed = order("0.05", "0.05"), staying = order("0.05", "0");
+    INFO(broken(calm) << ", " << broken(disturbed) << ", " << broken(staying));
+    CHECK(broken(calm) < 0.14);
+    CHECK(calm.sum / static_cast<double>(calm.all - calm.broken) == Approx(137.5).margin(8));
+    CHECK(broken(disturbed) > broken(calm) + 0.05);
+    CHECK(broken(staying) > broken(disturbed) + 0.05);
+}
+
+TEST_CASE("reaction-diffusion: a second antagonist without strength changes no leaf, however far it spreads",
+          "[reaction]") {
+    const auto none = leaves_of("", 9, 12), spread = leaves_of("second_spread = 0.1", 9, 12);
+    REQUIRE(none.size() == spread.size());
+    for (std::size_t i = 0; i < none.size(); ++i) {
+        CHECK(none[i].azimuth == spread[i].azimuth);
+        CHECK(none[i].height == spread[i].height);
+    }
+}
+
 TEST_CASE("reaction-diffusion: the same seed gives the same leaves, another seed others", "[reaction]") {
     const std::vector<Leaf> one = leaves_of("", 7, 12), again = leaves_of("", 7, 12), other = leaves_of("", 8, 12);
     bool differs = false;
@@ -184,7 +211,7 @@ TEST_CASE("reaction-diffusion: the same seed gives the same leaves, another seed
 }
 
 TEST_CASE("reaction-diffusion: a restored checkpoint goes on as if nothing had happened", "[reaction]") {
-    for (const char* text : {"", "pattern = \"net\""}) {
+    for (const char* text : {"", "second_inhibitor = 0.1\nsecond_spread = 0.05", "pattern = \"net\""}) {
         Alone whole(text), first(text), rest(text);
         whole.run(30);
         first.run(18);
