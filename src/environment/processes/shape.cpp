@@ -173,7 +173,7 @@ private:
     double growth_ = 0;
     glm::dvec3 movement_{0};
     std::vector<std::uint64_t> inside_, outside_;  ///< queries of each plant in this step
-    Box box_;                                      ///< of the field
+    Box box_;                                      ///< box of the field
 };
 
 std::string help() {

@@ -84,8 +84,7 @@ struct alignas(64) Plan {
 struct PackedSizes {
     static constexpr int bits = 16;
     static constexpr std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    static constexpr int flag_bits =
-        8;  ///< bits for the number of siblings, and of letters that are not simple: they share a field
+    static constexpr int flag_bits = 8;  ///< for siblings, and for letters that are not simple: they share a field
     static constexpr std::uint64_t flag_mask = (std::uint64_t{1} << flag_bits) - 1;
     static constexpr std::size_t most_at_once = flag_mask;
 
