@@ -51,7 +51,7 @@ std::string row_of(const std::string& help, const std::string& key) {
     return row;
 }
 
-// Of tables within a row, whose keys have no rows of their own.
+// Describes keys of tables within a row, which have no rows of their own.
 std::string words_of_inner_key(const std::string& key) {
     static const std::map<std::string, std::string> words{
         {"attraction", "strength of a source that tips grow to"},

@@ -1,4 +1,4 @@
-// fit: parameters of a model from lengths and angles that somebody marked on a picture of a plant.
+// fit: parameters of a model from lengths and angles that were marked on a picture of a plant.
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/language/model_settings.h"

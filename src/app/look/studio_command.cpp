@@ -243,7 +243,7 @@ private:
         return opened.has_filename() ? opened : opened.parent_path();
     }
 
-    // Nobody begins with an empty page: a random tree grows if nothing is named.
+    // Users do not begin with an empty page: a random tree grows if nothing is named.
     Opened opened() const {
         if (!what_.empty()) return {opened_path(), {}, {}};
         const fs::path tree = model_library({}).parent_path() / "environments/tree.toml";

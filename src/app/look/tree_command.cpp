@@ -121,7 +121,7 @@ public:
                          "memory that the growth may use, such as 4G; default: half of the machine");
         app().add_flag("--quiet", arguments_.quiet, "print errors only");
         add_json_flag("print the result as JSON");
-        // The model is read only if somebody asks for a tree.
+        // The model is read only if a tree is asked for.
         app().preparse_callback([this](std::size_t) { add_settings(); });
     }
 
@@ -223,7 +223,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
         }
         dress_leaves();
-        // Only the last frame of a run that nobody keeps is read.
+        // Only the last frame is read of a run that is not kept.
         if (run_.empty()) arguments_.overrides.emplace_back("timeline.every", "1000000000");
         const ReadLog inputs;
         const Scene scene = scene_of(arguments_);
