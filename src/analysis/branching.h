@@ -16,7 +16,7 @@ struct StrahlerOrders {
 StrahlerOrders strahler_orders(const BranchTree& tree);
 
 /// Viennot, Eyrolles, Janey & Arques 1989. A fork of order k has bi-order (k, j), j < k, or (k - 1, k - 1). Row k - 2
-/// of the matrix is of the forks of order k: in column j - 1 the part of those with (k, j), in the last, column k - 1,
+/// of the matrix shows the forks of order k: column j - 1 the part of those with (k, j), the last, column k - 1, that
 /// of those with (k - 1, k - 1). A fork of more than two branches counts as forks of two, the highest orders first.
 struct RamificationMatrix {
     std::vector<std::vector<double>> rows;  ///< each sums to 1

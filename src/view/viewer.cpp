@@ -356,7 +356,7 @@ void Viewer::select(std::optional<OrganKey> organ) {
 void Viewer::select_parent() {
     if (!organ_ || !history_) return;
     if (history_->history.parent == 0) {
-        say("it stands at the beginning: nobody bore it");
+        say("it stands at the beginning and has no parent");
         return;
     }
     select(OrganKey{organ_->plant, history_->history.parent});

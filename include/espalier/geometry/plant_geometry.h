@@ -111,7 +111,7 @@ struct PlantGeometry {
     std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: unknown
     bool in_pixels = false;                ///< widths of lines are given in pixels
     std::uint32_t axes = 0;
-    Box bounds;  ///< of everything drawn, thickness included
+    Box bounds;  ///< bounds of everything drawn, thickness included
 
     void clear();
 };

@@ -20,7 +20,7 @@ struct Siblings {
 
     Identity parent;      ///< identity of the parent; for the axiom, what its identities are made from
     std::uint32_t step;   ///< step of birth
-    std::uint32_t depth;  ///< of the decomposition that made them, 0: the production itself; or `axiom`
+    std::uint32_t depth;  ///< level of the decomposition that made them, 0: the production itself; or `axiom`
 
     Identity identity(std::uint32_t place) const { return mix(origin() ^ place); }
     /// What the identities of all siblings are made from.

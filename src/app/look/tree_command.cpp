@@ -110,7 +110,7 @@ public:
         app().add_option("--preset", preset_, "a named table of settings, listed below");
         app().add_option("--settings", settings_, "a file with settings: crown-width = 6 in a line of its own");
         app().add_option("--save-settings", saved_, "write all settings, and the seed, to a file for --settings");
-        app().add_option("--seed", seed_, "of all random numbers, or new: a random one, which is printed");
+        app().add_option("--seed", seed_, "seed of all random numbers; new: draw a seed and print it");
         app().add_option("--leaf-picture", leaf_picture_,
                          "PNG with opacity that leaves wear; default: that of the scene. See espalier leaf-texture");
         app().add_option("--run", run_, "keep the run in this folder; default: it is removed");
