@@ -364,7 +364,7 @@ pattern          "organs" (default): on a stem that grows by a row of cells in e
                  "net": on a sheet, where veins grow towards a substance that they take up
 cell             m, 1: size of a cell
 columns, rows    of cells; 34 and 20, for a net 56 and 40
-rounds           of reaction and diffusion in a step; 400, for a net 100
+rounds           number of rounds of reaction and diffusion in a step; 400, for a net 100
 noise            0.01, for a net 0.1: cells produce more or less by up to this part
 
 "organs"
