@@ -15,7 +15,7 @@ inline std::string bytes_of(std::initializer_list<int> values) {
     return bytes;
 }
 
-/// Of the test pictures, 3 x 2 pixels: red is 10 x + y, green 100 + red, blue 200 + red, y counted from below.
+/// Returns a shade of the test pictures, 3 x 2 pixels: red is 10 x + y, green 100 + red, blue 200 + red, y from below.
 inline int shade_at(int x, int y, int channel) {
     return 100 * channel + 10 * x + y;
 }

@@ -10,27 +10,27 @@ namespace espalier::analysis {
 
 /// Strahler 1957: 1 at a tip; where branches meet the highest order of theirs, one more if two have it.
 struct StrahlerOrders {
-    std::vector<std::uint8_t> orders;  ///< of the internodes
-    int highest = 0;                   ///< of the plant, where all that stands on the ground meets; 0: no internodes
+    std::vector<std::uint8_t> orders;  ///< order of each internode
+    int highest = 0;  ///< order of the plant, where all that stands on the ground meets; 0: no internodes
 };
 StrahlerOrders strahler_orders(const BranchTree& tree);
 
 /// Viennot, Eyrolles, Janey & Arques 1989. A fork of order k has bi-order (k, j), j < k, or (k - 1, k - 1). Row k - 2
-/// of the matrix is of the forks of order k: in column j - 1 the part of those with (k, j), in the last, column k - 1,
+/// of the matrix shows the forks of order k: column j - 1 the part of those with (k, j), the last, column k - 1, that
 /// of those with (k - 1, k - 1). A fork of more than two branches counts as forks of two, the highest orders first.
 struct RamificationMatrix {
     std::vector<std::vector<double>> rows;  ///< each sums to 1
-    std::vector<std::size_t> forks;         ///< of each row; every row has some
+    std::vector<std::size_t> forks;         ///< number of forks that each row counts; every row has some
 };
 RamificationMatrix ramification_matrix(const BranchTree& tree, const StrahlerOrders& orders);
 
 /// The streams of one Strahler order: chains of internodes of that order.
 struct StreamOrder {
     std::size_t streams = 0, internodes = 0;
-    double mean_length = 0;    ///< of the streams, m
-    double mean_diameter = 0;  ///< along them, m
+    double mean_length = 0;    ///< mean length of the streams, m
+    double mean_diameter = 0;  ///< mean diameter along the streams, m
 };
-/// Element k - 1 is of order k.
+/// Element k - 1 describes order k.
 std::vector<StreamOrder> streams(const BranchTree& tree, const StrahlerOrders& orders);
 
 /// Horton 1945: the factors from order to order by which streams grow fewer, longer and thicker, fitted through all

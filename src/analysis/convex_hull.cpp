@@ -48,7 +48,7 @@ public:
 
 private:
     std::vector<double> coordinates_;
-    /// Where qhull writes its explanations, which nobody reads.
+    /// Where qhull writes its explanations, which are not read.
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> errors_{std::fopen("/dev/null", "w"), std::fclose};
     qhT qhull_{};
     int code_ = 0;

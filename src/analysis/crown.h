@@ -10,7 +10,7 @@ namespace espalier::analysis {
 struct Crown {
     double base = 0, top = 0;         ///< heights of its lowest and highest point above the plant's foot, m
     double width_x = 0, width_z = 0;  ///< extents, m
-    double volume = 0;                ///< of its convex hull, m3
+    double volume = 0;                ///< volume of its convex hull, m3
     double projection = 0;            ///< area of the convex hull of its shadow from straight above, m2
     double voxel = 0;                 ///< edge of the voxels: as given, or 1/32 of its largest extent, m
     double occupied = 0;              ///< volume of the voxels that hold a corner of a leaf or a piece of a branch, m3

@@ -19,8 +19,8 @@ struct Summary {
     double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
 };
 
-/// Of each layer across the axis. Squares are those of the distance from the layer's first value, which keeps them
-/// exact where a field is nearly even.
+/// Summarizes each layer across the axis. Squares are those of the distance from the layer's first value: this keeps
+/// them exact where a field is nearly even.
 std::vector<Summary> summaries(const RecordedField& field, int axis) {
     std::vector<Summary> layers(static_cast<std::size_t>(field.size[axis]));
     std::vector<double> first(layers.size(), std::numeric_limits<double>::quiet_NaN());

@@ -14,7 +14,7 @@ struct FreeParameter {
 };
 
 struct LeastSquares {
-    std::vector<double> values;  ///< of the parameters
+    std::vector<double> values;  ///< values of the parameters
     std::vector<double> errors;  ///< standard errors; NaN where the residuals do not decide a parameter
     double residual = 0;         ///< root mean square
     int evaluations = 0;

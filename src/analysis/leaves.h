@@ -16,7 +16,7 @@ namespace espalier::analysis {
 /// What one module shows: a polygon, a disc, a surface of many facets, or several of them.
 struct Leaf {
     glm::dvec3 position;  ///< mean of its corners, m
-    double area;          ///< of its facets, one side, m2
+    double area;          ///< area of its facets, one side, m2
 };
 
 struct Leaves {

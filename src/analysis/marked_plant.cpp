@@ -258,7 +258,7 @@ double angle_between(const glm::dvec2& a, const glm::dvec2& b) {
     return lengths > 0 ? glm::degrees(std::acos(std::clamp(glm::dot(a, b) / lengths, -1.0, 1.0))) : 0;
 }
 
-/// Of an axis at a node: that of the internode which ends there; at its base that of the first.
+/// Returns the direction of an axis at a node: that of the internode which ends there; at its base that of the first.
 glm::dvec2 direction_at(const MarkedAxis& axis, std::size_t node) {
     const std::size_t tip = std::max<std::size_t>(node, 1);
     return axis.nodes[tip] - axis.nodes[tip - 1];

@@ -1,4 +1,4 @@
-// A plant as somebody marked it on a picture: axes in a plane, to be compared with those of a model.
+// A plant as the user marked it on a picture: axes in a plane, to be compared with those of a model.
 #pragma once
 
 #include "espalier/archive/recorded_run.h"
@@ -42,8 +42,8 @@ void join_axes(std::vector<MarkedAxis>& axes);
 /// What is compared of two plants: by order and place along the axis, in means over the axes of an order.
 struct AxisMeasures {
     using Cell = std::pair<int, std::size_t>;
-    std::map<Cell, double> lengths;  ///< of internodes; in lengths of the main axis if there is no scale
-    std::map<Cell, double> angles;   ///< of branches that begin there, degrees
+    std::map<Cell, double> lengths;  ///< lengths of internodes; in lengths of the main axis if there is no scale
+    std::map<Cell, double> angles;   ///< angles of branches that begin there, degrees
 };
 AxisMeasures measures_of(const MarkedPlant& plant, bool in_metres);
 

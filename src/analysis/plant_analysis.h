@@ -41,7 +41,7 @@ struct PlantAnalysis {
 PlantAnalysis analyse(std::uint32_t plant, const BranchTree& tree, const Leaves& leaves,
                       const AnalysisOptions& options = {});
 
-/// Of each of `plants`, in their order.
+/// Analyses each of `plants`, in their order.
 std::vector<PlantAnalysis> analyse(const RecordedGeometry& geometry, std::span<const std::uint32_t> plants,
                                    const AnalysisOptions& options = {});
 

@@ -12,9 +12,9 @@ namespace espalier::analysis {
 /// What lies between two heights of the world, m: those of the soil, whatever height the plant stands at.
 struct Layer {
     double from = 0, to = 0;
-    double length = 0;          ///< of the internodes' pieces in it, m
-    double surface = 0;         ///< of these, m2
-    double leaf_area = 0;       ///< of the leaves whose middle is in it, m2
+    double length = 0;          ///< length of the internodes' pieces in it, m
+    double surface = 0;         ///< surface of these pieces, m2
+    double leaf_area = 0;       ///< area of the leaves whose middle is in it, m2
     double density = 0;         ///< length per volume: of the layer's thickness times the area below, m/m3 = m-2
     double ground_density = 0;  ///< the same, over an area of ground that is given; NaN if none is
 };

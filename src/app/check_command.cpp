@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 struct CheckArguments {
     ModelArguments model;  ///< or a side file alone
-    KeyValues overrides;   ///< of a scene
+    KeyValues overrides;   ///< settings of a scene
     bool json = false;
 };
 

@@ -38,7 +38,7 @@ struct DeriveArguments {
     std::filesystem::path files;  ///< where files go that the model writes; empty: nowhere
     bool quiet = false;
     std::size_t memory = 0;
-    KeyValues overrides;    ///< of a scene
+    KeyValues overrides;    ///< settings of a scene
     std::string plant;      ///< its name; empty: the only one
     std::string explained;  ///< a symbol: what became of its modules is told instead; empty: none
 };
@@ -74,7 +74,7 @@ private:
 struct Growth {
     std::function<bool()> done;  ///< asked anew after every step: a model may stop, or change its length
     std::function<void()> plant_axiom, derive, exchange;
-    std::function<void()> answer_turtle;  ///< of an exchange, only what the turtle answers
+    std::function<void()> answer_turtle;  ///< answers only what the turtle answers in an exchange
 };
 
 void grow(const Growth& growth, bool before_exchange) {
@@ -137,7 +137,7 @@ public:
         settings_.printout = std::make_shared<Printout>([](const std::string&) {});
     }
 
-    /// Of the step that comes next.
+    /// Returns the text of the step that comes next.
     std::string text(const DerivedStep& before, std::size_t number) const {
         const DerivedStep::OfPlant& plant = before.plants.at(number);
         Derivation derivation(plant_.model, settings_);

@@ -164,7 +164,7 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int fail(const std::string& message, int code, bool json) {
-    // Nobody is left to be told of an output that cannot be written; the exit code still says it.
+    // There is no output left to tell of one that cannot be written; the exit code still says it.
     std::fputs((message + "\n").c_str(), stderr);
     if (json) {
         const char* const exit = code == exit_code::interrupted ? "interrupted" : "failed";

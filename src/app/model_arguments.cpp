@@ -130,7 +130,7 @@ void print_warnings(const std::vector<Diagnostic>& diagnostics) {
     for (Diagnostic diagnostic : diagnostics) {
         diagnostic.severity = Diagnostic::Severity::warning;
         const std::string text = to_string(diagnostic);
-        // Nobody is left to be told of messages that cannot be written.
+        // There is no output left to tell of messages that cannot be written.
         if (said.insert(text).second) std::fputs((text + "\n").c_str(), stderr);
     }
 }

@@ -112,7 +112,7 @@ GrowthOptions::GrowthOptions(CLI::App& command) {
     command
         .add_option_function<std::string>(
             "--seed", [this](const std::string& text) { read_seed(text); },
-            "of all random numbers; the same seed gives the same result. random: one is drawn, and printed")
+            "seed of all random numbers; the same seed gives the same result. random: draw a seed and print it")
         ->type_name("INT|random");
     command.add_option("--memory", memory_, "memory that the run may use, such as 4G; default: half of the machine");
 }

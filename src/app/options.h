@@ -57,7 +57,7 @@ public:
     std::optional<std::uint64_t> seed() const {
         return seed_ < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(seed_));
     }
-    std::size_t memory() const;  ///< bytes; 0: nobody says
+    std::size_t memory() const;  ///< bytes; 0: not given
 
 private:
     void read_seed(const std::string& text);
@@ -72,7 +72,7 @@ class DiskOption {
 public:
     explicit DiskOption(CLI::App& command);
 
-    std::size_t bytes() const;  ///< 0: nobody says
+    std::size_t bytes() const;  ///< 0: not given
 
 private:
     std::string disk_;

@@ -10,7 +10,7 @@
 namespace espalier::app {
 namespace {
 
-// Progress that nobody can read any more must not end a run: what cannot be written is let go.
+// Progress that cannot be shown any more must not end a run: what cannot be written is let go.
 void say(const std::string& text) {
     std::fputs(text.c_str(), stderr);
     std::fflush(stderr);

@@ -154,7 +154,7 @@ std::vector<std::string> words_of(const RunArguments& arguments) {
 
 InterruptibleRun::InterruptibleRun(bool quiet) : scope_(&interrupt), signals_(request_interrupt, /*only_once=*/true) {
     silent = quiet;
-    platform::report_closed_outputs();  // progress that nobody reads any more must not end a run
+    platform::report_closed_outputs();  // progress that no terminal or pipe takes any more must not end a run
 }
 
 bool InterruptibleRun::interrupted() {

@@ -37,7 +37,7 @@ void take_settings(const std::filesystem::path& file, RunArguments& arguments);
 /// The command line without what does not change the timeline: what starts the same run again.
 std::vector<std::string> words_of(const RunArguments& arguments);
 
-/// The folder of a run for which nobody named one: output/<scene>-<time>, numbered if two runs of a scene begin in the
+/// The folder of a run whose user named none: output/<scene>-<time>, numbered if two runs of a scene begin in the
 /// same second. It is made at once, and removed in the end if nothing was written there.
 class DefaultOutput {
 public:

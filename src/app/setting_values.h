@@ -17,7 +17,7 @@ namespace espalier::app {
 /// CROWN_WIDTH is "crown-width".
 std::string option_name(const ModelSetting& setting);
 
-/// Of the first plant of a scene. Throws UserError if it has none.
+/// Returns the model of the first plant of a scene. Throws UserError if it has none.
 std::filesystem::path first_model_of(const std::filesystem::path& scene);
 
 class SettingValues {

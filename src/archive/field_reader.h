@@ -6,9 +6,9 @@
 
 namespace espalier::archive {
 
-/// Of a .vdb the box of its active voxels; what the .vti holds otherwise. Throws UserError naming the file.
+/// Reads the box of a .vdb's active voxels, or what the .vti holds. Throws UserError naming the file.
 RecordedField read_field(const std::filesystem::path& path, const std::string& name);
-/// The same as a grid that nobody else holds.
+/// The same as a grid of its own.
 Field read_grid(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace espalier::archive

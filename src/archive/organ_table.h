@@ -26,7 +26,7 @@ public:
     const OrganRow* find(const OrganKey& key) const;
     const std::string& symbol(const OrganRow& row) const { return symbol_names_[row.symbol]; }
     const std::vector<std::string>& parameter_names() const { return parameter_names_; }
-    /// Of a row of this table, in the order of `names`; NaN where the frame has no such parameter.
+    /// Returns the values of a row of this table, in the order of `names`; NaN where the frame has no such parameter.
     std::vector<double> parameters(const OrganRow& row, const std::vector<std::string>& names) const;
     std::size_t bytes() const;
 

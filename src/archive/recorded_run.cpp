@@ -170,7 +170,7 @@ double cell_value(const fs::path& file, const std::string& text) {
     return number(file, text);
 }
 
-/// Of the scene's domain, or of the first process that has one.
+/// Returns the area of the scene's domain, or of that of the first process that has one.
 std::optional<double> ground_area_of(const Json& run) {
     std::vector<Json> tables;
     if (run.contains("parameters")) tables.push_back(run["parameters"].value("simulation", Json::object()));

@@ -78,7 +78,7 @@ private:
     std::vector<char> packed_;
 };
 
-/// Null for a name that the timeline does not write. VTK prints errors unless somebody listens.
+/// Null for a name that the timeline does not write. VTK prints errors unless they are observed.
 vtkSmartPointer<vtkDataCompressor> compressor_of(std::string_view name) {
     vtkSmartPointer<vtkDataCompressor> compressor;
     if (name == "vtkLZ4DataCompressor") compressor = vtkSmartPointer<vtkLZ4DataCompressor>::New();

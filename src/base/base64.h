@@ -8,7 +8,7 @@
 
 namespace espalier {
 
-/// Of the text for so many bytes.
+/// Returns the length of the text for so many bytes.
 constexpr std::size_t base64_length(std::size_t bytes) {
     return (bytes + 2) / 3 * 4;
 }

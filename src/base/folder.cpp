@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a relative path that does not exist, weakly_canonical makes no absolute one.
+// weakly_canonical leaves a relative path relative if it does not exist.
 fs::path resolved(const fs::path& path, std::error_code& error) {
     const fs::path whole = fs::absolute(path, error);
     return error ? whole : fs::weakly_canonical(whole, error);

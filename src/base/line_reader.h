@@ -14,8 +14,8 @@ namespace espalier {
 /// refused with its place.
 class LineReader {
 public:
-    static constexpr int most_lines = 100000;    ///< of points
-    static constexpr int most_points = 1000000;  ///< of all points, each as often as its multiplicity says
+    static constexpr int most_lines = 100000;    ///< most lines of points
+    static constexpr int most_points = 1000000;  ///< most points of all lines, each as often as its multiplicity says
 
     explicit LineReader(TextCursor text) : text_(std::move(text)) { skip_blanks(); }
 

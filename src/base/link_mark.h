@@ -1,4 +1,4 @@
-// The mark of folders that came by a link: whoever sent it may be anybody.
+// The mark of folders that came by a link: their sender is not to be trusted.
 #pragma once
 
 #include <filesystem>

@@ -34,7 +34,7 @@ private:
         return monotone_slope(rise(k - 1), rise(k));
     }
 
-    /// Of the parabola through three values, kept from overshooting.
+    /// Returns the end slope of the parabola through three values, kept from overshooting.
     static double end_slope(double near, double far) {
         const double parabola = 1.5 * near - 0.5 * far;
         if (parabola * near <= 0) return 0;

@@ -91,7 +91,7 @@ Picture read_targa(const PictureBytes& bytes) {
     Picture image = black(bytes, bytes.little(12), bytes.little(14));
     const bool top_first = bytes.at(17) & 32u;
     std::size_t at = 18u + bytes.at(0) + bytes.little(5) * ((bytes.at(7) + 7u) / 8u);
-    std::size_t left = 0;  // of the packet
+    std::size_t left = 0;  // pixels left of the packet
     bool repeats = false;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         if (coded && left == 0) {

@@ -22,7 +22,7 @@ class OpenFile {
 public:
     enum class Mode {
         create,          ///< made, or emptied
-        create_private,  ///< the same; nobody but its owner may read a file that is made
+        create_private,  ///< the same; only its owner may read a file that is made
         append,          ///< there already; written at its end
         overwrite        ///< there already; its bytes are replaced in place
     };
@@ -73,7 +73,7 @@ void unlock(int locked);
 /// True while a process holds the lock of a file, and where that cannot be known.
 bool is_locked(const std::filesystem::path& file);
 
-/// Makes a folder of a name nobody has; the six X at the end of `path` are replaced.
+/// Makes a folder with a new name; the six X at the end of `path` are replaced.
 [[nodiscard]] std::error_code make_unique_folder(std::filesystem::path& path);
 
 // --- memory ---------------------------------------------------------------------------------------------------------
@@ -100,7 +100,7 @@ int process_number();
 std::filesystem::path program_file();
 
 /// Gives unused standard streams a file that ignores what is written: a file must not be opened under the number of a
-/// standard stream that somebody closed, or messages land in it.
+/// standard stream that is closed, or messages land in it.
 void occupy_standard_streams();
 
 /// Is standard error a terminal that redraws a line?
@@ -109,7 +109,7 @@ bool has_terminal();
 /// Writes to standard error; allowed in a signal handler.
 void write_error(std::string_view text);
 
-/// Waits until nobody can write to standard input any more.
+/// Waits until no program can write to standard input any more.
 void wait_for_end_of_input();
 
 /// Becomes another program: returns only why it cannot.
@@ -137,7 +137,7 @@ bool is_hang_up(int signal);
 
 /// A file larger than the system allows is from now on an error of its writer and does not end the program.
 void report_large_files();
-/// Nor does an output that nobody reads any more.
+/// Nor does an output that no program reads any more.
 void report_closed_outputs();
 
 // --- other programs -------------------------------------------------------------------------------------------------
@@ -169,7 +169,7 @@ enum class Ending {
 /// Asks a child to end.
 void end(int child, Ending how);
 
-/// The end to read from of a pipe that nobody writes to: it ends with this program, however that ends.
+/// The end to read from of a pipe that no program writes to: it ends with this program, however that ends.
 int lifeline();
 
 /// The descriptor of a standard file.

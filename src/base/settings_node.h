@@ -21,10 +21,10 @@ struct Settings::Node {
     std::int64_t integer = 0;
     double real = 0;
     std::string text;
-    std::vector<std::shared_ptr<Node>> items;  ///< of an array; of a table, beside `names`
+    std::vector<std::shared_ptr<Node>> items;  ///< items of an array; values of a table, beside `names`
     std::vector<std::string> names;
     bool was_read = false;
-    bool computed = false;  ///< by an expression
+    bool computed = false;  ///< an expression gave the value
     /// Keys asked for and absent, with the defaults used: candidates for "did you mean", and part of what was resolved.
     std::vector<std::pair<std::string, std::shared_ptr<Node>>> defaults;
 

@@ -1,8 +1,8 @@
 // Work shared between threads, as ThreadSanitizer sees it.
 //
 // oneTBB comes compiled without the sanitizer, which therefore does not see that a task begins after it was handed on
-// and ends before anybody goes on. Shared work says so. It says nothing of two of its parts: these may run at once, and
-// what one writes and another reads is a race, whichever threads ran them this time.
+// and ends before the next task goes on. Shared work says so. It says nothing of two of its parts: these may run at
+// once, and what one writes and another reads is a race, whichever threads ran them this time.
 #pragma once
 
 #if defined(__SANITIZE_THREAD__)

@@ -15,7 +15,7 @@
 namespace espalier::formats {
 namespace {
 
-// Of the standard: component types and what a buffer view is for.
+// Numbers of the standard: component types and what a buffer view is for.
 constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 constexpr int unsigned_short = 5123, unsigned_int = 5125, float_number = 5126, vertex_buffer = 34962,
               index_buffer = 34963;
@@ -108,7 +108,7 @@ std::size_t Glb::material(const MeshMaterial& look) {
     return material_number_[look] = materials_.size() - 1;
 }
 
-// Of 16 bits where they suffice; the largest number of such indices is none of the standard's.
+// Adds indices of 16 bits where they suffice; the standard excludes the largest number of such indices.
 std::size_t Glb::add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
     const Json none = Json::object();
     if (vertices > std::numeric_limits<std::uint16_t>::max()) {
@@ -129,7 +129,7 @@ std::size_t Glb::add_mesh(const std::vector<glm::vec3>& points, const std::vecto
          add_accessor(points.data(), points.size(), float_number, "VEC3", vertex_buffer, bounds_of(points))},
         {"NORMAL", add_accessor(normals.data(), normals.size(), float_number, "VEC3", vertex_buffer, none)},
         {"TEXCOORD_0", add_accessor(places.data(), places.size(), float_number, "VEC2", vertex_buffer, none)}};
-    std::map<std::uint32_t, std::vector<std::uint32_t>> corners;  // of each material
+    std::map<std::uint32_t, std::vector<std::uint32_t>> corners;  // by material
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         auto& list = corners[material_of[i]];
         list.insert(list.end(), triangles[i].begin(), triangles[i].end());

@@ -41,7 +41,7 @@ public:
                  const std::vector<glm::vec4>& values, const char* interpolation = "LINEAR");
 
     Json& nodes() { return nodes_; }
-    /// Of textures that are missing.
+    /// Names the textures that are missing.
     std::string hint() const;
     /// The whole file; `roots` are the nodes of the scene. Throws RunError beyond 4 GiB.
     std::string bytes(const std::vector<std::size_t>& roots) const;

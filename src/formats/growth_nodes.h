@@ -23,8 +23,8 @@ struct NodeShape {
     std::vector<glm::vec3> points, normals;
     std::vector<glm::vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<Rgb> rgb;  ///< of triangles
-    std::string texture;   ///< of all of it
+    std::vector<Rgb> rgb;  ///< colours of triangles
+    std::string texture;   ///< texture of all of it
 
     auto key() const { return std::tie(points_key_, triangles, rgb, texture, textured_uvs_); }
     /// Shapes that differ by less than a ten-thousandth are taken for one.
@@ -39,8 +39,8 @@ private:
 struct GrowthNode {
     MeshPart part;
     NodeShape organ;                                      ///< as last seen; an internode's is made by shape_of
-    float taper = 1;                                      ///< of an internode: tip radius by base radius
-    Rgb rgb{};                                            ///< of an internode
+    float taper = 1;                                      ///< tip radius of an internode by its base radius
+    Rgb rgb{};                                            ///< colour of an internode
     std::vector<std::pair<std::size_t, NodePose>> poses;  ///< by number of the frame
     std::vector<std::uint32_t> anchors;                   ///< the three vertices that say how an organ is turned
 };

@@ -23,7 +23,7 @@ struct CardImage {
 
 struct LandscapeFile {
     const PlantedLandscape& landscape;
-    const std::vector<std::vector<CardImage>>& cards;  ///< of each species by turn
+    const std::vector<std::vector<CardImage>>& cards;  ///< cards of each species by turn
     glm::dvec3 eye;                                    ///< to which cards turn
     Rgb ground;
     const RecordedRun& run;  ///< says what materials emit
@@ -45,7 +45,7 @@ struct ShapePlaces {
 
 /// "oak_level_2", "oak_card_0"
 std::string name_of(const LandscapeFile& file, const LandscapeShape& shape);
-/// Of a card, the texture that it wears.
+/// Returns the texture that a card wears.
 std::string texture_name_of(const LandscapeFile& file, const LandscapeShape& card);
 FrameMesh mesh_of(const LandscapeFile& file, const LandscapeShape& shape);
 std::map<LandscapeShape, ShapePlaces> places_by_shape(const LandscapeFile& file);

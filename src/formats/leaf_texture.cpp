@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t salt = 0x6c656166;
 constexpr double slenderness = 0.5;     ///< width by length of a blob
-constexpr double shortest_share = 0.7;  ///< of the longest blob
+constexpr double shortest_share = 0.7;  ///< share of the longest blob's length
 constexpr int places_tried = 1000;
 
 struct Blob {
@@ -88,7 +88,7 @@ private:
         }
     }
 
-    /// Of other blobs, two pixels around it included; no more than `enough` are counted.
+    /// Returns how many pixels of a blob, two around it included, others cover already; counts no more than `enough`.
     std::size_t covered_pixels(const Blob& blob, std::size_t enough) const {
         std::size_t covered = 0;
         each_pixel(blob, [&](std::size_t x, std::size_t y, const glm::dvec2& place) {

@@ -47,7 +47,7 @@ public:
     /// Writes a picture that is in no file yet as "NAME-FILE.png", with the name of the job; it is the texture `file`
     /// from now on. Throws RunError.
     const TextureCopy& add(const std::string& file, const std::string& png);
-    /// Of those that were asked for and are missing.
+    /// Names the textures that were asked for and are missing.
     std::string hint() const { return hint_of_missing(missing_); }
 
 private:

@@ -34,8 +34,8 @@ private:
 
     const ExportJob& job_;
     GrowthNodes nodes_;
-    std::map<std::uint32_t, std::vector<Shape>> shapes_;  ///< of each plant
-    std::vector<std::size_t> shape_of_;                   ///< of the nodes, among those of their plant
+    std::map<std::uint32_t, std::vector<Shape>> shapes_;  ///< shapes of each plant
+    std::vector<std::size_t> shape_of_;                   ///< shape of each node, among those of its plant
     std::size_t vertices_ = 0, triangles_ = 0;
 };
 

@@ -28,7 +28,7 @@ public:
     /// The scope of all that were asked for: a UsdPreviewSurface each, whose picture is read by `st` and times the
     /// colour.
     void append_to(std::string& text) const;
-    /// Of textures that are missing.
+    /// Names the textures that are missing.
     std::string hint() const { return copies_.hint(); }
 
 private:

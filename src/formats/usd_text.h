@@ -49,7 +49,7 @@ std::string numbers(const auto& range) {
 }
 
 std::string vectors(const std::vector<glm::vec3>& range);
-/// Of a quath[]: w first.
+/// Writes the values of a quath[]: w first.
 std::string turns_as_text(const std::vector<glm::quat>& range);
 std::string places(const std::vector<glm::vec2>& uvs);
 std::string colours(const std::vector<Rgb>& range);

@@ -40,7 +40,7 @@ void CylinderCurve::add_hermite(std::size_t i) {
                           {a.width, width_slope(i, i), b.width, width_slope(next(i), i)}});
 }
 
-/// Of an open spline, points beyond the ends are the inner ones mirrored: then it begins and ends at its end points.
+/// In an open spline, points beyond the ends are the inner ones mirrored: it begins and ends at its end points.
 void CylinderCurve::add_spline(std::size_t i) {
     const std::size_t size = cylinder_.points.size();
     Stretch stretch{};

@@ -22,7 +22,7 @@ public:
 
 private:
     struct Stretch {
-        glm::dvec3 points[4];  ///< of a Hermite curve: position, tangent, position, tangent
+        glm::dvec3 points[4];  ///< a Hermite curve has position, tangent, position, tangent
         double widths[4];
     };
     void add_hermite(std::size_t i);

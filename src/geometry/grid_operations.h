@@ -1,5 +1,5 @@
 // What is done with the grids of fields, for everything that does without OpenVDB itself. OpenVDB takes 30 ms to load:
-// the library that needs it is opened when somebody asks for it.
+// the library that needs it is opened when it is first asked for.
 #pragma once
 
 #include "espalier/base/column.h"
@@ -43,7 +43,7 @@ void open_grid_library();
 /// Opens it, too.
 const GridOperations& grid_operations();
 
-/// Of the library of grids: says what it can do.
+/// Tells the program what the library of grids can do.
 struct GridLibrary {
     explicit GridLibrary(const GridOperations& operations);
 };

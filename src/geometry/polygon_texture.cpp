@@ -19,7 +19,7 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 struct Flat {
     std::vector<glm::dvec2> corners;
     double area = 0;
-    glm::dvec2 middle{0};           ///< of the area
+    glm::dvec2 middle{0};           ///< middle of the area
     double xx = 0, xy = 0, yy = 0;  ///< second moments about the middle
 };
 
@@ -51,7 +51,7 @@ Flat flattened(std::span<const glm::dvec3> corners, const glm::dvec3& normal) {
 
 /// The direction of v, a unit vector.
 glm::dvec2 upward(const Flat& flat) {
-    constexpr double about_equal = 0.01;  // of squares and circles, but for rounding
+    constexpr double about_equal = 0.01;  // for squares and circles, but for rounding
     const double spread = math::hypot(flat.xx - flat.yy, 2 * flat.xy), sum = std::abs(flat.xx + flat.yy);
     if (spread <= about_equal * sum) {
         for (const glm::dvec2& corner : flat.corners) {

@@ -131,7 +131,7 @@ private:
     }
 
     std::vector<Entry> heap_;
-    std::vector<std::size_t> place_;  ///< of each corner in the heap
+    std::vector<std::size_t> place_;  ///< place of each corner in the heap
 };
 
 /// A ring of corners that loses one ear after another.

@@ -58,7 +58,7 @@ public:
     void append_at(std::string_view text, Location at);
     /// Appends a part of another text, keeping its locations.
     void append(const MappedText& other, std::size_t from, std::size_t to);
-    /// Of the character at `offset`; the end of the text has a location too.
+    /// Returns the location of the character at `offset`; the end of the text has a location too.
     Location location(std::size_t offset) const;
 
 private:

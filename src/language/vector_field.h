@@ -32,7 +32,7 @@ public:
     /// The fields of processes that are read: one for a gradient, three for components.
     const std::vector<std::string>& fields() const { return fields_; }
 
-    /// Of expressions. Nothing where an expression has no finite value.
+    /// Returns the vector of expressions at a place; nothing where an expression has no finite value.
     std::optional<glm::dvec3> at(const glm::dvec3& position) const;
 
 private:

@@ -16,7 +16,7 @@ Rgb along(std::span<const Rgb> anchors, double place);
 /// Perceptually uniform and readable without colour vision (van der Walt & Smith 2015).
 std::span<const Rgb> viridis();
 
-/// Of fields: what is low fades into the paper (Brewer 2003, "Blues", "Oranges", "Purples", "Greens"); each number
+/// For fields: what is low fades into the paper (Brewer 2003, "Blues", "Oranges", "Purples", "Greens"); each number
 /// another hue.
 std::span<const Rgb> field_colours(std::size_t number, bool dark);
 

@@ -15,7 +15,7 @@ public:
     /// What stands there now is known. A file that is not there is not watched.
     void accept(const std::filesystem::path& file);
     bool knows(const std::filesystem::path& file) const { return known_.contains(file); }
-    /// Of a file that is known.
+    /// Returns the digest of a file that is known.
     std::uint64_t digest_of(const std::filesystem::path& file) const { return known_.at(file).digest; }
     void forget() { known_.clear(); }
 

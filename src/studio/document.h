@@ -51,7 +51,7 @@ private:
 
     struct Entry {
         DocumentState state;
-        std::string label;  ///< of the change that led to it
+        std::string label;  ///< names the change that led to it
     };
 
     static constexpr std::size_t most_states = 1000;

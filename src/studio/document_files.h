@@ -15,7 +15,7 @@ constexpr std::size_t most_text = std::size_t(1) << 20;  ///< bytes of a text th
 bool is_text(std::string_view bytes);
 /// Colour maps and materials are bytes, which travel in base64.
 bool is_palette(const std::filesystem::path& file);
-/// Numbers in such quantity that nobody edits them as text.
+/// Numbers in such quantity that users do not edit them as text.
 bool is_mesh(const std::filesystem::path& file);
 /// What pages get and the kept state holds of a file's bytes.
 std::string content_of(const std::filesystem::path& file, const std::string& bytes);

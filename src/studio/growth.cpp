@@ -316,7 +316,7 @@ void Growth::go_to(Work& work, int step) {
     work.at = step;
 }
 
-// What somebody looks at, and the last step.
+// The steps that pages look at, and the last step.
 bool Growth::draw_wanted(Work& work) {
     if (const std::optional<int> wanted = next_wanted(work)) {
         if (!steps_->has_packet(*wanted)) {

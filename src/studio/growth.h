@@ -28,11 +28,11 @@
 
 namespace espalier::studio {
 
-constexpr int most_steps = 100000000;  ///< of a growth: more than anybody sees
+constexpr int most_steps = 100000000;  ///< most steps of a growth: more than can be looked at
 
 struct GrowthOrder {
     std::uint32_t number = 0;   ///< names the growth
-    std::uint64_t version = 0;  ///< of the document that it grows
+    std::uint64_t version = 0;  ///< version of the document that it grows
     Opened opened;
     UnsavedTexts unsaved;
     std::filesystem::path scratch;  ///< a folder for its files
@@ -40,7 +40,7 @@ struct GrowthOrder {
     std::optional<ReadPermission> permission = {};  ///< none: it may read everything
     /// The steps of an earlier growth, which need not be derived again if only looks have changed; may be null.
     std::shared_ptr<const KeptSteps> before = nullptr;
-    /// Nobody wants to see it grow up to this step: where drawing can wait, what pages look at is drawn first.
+    /// Pages do not ask to see it grow up to this step: where drawing can wait, what pages look at is drawn first.
     int unseen_to = 0;
     std::set<int> looked_at = {};  ///< besides the last step
 };

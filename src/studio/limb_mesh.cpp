@@ -174,7 +174,7 @@ private:
     PacketCursor in_;
     const Head head_;
     RecordedGeometry geometry_;
-    std::vector<std::uint32_t> modules_;  ///< of the points
+    std::vector<std::uint32_t> modules_;  ///< modules of the points
     std::vector<Line> lines_;
     std::array<std::size_t, 256> open_{};  ///< the line of each order
     std::array<std::array<std::uint16_t, 3>, 256> ends_{};

@@ -39,7 +39,7 @@ public:
     const std::vector<BrowserTexture>& textures() const { return pictures_.all(); }
 
 private:
-    /// Of an organ with a surface: what stands for it in groups.
+    /// Tells organs with a surface apart that need different groups.
     struct ShapeKey {
         const Shapes* shapes;
         std::uint32_t surface;

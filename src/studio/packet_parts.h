@@ -50,7 +50,7 @@ struct Triangles {
     std::vector<Rgba> colours;
     std::vector<OnPicture> uvs;
     std::vector<std::uint32_t> modules, indices;
-    std::vector<std::uint32_t> textures;  ///< of the triangles; shorter where the last ones have none
+    std::vector<std::uint32_t> textures;  ///< textures of the triangles; shorter where the last ones have none
 
     std::uint32_t add(const SurfaceVertex& vertex, Rgba colour, std::uint32_t module);
     /// What was added since wears this texture.
@@ -78,9 +78,9 @@ std::string column_message(std::uint32_t growth, int step, const std::string& na
 
 struct PacketParts {
     Extent extent;
-    std::vector<std::uint32_t> first_modules;  ///< of each plant
+    std::vector<std::uint32_t> first_modules;  ///< first module of each plant
     std::vector<InternodeBytes> internodes;
-    std::vector<std::uint16_t> limb_textures;  ///< of the internodes; shorter where the last ones have none
+    std::vector<std::uint16_t> limb_textures;  ///< textures of the internodes; shorter where the last ones have none
     Triangles triangles;                       ///< sorted
     std::map<std::uint32_t, Group> groups;     ///< by shape
     std::vector<ShownLabel> labels;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes_of_part = 128, most_parts = 8;
 
-/// Of models, scenes and side files. Those of other notations register themselves.
+/// Extensions of models, scenes and side files. Those of other notations register themselves.
 const std::set<std::string>& extensions() {
     static const std::set<std::string> all{".l",   ".h",   ".inc", ".toml", ".v",   ".a",    ".e",   ".s",
                                            ".ray", ".bez", ".con", ".cur",  ".crv", ".func", ".fun", ".fset",

@@ -34,7 +34,7 @@ struct GrowthStart {
     std::vector<FieldDescription> fields;
     int last_step = 0;
     std::uint64_t seed = 0;
-    std::optional<DocumentState> recorded_from;  ///< of a run: what it grew from, if it tells
+    std::optional<DocumentState> recorded_from;  ///< what a recorded run grew from, if it tells
 };
 
 struct GrownStep {
@@ -69,7 +69,7 @@ public:
     virtual ~PlantSource() = default;
 
     virtual std::uint32_t number() const = 0;
-    /// Of the document.
+    /// Returns the version of the document.
     virtual std::uint64_t version() const = 0;
     virtual const Opened& opened() const = 0;
     virtual double seconds() const = 0;  ///< since it began
@@ -95,7 +95,7 @@ public:
     virtual std::shared_ptr<const KeptSteps> shared_steps() const { return nullptr; }
     /// Goes on to a later step, for a later version of the document that asks for nothing else. False if it cannot.
     virtual bool extend(int /*last_step*/, std::uint64_t /*version*/) { return false; }
-    /// Steps that nobody looks at are not drawn for the time being: another growth is to begin.
+    /// Steps that no page looks at are not drawn for the time being: another growth is to begin.
     virtual void rest(bool /*rests*/) {}
     /// No more steps, but it still answers questions.
     virtual void stop() {}

@@ -1,4 +1,4 @@
-// What a page sends, read as something that anybody may have sent.
+// What a page sends, read as text whose sender is not to be trusted.
 #pragma once
 
 #include "espalier/base/error.h"

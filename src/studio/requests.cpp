@@ -129,7 +129,7 @@ Json Session::read_link(Viewer&, const Json& request) {
     return {{"folder", place_of_shared(shared, options_.folder).string()}, {"files", files}};
 }
 
-// Texts of somebody else's become files of a folder of their own.
+// Texts of another user's become files of a folder of their own.
 Json Session::open_text(Viewer&, const Json& request) {
     Opened opened;
     if (has_number(request, "steps")) opened.steps = whole(request, "steps", 0, most_steps);

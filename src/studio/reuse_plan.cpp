@@ -187,7 +187,7 @@ int first_difference(const std::vector<Insertion>& before, const std::vector<Ins
     return first;
 }
 
-// Of all files but the models', which were compared themselves.
+// Compares all files but the models', which were compared themselves.
 bool has_same_side_files(const Origin& before, const Origin& now) {
     const auto side_files = [](const Origin& origin) {
         std::map<std::filesystem::path, std::uint64_t> digests;
@@ -261,7 +261,7 @@ std::optional<ReusePlan> reuse_plan(const Origin& before, const Origin& now) {
         auto& changes = compared[{a.model.get(), b.model.get()}];
         if (!changes) changes = Comparison(source_of(*a.model), source_of(*b.model)).changes();
         if (!changes) return std::nullopt;
-        // Inserted modules have parameters of their own, which nobody must take for those of productions.
+        // Inserted modules have parameters of their own, which must not be taken for those of productions.
         const bool inserts = !a.insertions.empty() || !b.insertions.empty();
         if (inserts && !changes->empty()) return std::nullopt;
         found.steps = std::min(found.steps, first_difference(a.insertions, b.insertions));

@@ -24,7 +24,7 @@ bool draws_apart(const Scene& scene);
 struct Origin {
     Scene scene;  ///< as World decided it
     std::map<std::filesystem::path, ReadLog::File> files;
-    int last_step = 0;  ///< as the scene says, before anybody grew on
+    int last_step = 0;  ///< as the scene says, before the user grew on
 };
 
 /// Other values of parameters that derivation writes as constants and never reads: angles, widths, colours.

@@ -51,11 +51,11 @@ std::string row_of(const std::string& help, const std::string& key) {
     return row;
 }
 
-// Of tables within a row, whose keys have no rows of their own.
+// Describes keys of tables within a row, which have no rows of their own.
 std::string words_of_inner_key(const std::string& key) {
     static const std::map<std::string, std::string> words{
         {"attraction", "strength of a source that tips grow to"},
-        {"base_radius", "of a shape at its base, metres"},
+        {"base_radius", "radius of a shape at its base, metres"},
         {"begin", "value at the beginning"},
         {"below", "share of the height that is cut off below"},
         {"blend", "shapes that are closer than this merge, metres"},
@@ -69,15 +69,15 @@ std::string words_of_inner_key(const std::string& key) {
         {"line_width", "diameter of segments whose width the model does not set, metres"},
         {"near", "weight of being near the surface"},
         {"perception", "angle about its heading in which a node sees points, degrees"},
-        {"radius", "of a shape, metres"},
+        {"radius", "radius of a shape, metres"},
         {"rows", "plants along z"},
-        {"spacing", "between plants, metres"},
+        {"spacing", "distance between plants, metres"},
         {"spline", "values run along a smooth curve"},
-        {"steps", "in which the value changes"},
+        {"steps", "number of steps in which the value changes"},
         {"straight", "weight of going straight on"},
-        {"tip_radius", "of a shape at its tip, metres"},
+        {"tip_radius", "radius of a shape at its tip, metres"},
         {"up", "weight of growing upwards"},
-        {"value", "what a region has"},
+        {"value", "value in a region"},
     };
     const auto known = words.find(key);
     return known == words.end() ? "" : known->second;

@@ -55,7 +55,7 @@ struct ServerState {
     std::deque<std::weak_ptr<Stranger>> strangers;
     std::size_t pages = 0;
 
-    /// Whoever comes may make the one who has waited longest go, so that nobody keeps the owner out.
+    /// Whoever comes may make the one who has waited longest go, so that no stranger keeps the owner out.
     void let_in(const std::shared_ptr<Stranger>& stranger) {
         std::erase_if(strangers, [](const auto& known) { return known.expired(); });
         if (strangers.size() >= most_strangers) {

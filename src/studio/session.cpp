@@ -139,7 +139,7 @@ void Session::document_changed(const fs::path& before, std::optional<int> follow
     }
     follow_from_ = follow_from.value_or(is_other ? 0 : INT_MAX);
     unkept_ = true;
-    // Of another document nothing is known before it has been read.
+    // Nothing is known of another document before it has been read.
     is_document_told_ = false;
     if (!is_other) broadcast_document();
     begin_growth();

@@ -176,7 +176,7 @@ private:
 
     Document document_;
     std::map<std::filesystem::path, ReadLog::File> read_;  ///< what the last growth that started has read
-    std::optional<DocumentState> recorded_from_;           ///< of the run that is open
+    std::optional<DocumentState> recorded_from_;           ///< what the open run grew from
     DiskWatch watch_;
     std::set<std::filesystem::path> disputed_;  ///< written by another program while they had unsaved changes
     std::uint32_t read_again_message_ = 0;      ///< 0: none so far
@@ -192,7 +192,7 @@ private:
     std::unique_ptr<PlantSource> growth_;                ///< the one that pages see
     std::vector<std::unique_ptr<PlantSource>> retired_;  ///< end after their step
     GrowthStart start_;
-    std::uint64_t own_seed_ = 0;  ///< what the files say, where nobody says more
+    std::uint64_t own_seed_ = 0;  ///< what the files say, unless the user says more
     int own_steps_ = 0;
     GrownStep newest_;
     std::string state_ = "done", reason_;
@@ -205,7 +205,7 @@ private:
 
     int exports_ = 0;
     std::unique_ptr<ExportRun> export_;
-    std::map<const Page*, std::unique_ptr<LimbRun>> limb_runs_;                       ///< of pages
+    std::map<const Page*, std::unique_ptr<LimbRun>> limb_runs_;                       ///< runs for pages
     std::map<const Page*, std::function<std::unique_ptr<LimbRun>()>> waiting_limbs_;  ///< begin when that has ended
 };
 

@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds between_looks(500);
 
 }  // namespace
 
-// Of what a growth has read. Texts that pages have changed were not read from the disk.
+// Watches what a growth has read. Texts that pages have changed were not read from the disk.
 void Session::watch(const std::map<fs::path, ReadLog::File>& files) {
     for (const auto& [file, read] : files) {
         if (watch_.knows(file)) continue;
@@ -69,7 +69,7 @@ void Session::read_again(const std::vector<fs::path>& files) {
     apply(std::move(state), fmt::format("read {} again", names), false);
 }
 
-// Of a file that was written by another program while it had unsaved changes, one text is to stay.
+// Settles which text of a file stays that was written by another program while it had unsaved changes.
 Session::Json Session::settle(Viewer&, const Json& request) {
     const fs::path file = request.at("path").get<std::string>();
     const std::string take = request.at("take").get<std::string>();

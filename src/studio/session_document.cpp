@@ -42,7 +42,7 @@ Json optional_json(const std::optional<std::string>& text) {
     return text ? Json(*text) : Json();
 }
 
-// "crown width: of the ellipsoid of points" for CROWN_WIDTH; a summary that repeats the name is enough.
+// "leaves: mean number of leaves on an internode" for LEAVES; a summary that repeats the name is enough.
 std::string label_of(const WrittenNumber& number) {
     const std::string last = number.name.substr(number.name.rfind('.') + 1);
     std::string words;

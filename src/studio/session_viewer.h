@@ -16,7 +16,7 @@ struct Session::Viewer {
     std::optional<int> step = {};  ///< that it looks at; none: the last
     std::uint32_t growth = 0;      ///< whose shapes it has
     std::size_t shapes = 0;        ///< messages of them
-    std::size_t textures = 0;      ///< of this growth that it knows
+    std::size_t textures = 0;      ///< textures of this growth that it knows
     std::set<int> awaits = {};     ///< steps of the present growth that are sent when they have been drawn
 };
 

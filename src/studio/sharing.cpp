@@ -34,7 +34,7 @@ constexpr const char* words_of_mark =
 /// One file of a link, in bytes: a model that reads more does not come by a link.
 constexpr std::size_t most_read = std::size_t(64) << 20;
 
-/// Of the folder of the program's data, these hold the library.
+/// The parts of the program's data folder that hold the library.
 constexpr std::array<std::string_view, 2> parts_of_library{"models", "environments"};
 
 bool is_of_library(const fs::path& relative) {

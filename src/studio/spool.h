@@ -1,4 +1,4 @@
-// Bytes that are kept in a file until somebody asks for them again.
+// Bytes that are kept in a file until they are asked for again.
 #pragma once
 
 #include <cstdint>

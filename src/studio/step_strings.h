@@ -14,7 +14,7 @@ namespace espalier::studio {
 /// Never changes, so that growths may share it.
 class StepStrings {
 public:
-    /// `origin` may be null where nobody will go on from them.
+    /// `origin` may be null if no growth will go on from them.
     StepStrings(DerivedStep derived, std::shared_ptr<const Origin> origin)
         : derived_(std::move(derived)), origin_(std::move(origin)) {}
 
@@ -35,7 +35,7 @@ private:
         SiblingTable siblings;
     };
 
-    DerivedStep derived_;  ///< of what lies in a file only the number of plants
+    DerivedStep derived_;  ///< where it lies in a file, only the number of plants
     std::shared_ptr<const Origin> origin_;
     std::shared_ptr<Spool> spool_;
     std::vector<FiledPlant> filed_;

@@ -29,7 +29,7 @@ std::uint64_t digest_of_file(const fs::path& file, std::uint64_t before) {
     return digest(fmt::format("{} {} {}", file.string(), fs::file_size(file, ignored), written), before);
 }
 
-// Of all that decides what the picture looks like.
+// Returns the digest of all that decides what the picture looks like.
 std::uint64_t digest_of(const fs::path& file) {
     if (!is_bark(file.string())) return digest_of_file(file, digest(""));
     const Bark bark = read_bark(file);

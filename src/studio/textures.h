@@ -12,7 +12,7 @@ namespace espalier::studio {
 struct BrowserTexture {
     std::filesystem::path file;     ///< as the view file names it: a picture, or settings of bark
     std::filesystem::path colours;  ///< PNG or JPEG; empty if there is no such picture
-    std::filesystem::path normals;  ///< of tangent space, PNG; empty where it is flat
+    std::filesystem::path normals;  ///< in tangent space, PNG; empty where it is flat
 };
 
 /// Reads the settings of bark that plants of a scene wear, so that they count among what was read. Throws UserError for

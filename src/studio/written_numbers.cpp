@@ -61,7 +61,7 @@ std::string without_blanks(const std::string& text) {
     return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
 }
 
-// Of the value that its line writes behind its name, in whatever notation; none if it is not written there as it is.
+// Finds the value that its line writes behind its name, in whatever notation; none if it is not written there as it is.
 std::optional<std::size_t> place_of_value(const ModelSetting& setting, const std::string& value,
                                           const std::string& text, const Lines& lines) {
     if (!lines.has(setting.place.line) || value.empty()) return std::nullopt;
@@ -192,7 +192,7 @@ private:
 
     // The numbers of a position, or of each of several.
     void add_positions(const Place& place, const std::string& name, const std::string& group) {
-        constexpr std::size_t most_positions = 8;  // of more, nobody slides one
+        constexpr std::size_t most_positions = 8;  // more than these have no sliders
         if (!lines_.has(place.line)) return;
         const std::size_t begin = value_of(place), end = end_of_list(begin);
         if (end == std::string::npos) return;

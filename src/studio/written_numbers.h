@@ -1,4 +1,4 @@
-// The numbers of models and scenes that somebody may slide, and where they are written.
+// The numbers of models and scenes that users may slide, and where they are written.
 #pragma once
 
 #include <cstddef>

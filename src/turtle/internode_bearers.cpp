@@ -7,7 +7,7 @@
 namespace espalier::turtle {
 namespace {
 
-/// Of the internodes of one module, from `first` on, the last whose tip is the base of the internode `at`; else `last`.
+/// Among one module's internodes, from `first` on, the last whose tip is the base of the internode `at`; else `last`.
 std::uint32_t bearer_in_picture(const PlantGeometry& geometry, std::uint32_t first, std::uint32_t at,
                                 std::uint32_t last) {
     const glm::dvec3& base = geometry.internodes[at].base;
@@ -71,7 +71,7 @@ std::uint32_t OrganBearers::of(std::uint32_t module, const glm::dvec3& place) co
     if (nearest == no_bearer) return no_bearer;
     const auto is_own = [&](std::uint32_t internode) { return geometry_.internodes[internode].module == module; };
     for (std::uint32_t i = nearest; i-- > 0 && is_own(i) && is_own(nearest);) {
-        // Of two that meet there, the first ends there.
+        // Where two meet there, the first ends there.
         if (distance_to(geometry_.internodes[i], place) <= distance_to(geometry_.internodes[nearest], place))
             nearest = i;
     }

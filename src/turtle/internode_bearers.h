@@ -9,7 +9,7 @@
 
 namespace espalier::turtle {
 
-/// Of an internode that stands on none.
+/// The bearer of an internode that stands on none.
 inline constexpr std::uint32_t no_bearer = 0xFFFFFFFF;
 
 /// The last internode drawn before each one on its branch, or on the branches that bear it; the string that was
@@ -22,13 +22,13 @@ public:
     /// Keeps a reference to the geometry.
     OrganBearers(const PlantGeometry& geometry, const ModuleString& string);
 
-    /// Of what a module draws at a place: the last internode before it; of a module that draws internodes too, the
-    /// nearest of these. `no_bearer`: none.
+    /// Returns what bears a module's drawing at a place: the last internode before it, or the nearest of the module's
+    /// own internodes, if it draws any. `no_bearer`: none.
     std::uint32_t of(std::uint32_t module, const glm::dvec3& place) const;
 
 private:
     const PlantGeometry& geometry_;
-    std::vector<std::uint32_t> last_;  ///< of each module, its own included
+    std::vector<std::uint32_t> last_;  ///< last internode of each module, its own included
 };
 
 }  // namespace espalier::turtle

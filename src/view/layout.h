@@ -27,9 +27,9 @@ struct WindowLayout {
         Rectangle at;
     };
 
-    float scale = 1;  ///< of letters and distances: 2 on a screen of twice the density
+    float scale = 1;  ///< scale of letters and distances: 2 on a screen of twice the density
     Rectangle scene, bar, panel;
-    std::vector<Place> controls;  ///< of the bar, and what closes the panel
+    std::vector<Place> controls;  ///< buttons of the bar, and what closes the panel
 
     /// Null where the window has no room for it.
     const Rectangle* find(Control control) const;

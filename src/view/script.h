@@ -1,4 +1,4 @@
-// What somebody at the window would do, written down line by line: for pictures of documents and for tests.
+// What a user at the window would do, written down line by line: for pictures of documents and for tests.
 #pragma once
 
 #include <array>

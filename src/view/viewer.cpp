@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t frames_ahead = 3;
 constexpr std::size_t slow_organs = 100'000;  ///< so many take a while to be drawn, and their shadows seconds
-constexpr auto rest = 250ms;                  ///< after which somebody looks at a frame
-constexpr double pick_tolerance = 0.003;      ///< of the window's diagonal: thin twigs must be hit too
+constexpr auto rest = 250ms;                  ///< time after which the user looks at a frame
+constexpr double pick_tolerance = 0.003;      ///< share of the window's diagonal: thin twigs must be hit too
 constexpr double usual_dots_per_inch = 96;
 
 float scale_of(vtkRenderWindow& window) {
@@ -356,7 +356,7 @@ void Viewer::select(std::optional<OrganKey> organ) {
 void Viewer::select_parent() {
     if (!organ_ || !history_) return;
     if (history_->history.parent == 0) {
-        say("it stands at the beginning: nobody bore it");
+        say("it stands at the beginning and has no parent");
         return;
     }
     select(OrganKey{organ_->plant, history_->history.parent});

@@ -112,13 +112,13 @@ private:
     CameraPlace camera_;
     PictureStyle style_;  ///< `shading`: what is wished; the stage has it where there is time for it
 
-    std::size_t frame_ = 0;             ///< that is asked for
-    std::optional<std::size_t> asked_;  ///< of the reader
+    std::size_t frame_ = 0;             ///< the frame that is asked for
+    std::optional<std::size_t> asked_;  ///< the frame that the reader was asked for
     std::optional<int> shown_;          ///< the step on the stage
     std::shared_ptr<const FrameData> data_;
     bool live_ = false, playing_ = false, help_ = false, sliding_ = false;
     bool settled_ = false, surveyed_ = false;  ///< the stage has the measures of the whole run; of some of it
-    bool camera_is_mine_ = true;               ///< nobody moved it yet
+    bool camera_is_mine_ = true;               ///< the user has not moved it yet
     bool background_is_chosen_ = false;        ///< for good
     double frames_per_second_ = 10;
     std::size_t play_from_ = 0;

@@ -19,7 +19,7 @@ std::size_t lines_in(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Of the line that begins so.
+/// Returns the words of the line that begins so.
 std::vector<std::string> words_after(const std::string& beginning, const std::string& text) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {

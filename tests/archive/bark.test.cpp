@@ -37,7 +37,7 @@ std::vector<double> spectrum(const std::vector<float>& values, std::size_t size)
     return power;
 }
 
-/// Of the logarithm of power by that of frequency, from octaves of equal weight.
+/// Returns the slope of the logarithm of power by that of frequency, from octaves of equal weight.
 double slope(const std::vector<double>& power, std::size_t from, std::size_t to) {
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (std::size_t low = from; low < to; low *= 2) {

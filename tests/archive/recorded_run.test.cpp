@@ -65,7 +65,7 @@ TEST_CASE("internodes know module, radii and the internode they stand on", "[rea
     CHECK(branch.base_radius == 0.1f);
     CHECK(branch.tip_radius == 0.05f);
     CHECK(geometry.parameters.at("vigour")[static_cast<std::size_t>(branch.tip_point)] == 0.25);
-    // Of both plants: stem, stem's second internode on it, and the branch on the first.
+    // Both plants: stem, stem's second internode on it, and the branch on the first.
     CHECK(internodes[0].bearer == RecordedInternode::none);
     CHECK(internodes[1].bearer == 0);
     CHECK(branch.bearer == 0);
@@ -156,7 +156,7 @@ TEST_CASE("what is missing is named", "[reading]") {
     CHECK_THROWS_WITH(run.statistics(), Catch::Contains("statistics.csv"));
     std::filesystem::remove(folder / "plants.pvd");
     const RecordedRun without_plants(folder);
-    CHECK(without_plants.frames().size() == 2);  // of the fields
+    CHECK(without_plants.frames().size() == 2);  // frames of the fields
     CHECK_THROWS_WITH(without_plants.geometry(without_plants.frame(4)), Catch::Contains("no plants"));
     std::ofstream(folder / "run.json") << "{}";
     CHECK_THROWS_WITH(RecordedRun(folder), Catch::Contains("run.json"));

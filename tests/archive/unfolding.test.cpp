@@ -14,7 +14,7 @@ using namespace espalier::archive;
 namespace {
 
 struct Node {
-    std::uint64_t identity;  ///< of the module that drew the internode which ends here
+    std::uint64_t identity;  ///< identity of the module that drew the internode which ends here
     glm::vec3 place;
     float radius;
 };

@@ -21,7 +21,7 @@ inline const fs::path root = ESPALIER_SOURCE_DIR;
 struct Block {
     std::string language;  ///< the word after the fence: sh, console, cpp, ...
     std::vector<std::string> lines;
-    std::size_t first_line = 0;                  ///< of `lines`, in the page, counted from 1
+    std::size_t first_line = 0;                  ///< number of the first of `lines` in the page, counted from 1
     std::map<std::string, std::string> shorter;  ///< options that tests add to `espalier COMMAND`, by command
 };
 

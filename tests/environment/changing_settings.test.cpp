@@ -89,7 +89,7 @@ TEST_CASE("the rate of a source of water changes what it adds", "[soil-water]") 
         rate->set(0.1 * step);
         AskingPlants plants;
         plants.add({{{0, -0.5, 0}, {0}}}).exchange(environment, step);
-        expected += 0.1 * step * 64;  // of the 8 x 8 voxels of the source
+        expected += 0.1 * step * 64;  // light from the 8 x 8 voxels of the source
         for (const Quantity& quantity : environment.statistics(0)) {
             if (quantity.name == "light.added") CHECK(quantity.value == Approx(expected));
         }

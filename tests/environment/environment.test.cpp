@@ -91,7 +91,7 @@ TEST_CASE("a plant that asks nothing has no mean, least or most light", "[enviro
         const std::vector<Quantity> nothing = environment.statistics(silent);
         for (std::size_t i = 0; i < 3; ++i) {
             CHECK(std::isnan(nothing[i].value));
-            CHECK(asked[i].value == asked[0].value);  // of one answer
+            CHECK(asked[i].value == asked[0].value);  // from one answer
         }
         CHECK(nothing[3].value == 0);
     }

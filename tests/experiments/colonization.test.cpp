@@ -220,7 +220,7 @@ World organized(const std::map<std::string, double>& settings, double lambda, in
     return world;
 }
 
-/// Of the length of all internodes, that of the main axis.
+/// Returns the share of the main axis in the length of all internodes.
 double share_of_trunk(const World& world) {
     double trunk = 0;
     for (const Internode& internode : world.interpretation(0).geometry.internodes) {
@@ -294,7 +294,7 @@ TEST_CASE("a crown lies in its cloud, and its height and width are those of the 
 
 namespace {
 
-/// Of every internode of the trunk, by how much it is thicker than what reaches its height; the least.
+/// Returns by how much internodes of the trunk are thicker than what reaches their height; the least.
 double least_lead(const std::map<std::string, double>& settings, std::uint64_t seed) {
     const auto world = tree(settings, seed);
     const Frame frame = world->frame();

@@ -24,7 +24,7 @@ constexpr std::array<std::size_t, 4> edges{1, 3, 5, 7}, corners{0, 2, 6, 8};
 struct Crown {
     std::size_t clusters = 0;
     double lowest = INFINITY;
-    glm::dvec2 middle{0};  ///< of all clusters, seen from above
+    glm::dvec2 middle{0};  ///< middle of all clusters, seen from above
 };
 
 Crown crown_of(const World& world, std::size_t tree) {

@@ -15,7 +15,7 @@ constexpr std::size_t left = 0, right = 1;
 
 /// What is left of a run: its main roots, where they cross `depth`, and how the water was.
 struct Crossing {
-    std::vector<std::vector<glm::dvec3>> nodes;  ///< of each main root
+    std::vector<std::vector<glm::dvec3>> nodes;  ///< nodes of each main root
     std::vector<glm::dvec3> main;                ///< where each crosses
     double worst_balance = 0, least_content = 0, drunk = 0;
 

@@ -96,7 +96,7 @@ struct Dinosaur {
     int outside = 0, stayed = 0;     ///< internodes seen outside; of these, those seen in the following step too
     double worst_stub = 0;           ///< how far a stub ends outside
     int met = 0, awake = 0;
-    std::vector<double> lengths;  ///< of wood, by plant
+    std::vector<double> lengths;  ///< lengths of wood, by plant
     Box bounds;
 
     Dinosaur() {

@@ -57,7 +57,7 @@ struct ExportedPlant {
     }
 };
 
-/// Of a ring with so many corners, by the square of its radius.
+/// Returns the area of a ring with so many corners, by the square of its radius.
 inline double ring_area(int sides) {
     return sides / 2.0 * std::sin(2 * std::numbers::pi / sides);
 }

@@ -66,7 +66,7 @@ struct MtgGraph {
         const auto features = static_cast<std::size_t>(
             std::find_if(header.begin() + 1, header.end(), [](const auto& cell) { return !cell.empty(); }) -
             header.begin());
-        std::map<std::size_t, std::string> last, axis;  // of each column
+        std::map<std::size_t, std::string> last, axis;  // by column
         while (std::getline(lines, line)) {
             const std::vector<std::string> cells = split(line, '\t');
             REQUIRE(cells.size() == header.size());
@@ -131,7 +131,7 @@ TEST_CASE("an MTG knows who follows whom and who is borne by whom", "[export]") 
     const MtgGraph graph(exported.text());
     REQUIRE(graph.internodes.size() == 6);
     CHECK(graph.plants.size() == 2);
-    std::map<std::string, std::string> name_of;  // of the left plant, by identity
+    std::map<std::string, std::string> name_of;  // names in the left plant, by identity
     for (const auto& [name, vertex] : graph.internodes) {
         if (vertex.features.at("plant") == "left") name_of[vertex.features.at("identity")] = name;
     }
@@ -166,7 +166,7 @@ TEST_CASE("the table has a row for every internode, organ and query of every fra
         auto& row = rows.emplace_back();
         for (std::size_t i = 0; i < cells.size(); ++i) row[header[i]] = cells[i];
     }
-    constexpr std::size_t queries = 2;  // of both plants
+    constexpr std::size_t queries = 2;  // queries of both plants
     REQUIRE(rows.size() == (1 + 4 + queries) + (3 + 4 + queries));
     const auto row = [&](const std::string& step, const std::string& plant, const std::string& identity) {
         const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& candidate) {

@@ -119,7 +119,7 @@ TEST_CASE("in a glTF's animation an internode appears at its birth", "[export]")
     // What was there from the beginning and did not change has no channel at all.
     CHECK(file.channel(file.node_of("left", "1"), "scale").first.empty());
     CHECK(file.channel(file.node_of("right", "50"), "scale").first.empty());
-    CHECK(file.json["animations"][0]["channels"].size() == 2);  // of the left plant's two new internodes
+    CHECK(file.json["animations"][0]["channels"].size() == 2);  // the left plant's two new internodes
 
     const Json& node = file.json["nodes"][branch];
     CHECK(node["translation"] == Json({0, 1, 0}));
@@ -190,7 +190,7 @@ TEST_CASE("the frame rate of growth can be chosen", "[export]") {
 TEST_CASE("grouped growth has an object for what appears and vanishes together", "[export]") {
     const Exported exported("gltf", {}, {0, 4}, "", [](ExportJob& job) { job.grouped = true; });
     const GlbFile file(exported.text());
-    // Of the left plant the seedling, and what came at step 4; of the right one everything at once.
+    // The left plant has the seedling, and what came at step 4; the right one has everything at once.
     CHECK(exported.files.at(0).elements == 3);
     CHECK(file.json["nodes"].size() == 3 + 2);
     REQUIRE(file.json["animations"][0]["channels"].size() == 1);

@@ -111,7 +111,7 @@ TEST_CASE("where an axis ends and others begin, its tube goes on along the strai
 
 namespace {
 
-constexpr std::size_t corners = 9;  // of a ring of eight sides, the first twice
+constexpr std::size_t corners = 9;  // corners of a ring of eight sides, the first twice
 
 /// A stem that forks, as a mesh of two tubes.
 FrameMesh forked(const glm::dvec3& left, const glm::dvec3& right, double of_left, double of_right) {

@@ -21,7 +21,7 @@ struct EdgeCount {
     bool closed = true;
 
     explicit EdgeCount(const DrawnMesh& mesh) : EdgeCount(mesh, 0, mesh.pieces.size()) {}
-    /// Of some of the pieces.
+    /// Counts the edges of some of the pieces.
     EdgeCount(const DrawnMesh& mesh, std::size_t first_piece, std::size_t end_piece) {
         std::map<std::array<double, 3>, int> place_of;
         std::map<std::pair<int, int>, int> balance;

@@ -22,7 +22,7 @@ std::string repeated(const std::string& part, int times) {
     return text;
 }
 
-// Of the processor, which others on the machine lengthen less than the clock's; the quickest of three.
+// Time of the processor, which others on the machine lengthen less than the clock's; the quickest of three.
 template <class Work>
 double seconds(const Work& work) {
     double least = 1e9;

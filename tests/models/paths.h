@@ -47,7 +47,7 @@ inline std::set<std::array<PointKey, 2>> edges(const PlantGeometry& geometry) {
     return keys;
 }
 
-/// Of a polygon in the x-y plane.
+/// Returns the area of a polygon in the x-y plane.
 inline double enclosed_area(const std::vector<glm::dvec3>& polygon) {
     double twice = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -57,7 +57,7 @@ inline double enclosed_area(const std::vector<glm::dvec3>& polygon) {
     return std::abs(twice) / 2;
 }
 
-/// Of the box around the points.
+/// Returns the size of the box around the points.
 inline glm::dvec3 extent(const std::vector<glm::dvec3>& points) {
     Box box;
     for (const glm::dvec3& point : points) box.add(point);

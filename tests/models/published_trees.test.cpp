@@ -15,7 +15,7 @@ namespace {
 struct ModuleTree {
     std::vector<std::vector<double>> nodes;
     std::vector<std::vector<std::size_t>> children;
-    std::vector<int> sides;  ///< of the bracket a node begins: 1 left, -1 right, 0 none
+    std::vector<int> sides;  ///< side of the bracket a node begins: 1 left, -1 right, 0 none
 };
 
 ModuleTree tree_of(const LonePlant& plant, const std::string& symbol) {

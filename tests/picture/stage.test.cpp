@@ -332,7 +332,7 @@ TEST_CASE("stage: light shows the relief of bark, and a smooth skin fills the fo
         style.bark = folder.write(name, settings);
         return style;
     };
-    // Of equal brightness: what differs is the light on what rises and falls.
+    // Both are equally bright: what differs is the light on what rises and falls.
     const PictureStyle flat = barked("flat.bark", "depth = 0\ndarkness = 0\nsize = 64\n");
     const PictureStyle deep = barked("deep.bark", "depth = 0.1\ndarkness = 0\nsize = 64\n");
     CHECK(differing(flat, flat) == 0);

@@ -62,7 +62,7 @@ TEST_CASE("runs that differ in their seed alone are a mean, a deviation and dots
     REQUIRE(page.charts[0].series.size() == 2);
     const Series &means = page.charts[0].series[0], &dots = page.charts[0].series[1];
     CHECK(means.y == std::vector<double>{4, 10});
-    const double deviation = std::sqrt(8.0 / 3);  // of a sample
+    const double deviation = std::sqrt(8.0 / 3);  // deviation of a sample
     CHECK(means.low[0] == Approx(4 - deviation));
     CHECK(means.high[0] == Approx(4 + deviation));
     CHECK(means.low[1] == 10);

@@ -109,7 +109,7 @@ TEST_CASE("two worlds in two threads write the bytes that they write one after t
         const std::string suffix = std::to_string(repetition);
         std::thread first([&] { grow(one, "first" + suffix); });
         std::thread second([&] { grow(two, "second" + suffix); });
-        std::thread third([&] { grow(one, "third" + suffix); });  // of a scene that another world uses, too
+        std::thread third([&] { grow(one, "third" + suffix); });  // another world uses this scene, too
         first.join();
         second.join();
         third.join();

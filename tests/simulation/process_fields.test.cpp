@@ -53,7 +53,7 @@ public:
     }
     const std::filesystem::path& folder() const { return folder_.path(); }
     static glm::dvec3 tip(const World& world) { return world.interpretation(0).geometry.internodes.back().tip; }
-    /// Of the stem after all steps.
+    /// Returns the tip of the stem after all steps.
     static glm::dvec3 tip(const Scene& scene) {
         World world(scene);
         world.start();

@@ -9,7 +9,7 @@ using Values = std::vector<std::string>;
 
 namespace {
 
-/// Of the only key.
+/// Returns the values of the only key.
 Values values_of(const std::string& text) {
     Values values;
     for (const Values& value : parse_variation(text).values) values.push_back(value.at(0));

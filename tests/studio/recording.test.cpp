@@ -60,7 +60,7 @@ TEST_CASE("modules of a recorded run tell who they are, and colour the picture",
     studio.ask({{"do", "look"}, {"step", 4}});
     studio.wait([&] { return number_at<std::int32_t>(page.packets.back(), 8) == 4; });
     const std::string packet = page.packets.back();
-    const auto module = number_at<std::uint32_t>(packet, 60 + 4 + 24 * 14 + 20);  // of the last internode
+    const auto module = number_at<std::uint32_t>(packet, 60 + 4 + 24 * 14 + 20);  // module of the last internode
     const Json growth = page.last("growth")["growth"];
     const Json known = studio.ask({{"do", "pick"}, {"growth", growth}, {"step", 4}, {"module", module}});
     CHECK(known["symbol"] == "F");

@@ -217,7 +217,7 @@ TEST_CASE("what derivation reads is derived again", "[studio]") {
     for (const std::string& text :
          {with(tree, "RATIO 0.9", "RATIO 0.8"), with(tree, "A(1)", "A(2)"), with(tree, "] ~L", "] ~L ~L"),
           with(tree, "-(ANGLE)", "-(ANGLE*l)"), with(tree, "] ~L", "] ?P(0,0,0) ~L"),
-          // Of one constant two: their modules cannot be told apart.
+          // One constant becomes two: their modules cannot be told apart.
           with(with(tree, "] ~L", "] +(30) ~L"), "ANGLE 30", "ANGLE 30.5")}) {
         INFO(text);
         const std::string before = text.find("+(30)") == std::string::npos ? tree : with(tree, "] ~L", "] +(30) ~L");

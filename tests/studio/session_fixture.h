@@ -83,7 +83,7 @@ public:
 
 private:
     int requests_ = 0;
-    std::uint64_t version_ = 0;  ///< of the document, as the last reply told
+    std::uint64_t version_ = 0;  ///< version of the document, as the last reply told
 };
 
 /// Grows a file with a timeline, as `espalier run FILE --steps STEPS --output FOLDER` does.

@@ -108,7 +108,7 @@ struct HandmadePlant {
         geometry.polygons.push_back({module, first, 3, 1, 5});
     }
 
-    /// Of the plant as it is now.
+    /// Returns the frame of the plant as it is now.
     PlantFrame frame() const {
         return {number,
                 "plant",

@@ -69,7 +69,7 @@ private:
 };
 
 struct Outcome {
-    std::string bytes;    ///< of the result
+    std::string bytes;    ///< bytes of the result
     std::string failure;  ///< or the message
 
     bool operator==(const Outcome&) const = default;

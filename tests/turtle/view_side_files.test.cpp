@@ -210,7 +210,7 @@ TEST_CASE("curves are numbered in order and measured with as many chords as thei
     const View view = folder.read("curve: c.con 3\ncurve: c.con\n");
     REQUIRE(view.resources->curves.size() == 2);
     CHECK(view.resources->curves[0].length() == Approx(2 * std::sqrt(1.25)).margin(1e-4));
-    CHECK(view.resources->curves[1].length() == Approx(2.3234).margin(1e-3));  // of a parabola of height 1
+    CHECK(view.resources->curves[1].length() == Approx(2.3234).margin(1e-3));  // length of a parabola of height 1
 }
 
 TEST_CASE("textures keep their numbers, whether or not they are understood", "[turtle]") {

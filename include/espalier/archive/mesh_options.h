@@ -17,10 +17,10 @@ struct AxisSkin {
 };
 
 struct MeshOptions {
-    int sides = 8;        ///< of tubes; 3 at least
+    int sides = 8;        ///< corners around a tube; 3 at least
     double simplify = 0;  ///< metres that a tube's middle line and radius may stray; 0: every node stays
     std::optional<std::size_t> triangles =
-        std::nullopt;  ///< of tubes and surfaces together; fewer are left as they are
+        std::nullopt;  ///< most triangles of tubes and surfaces together; fewer are left as they are
     double distance =
         0;          ///< metres from which it is seen: what is smaller than a thousandth of it is left out; 0: nothing
     char up = 'y';  ///< or 'z'

@@ -26,9 +26,9 @@ struct OrganMoment {
     int step = 0;
     double time = 0;
     glm::vec3 base{0}, tip{0};  ///< where it begins; the end of its last internode, or its corner farthest from `base`
-    double length = 0;          ///< of its internodes, summed up; of other organs from `base` to `tip`
-    double base_radius = 0, tip_radius = 0;  ///< of internodes
-    double area = 0;                         ///< of its surfaces, one side
+    double length = 0;          ///< sum over its internodes; for other organs from `base` to `tip`
+    double base_radius = 0, tip_radius = 0;  ///< radii of internodes
+    double area = 0;                         ///< area of its surfaces, one side
     std::vector<double> parameters;          ///< the chosen ones, as OrganHistory::parameters names them; NaN: none
 };
 
@@ -42,7 +42,7 @@ struct OrganHistory {
     /// The steps between which it went: seen at the first, not at the second. None: the last frame read has it.
     std::optional<std::pair<int, int>> gone;
     std::vector<std::string> parameters;
-    std::vector<OrganMoment> moments;  ///< of the frames that have it, in the order of time
+    std::vector<OrganMoment> moments;  ///< one for each frame that has it, in the order of time
 
     /// The first step without it, if the frames tell it exactly.
     std::optional<int> death() const {

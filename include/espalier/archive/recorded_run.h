@@ -53,10 +53,10 @@ struct RecordedGeometry {
     Column<float> pixels;  ///< widths of the lines without radius; empty where no view file gives such widths
     RecordedCells vertices, lines, polygons;
     RecordedAttributes of_points, of_cells;
-    Column<std::uint16_t> textures, back_colours;      ///< of cells; textures index `texture_files`
-    std::map<std::string, Column<double>> parameters;  ///< the chosen ones, of points; NaN where a module has none
+    Column<std::uint16_t> textures, back_colours;      ///< one a cell; textures index `texture_files`
+    std::map<std::string, Column<double>> parameters;  ///< the chosen ones, by point; NaN where a module has none
     std::vector<std::string> symbol_names, texture_files;
-    std::vector<std::string> label_texts;  ///< of the vertices of Kind::label, in their order
+    std::vector<std::string> label_texts;  ///< texts of the vertices of Kind::label, in their order
 };
 
 /// An internode of a frame: the piece of an axis between two neighbouring points.
@@ -65,7 +65,7 @@ struct RecordedInternode {
 
     glm::vec3 base, tip;
     float base_radius, tip_radius;
-    std::uint64_t identity, parent;  ///< of its module
+    std::uint64_t identity, parent;  ///< identities of its module and of that module's parent
     std::uint32_t plant;
     std::uint16_t symbol, order, colour;
     std::int32_t birth;
@@ -160,7 +160,7 @@ struct RecordedMaterial {
 struct RecordedBackground {
     Column<glm::vec3> points, normals;
     RecordedCells triangles;
-    Column<std::array<std::uint8_t, 3>> rgb;  ///< of the triangles, as the opacities
+    Column<std::array<std::uint8_t, 3>> rgb;  ///< one colour a triangle, as the opacities
     Column<float> opacities;
 };
 
@@ -182,7 +182,7 @@ public:
     /// How it ended: "done", "interrupted", "failed: why", "killed"; "running" while it is going.
     const std::string& exit() const { return exit_; }
     const std::string& time_unit() const { return time_unit_; }
-    double dt() const { return dt_; }  ///< of a step, in time units
+    double dt() const { return dt_; }  ///< length of a step, in time units
     /// Units of the processes' quantities in `statistics`, by column; of those that have one.
     const std::map<std::string, std::string>& units() const { return units_; }
     /// Extent along x times extent along z of the domain of the scene or of a process, m2, if there is one.

@@ -24,7 +24,7 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 /// The same for a text that lies in memory piece by piece.
 void write_text(const std::filesystem::path& path, std::span<const std::string_view> parts);
 
-/// The same as a file that nobody but its owner may read.
+/// The same as a file that only its owner may read.
 void write_private_text(const std::filesystem::path& path, std::string_view text);
 
 /// For writers that want a file name of their own: calls `write(temporary)` and renames the result to `path`.

@@ -16,13 +16,13 @@ namespace espalier {
 /// `before`: the digest of the bytes before these.
 std::uint64_t digest(std::string_view bytes, std::uint64_t before = 0xCBF29CE484222325);
 
-/// Texts that stand for files while somebody edits them, by the files' absolute paths without `.` and `..`.
+/// Texts that stand for files while they are edited, by the files' absolute paths without `.` and `..`.
 using UnsavedTexts = std::map<std::filesystem::path, std::string>;
 
 /// What a piece of work may read, if that is not everything.
 struct ReadPermission {
     std::vector<std::filesystem::path> folders;  ///< files below one of them, whatever links lead there or out
-    std::size_t most_bytes = 0;                  ///< of one file
+    std::size_t most_bytes = 0;                  ///< most bytes of one file
 };
 
 /// While it lives, it notes every file that read_text() reads on its own thread, and on others within a Scope of it. A

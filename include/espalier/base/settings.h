@@ -51,7 +51,7 @@ public:
                                const std::filesystem::path& folder = {});
 
     bool has(std::string_view key) const;
-    Place place(std::string_view key = {}) const;  ///< of a key, or of the table itself
+    Place place(std::string_view key = {}) const;  ///< where a key stands, or the table itself
 
     // Required values.
     double number(std::string_view key, Range range = Range::any()) const;

@@ -8,7 +8,7 @@
 namespace espalier {
 
 /// Thrown in the midst of work that was asked to end: what it was making is incomplete. It is no std::exception, so
-/// that nobody takes it for a mistake.
+/// that it is not taken for a mistake.
 struct Stopped {};
 
 /// Asks the work in its scope to end. Any thread may ask, and a signal handler may.
@@ -28,7 +28,7 @@ public:
         return due != never && Clock::now().time_since_epoch() >= due;
     }
 
-    /// That of the work on this thread; null if nobody can ask.
+    /// Returns the request for the work on this thread; null if the work cannot be stopped.
     static const StopRequest* current();
 
     /// While it lives, `request` (may be null) is that of the work on this thread.

@@ -36,17 +36,17 @@ struct ExportJob {
     MeshOptions options;
     std::filesystem::path folder;  ///< is made if need be
     std::function<void(const ExportedFile&)> report;
-    std::string name{};  ///< of the files; empty: the scene's, and the step of a frame that has a file of its own
+    std::string name{};  ///< name of the files; empty: the scene's, and the step of a frame that has a file of its own
 
-    // Of formats that know of such things.
-    double steps_per_second = 24;   ///< of growth as an animation
+    // Options that only some formats use.
+    double steps_per_second = 24;   ///< speed of growth as an animation
     bool grouped = false;           ///< growth: organs that are born and die together are one object
     bool instances = false;         ///< organs that look alike are one shape in many places
     bool mesh_axes = false;         ///< axes are meshes where the format has curves
     std::string bark{};             ///< the texture of axes that wear none: a file
-    std::size_t most_vertices = 0;  ///< of a mesh, which is otherwise cut into pieces; 0: any number
+    std::size_t most_vertices = 0;  ///< most vertices of a mesh, which is otherwise cut into pieces; 0: any number
 
-    // Of names.
+    // How files are named.
     bool counts = false;  ///< names say the numbers of vertices and triangles
     bool keep = false;    ///< a file that is there stays, and the new one has a number behind its name
 
@@ -63,7 +63,7 @@ struct ExportJob {
 class Exporter {
 public:
     virtual ~Exporter() = default;
-    /// Of its files: "obj".
+    /// Returns the extension of its files: "obj".
     virtual std::string extension() const = 0;
     /// Throws UserError for what the format cannot have, before anything is written.
     virtual void check(const ExportJob&) const {}
@@ -72,8 +72,8 @@ public:
 
 /// What a file of src/formats/exporters/ registers.
 struct ExporterType {
-    std::string name;     ///< of the format
-    std::string summary;  ///< a line
+    std::string name;     ///< name of the format
+    std::string summary;  ///< one line about the format
     std::string help;     ///< what the files contain and what they lose
     std::function<std::unique_ptr<Exporter>()> make;
 };

@@ -16,14 +16,14 @@ struct FreeForm {
     /// first vertex, or they stay.
     enum class Leaves : std::uint8_t { bent, carried, left };
 
-    Pose pose;         ///< of the box: x against left, y along the heading, z against up
+    Pose pose;         ///< pose of the box: x against left, y along the heading, z against up
     double scale = 1;  ///< metres in a unit of the box
     glm::dvec3 lower{0}, upper{1};
     std::array<std::size_t, 3> counts{2, 2, 2};  ///< points of the lattice along x, y, z; at least 2
-    std::vector<glm::dvec3> moves;               ///< of each point of the lattice; x first, then y, then z
+    std::vector<glm::dvec3> moves;               ///< displacement of each point of the lattice; x first, then y, then z
     Leaves leaves = Leaves::carried;
 
-    /// Of a point of the world. Points outside the box move as the nearest point of it.
+    /// Returns how a point of the world moves. Points outside the box move as the nearest point of it.
     glm::dvec3 displacement(const glm::dvec3& point) const;
 };
 

@@ -34,7 +34,7 @@ struct CylinderPoint {
 struct GeneralizedCylinder {
     enum class Curve : std::uint8_t { open_hermite = 1, closed_hermite = 2, open_spline = 3, closed_spline = 4 };
     Curve curve = Curve::open_hermite;
-    int sides = 8;             ///< of the contours, at least 3
+    int sides = 8;             ///< corners of a contour, at least 3
     double texture_ratio = 1;  ///< stretches textures along it
     std::vector<CylinderPoint> points;
 

@@ -39,7 +39,7 @@ struct Look {
 };
 
 /// One drawn segment. Internodes of one axis follow each other: `axis` counts the axes of the plant.
-/// Lines whose width is in pixels, or that nobody gave a width, have radius 0.
+/// Lines whose width is in pixels, or that have no width, have radius 0.
 struct Internode {
     std::uint32_t module;  ///< index of the module in the plant's string
     std::uint32_t axis;
@@ -107,11 +107,11 @@ struct PlantGeometry {
     std::vector<Organ> organs;
     DrawnMesh mesh;  ///< generalized cylinders and patches
     std::vector<Label> labels;
-    std::vector<std::uint16_t> textures;   ///< of the internodes; shorter where the last ones have none
+    std::vector<std::uint16_t> textures;   ///< textures of the internodes; shorter where the last ones have none
     std::shared_ptr<const Shapes> shapes;  ///< what surfaces look like; null: unknown
     bool in_pixels = false;                ///< widths of lines are given in pixels
     std::uint32_t axes = 0;
-    Box bounds;  ///< of everything drawn, thickness included
+    Box bounds;  ///< bounds of everything drawn, thickness included
 
     void clear();
 };

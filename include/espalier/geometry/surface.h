@@ -48,7 +48,7 @@ SurfaceVertex evaluate(const BicubicPatch& patch, double s, double t);
 /// Points shared within a patch, faces as triangles or quadrilaterals, normals averaged along common edges.
 struct SurfaceMesh {
     std::vector<SurfaceVertex> vertices;
-    std::vector<std::uint32_t> indices;  ///< of all faces, one after the other
+    std::vector<std::uint32_t> indices;  ///< vertices of all faces, one face after the other
     std::vector<std::uint32_t> faces;    ///< number of vertices of each face
     std::vector<std::uint32_t> patches;  ///< the patch each face belongs to; none of a surface of triangles
 };

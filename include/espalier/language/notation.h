@@ -15,7 +15,7 @@ namespace espalier::language {
 struct TranslatedText {
     /// A place of the text, and what it was written for, up to the next origin.
     struct Origin {
-        int line = 0, column = 0;  ///< of the text
+        int line = 0, column = 0;  ///< where it stands in the text
         Place place;               ///< in the notation; not known: nothing in particular
     };
 
@@ -26,8 +26,8 @@ struct TranslatedText {
 /// What a file of src/language/notations/ registers: a translator into the language of models.
 struct NotationType {
     std::string name;       ///< what the file is called in messages: "pgraph"
-    std::string extension;  ///< of its files: ".pgraph"
-    std::string summary;    ///< a line
+    std::string extension;  ///< extension of its files: ".pgraph"
+    std::string summary;    ///< one line about the notation
     std::string help;       ///< the notation: its parts with units, ranges and defaults; the published source
     /// The model of a file's text, as text that can be run, with the places that mistakes in it are told at. Throws
     /// UserError with every mistake at its own place.

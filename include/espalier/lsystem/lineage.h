@@ -18,9 +18,9 @@ using Identity = std::uint64_t;
 struct Siblings {
     static constexpr std::uint32_t axiom = 0xFFFFFFFF;
 
-    Identity parent;      ///< of the axiom: what its identities are made from
-    std::uint32_t step;   ///< of birth
-    std::uint32_t depth;  ///< of the decomposition that made them, 0: the production itself; or `axiom`
+    Identity parent;      ///< identity of the parent; for the axiom, what its identities are made from
+    std::uint32_t step;   ///< step of birth
+    std::uint32_t depth;  ///< level of the decomposition that made them, 0: the production itself; or `axiom`
 
     Identity identity(std::uint32_t place) const { return mix(origin() ^ place); }
     /// What the identities of all siblings are made from.
@@ -47,7 +47,7 @@ public:
     const Siblings& operator[](std::size_t row) const { return memory_->rows[row]; }
     std::size_t bytes() const { return size_ * sizeof(Siblings); }
 
-    /// This table and so many more rows, which the caller writes before anybody reads them. Throws std::bad_alloc.
+    /// This table and so many more rows, which the caller writes before they are read. Throws std::bad_alloc.
     SiblingTable grown(std::size_t more) const;
     /// To write a row that grown() added.
     Siblings& added(std::size_t row) { return memory_->rows[row]; }

@@ -24,7 +24,7 @@ struct ModuleString {
     bool empty() const { return letters.empty(); }
     bool has_lineage() const { return !letters.empty() && births.size() == letters.size(); }
 
-    // Of a string that has its lineage.
+    // These need a string that has its lineage.
     Identity identity(std::size_t module) const {
         return siblings[births[module].siblings].identity(births[module].place);
     }

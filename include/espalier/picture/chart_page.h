@@ -21,7 +21,7 @@ struct Series {
 struct HeatMap {
     std::vector<std::string> columns, rows;  ///< from the left, from below
     std::vector<double> values;              ///< row after row; NaN leaves a cell empty
-    std::string title;                       ///< of the values
+    std::string title;                       ///< title of the values
 };
 
 struct Chart {

@@ -17,9 +17,9 @@ struct FieldLook {
 
     std::string name;
     Kind kind = Kind::volume;
-    char axis = 'z';              ///< of a slice: the plane's normal
+    char axis = 'z';              ///< a slice's normal
     std::optional<double> place;  ///< metres along `axis`; none: through the middle of the plants
-    std::optional<double> level;  ///< of a surface; none: halfway between the field's extremes
+    std::optional<double> level;  ///< level of a surface; none: halfway between the field's extremes
 };
 
 struct PictureBackground {
@@ -36,7 +36,7 @@ struct PictureStyle {
     /// kind, colour, identity, radius, height, a chosen parameter), or a recorded field, sampled at the organs
     /// ("light"; "field.light" where a parameter bears that name too).
     std::string colour_by = "natural";
-    std::optional<std::array<double, 2>> range;  ///< of `colour_by`; none: what the surveyed frames hold
+    std::optional<std::array<double, 2>> range;  ///< range of `colour_by`; none: what the surveyed frames hold
     std::optional<std::uint32_t> plant;          ///< this one alone, by its number; none: all
     std::vector<FieldLook> fields;
     PictureBackground background = light_background;
@@ -44,14 +44,14 @@ struct PictureStyle {
     bool shading = true;  ///< shadows and what hides in corners; false: lit surfaces only
     bool textures = true;
     std::string bark;        ///< the texture of axes that wear none: a file; "": none
-    archive::AxisSkin skin;  ///< of axes
+    archive::AxisSkin skin;  ///< how axes are skinned
     bool legend = true;      ///< colour bars of arrays and fields
     bool scale_bar = false;
     bool time_label = false;
     bool time_beneath = false;  ///< the time in the middle of the lower edge
     std::string title;
     double sun_azimuth = -20, sun_elevation = 50;  ///< degrees, as a camera's place
-    int triangles = 3'000'000;                     ///< of axes, about: they have fewer sides where there are many
+    int triangles = 3'000'000;  ///< most triangles of axes, about: they have fewer sides where there are many
 };
 
 /// From where a camera looks at the middle of what it frames.

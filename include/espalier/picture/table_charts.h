@@ -26,11 +26,11 @@ struct PlotOptions {
     Lines lines = Lines::chosen;
     std::string x = "step";                     ///< the column along the horizontal axis
     bool upright = false;                       ///< that column, a height, goes up instead
-    std::map<std::string, std::string> titles;  ///< of columns: "crown volume (m3)"; else their names
+    std::map<std::string, std::string> titles;  ///< titles of columns: "crown volume (m3)"; else their names
     bool dark = false;
 };
 
-/// Of statistics.csv: sizes, what was born and died, and of each process one quantity (`mean` or `uptake` if it has
+/// Chooses columns of statistics.csv: sizes, births and deaths, and one of each process (`mean` or `uptake` if it has
 /// it), without those that are 0 throughout; at most 9.
 std::vector<std::string> default_quantities(std::span<const PlottedTable> tables);
 

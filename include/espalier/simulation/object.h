@@ -12,7 +12,7 @@ namespace espalier::simulation {
 
 /// One model and its side files; all but the model may be missing. Paths can be opened from the current directory.
 struct ObjectFiles {
-    std::string name;  ///< of the scene it makes; default: the model's
+    std::string name;  ///< name of the scene it makes; default: the model's
     std::filesystem::path model, view, animation, environment;
     std::map<int, std::filesystem::path> colour_maps, materials;  ///< by set; 1 is the turtle's
     /// The colour map of a model that chooses colours by index, ;(3), where neither map nor materials are given.

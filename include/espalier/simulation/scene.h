@@ -18,14 +18,14 @@
 
 namespace espalier::simulation {
 
-/// Modules that somebody puts into the string of a step, as a mouse did in a window: they are there when the step is
+/// Modules that are put into the string of a step, as a mouse did in a window: they are there when the step is
 /// interpreted, and the next derivation sees them.
 struct Insertion {
     std::string modules = {};  ///< as strings are printed: "X(1)[Y]"
     int step = 0;
     std::string before = {};  ///< the symbol they stand before; empty: they begin the string
     int number = 1;           ///< which of these
-    Place place = {};         ///< where somebody says so
+    Place place = {};         ///< where a file asks for it; not known otherwise
 };
 
 class DrawingInTime;
@@ -67,9 +67,9 @@ struct SceneEnvironment {
 
 /// A value of a scene file that an expression gave.
 struct ComputedValue {
-    Place place;                        ///< of its key
+    Place place;                        ///< place of its key
     std::string expression;             ///< without the '='
-    std::vector<std::string> settings;  ///< of the model, that it reads
+    std::vector<std::string> settings;  ///< settings of the model that it reads
 };
 
 /// What was noticed in the files of a scene and did not keep it from being read.
@@ -81,7 +81,7 @@ struct SceneNotes {
 
 /// Fill it in, or read it from a file. `World` grows it, `run` grows and records it.
 struct Scene {
-    /// Animations with a later last frame were made for a window that somebody closes.
+    /// Animations with a later last frame were made for a window that the user closes.
     static constexpr int most_frames_unasked = 10000;
 
     std::string name;
@@ -99,7 +99,7 @@ struct Scene {
     std::optional<FrameSelection> frames;  ///< instead of the timeline's `first` and `every`
     std::optional<int> last_frame;         ///< where the run ends, whatever the derivation lengths are
 
-    // Of a scene that was read.
+    // Where the scene was read from.
     std::filesystem::path path;                                  ///< the file, empty if the scene was read from text
     std::string text;                                            ///< as it was read, before overrides
     std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value, and --steps and --seed

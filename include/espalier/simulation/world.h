@@ -24,7 +24,7 @@ struct StageTimes {
 struct DerivedStep {
     struct OfPlant {
         std::shared_ptr<const ModuleString> string;
-        std::string memory;  ///< of the derivation, as bytes for this machine
+        std::string memory;  ///< memory of the derivation, as bytes for this machine
     };
     int step = 0;
     std::vector<OfPlant> plants;
@@ -46,8 +46,8 @@ public:
     /// the steps; after the last of them call its finish().
     void attach(Recorder& recorder);
 
-    /// Before start(): nobody will look at geometry or lineages. They are then not made, unless a process reads them or
-    /// a model asks the turtle; frames have strings without lineage and empty interpretations.
+    /// Before start(): geometry and lineages will not be looked at. They are then not made, unless a process reads them
+    /// or a model asks the turtle; frames have strings without lineage and empty interpretations.
     void skip_geometry();
     /// Before start(): the derivation length of all plants, instead of the scene's.
     void set_steps(int steps);
@@ -63,7 +63,7 @@ public:
     void interpret();
     void exchange();
     void record();
-    /// Of an exchange, what turtles answer themselves: ?P, ?H, ?L, ?U.
+    /// Answers what turtles answer themselves in an exchange: ?P, ?H, ?L, ?U.
     void answer_turtle_queries();
 
     /// After write_axioms() or derive().

@@ -36,7 +36,7 @@ struct StudioOptions {
     std::filesystem::path scratch;              ///< a folder for what is grown, emptied by the caller
     std::filesystem::path state;                ///< keeps unsaved work; empty: it is lost with the program
     Opened opened = {};                         ///< an empty path: the page begins with the library
-    bool is_named = true;                       ///< somebody named it: it is opened even where unsaved work is kept
+    bool is_named = true;                       ///< the user named it: it is opened even where unsaved work is kept
     int port = 0;                               ///< 0: any that is free
     /// Reads what is opened as `espalier run` does. Called on several threads. Throws UserError.
     std::function<Scene(const Opened&)> read;

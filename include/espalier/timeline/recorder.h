@@ -16,7 +16,7 @@ namespace espalier::timeline {
 
 struct RecorderContext {
     std::filesystem::path folder;  ///< where the timeline goes; exists
-    int last_step = 0;             ///< of the run as planned
+    int last_step = 0;             ///< last step of the run as planned
 };
 
 /// Bytes that recording takes, besides the frame itself.
@@ -41,8 +41,8 @@ public:
     virtual ~Recorder() = default;
     /// True for recorders that must see every step, whatever `every` says.
     virtual bool sees_every_step() const { return false; }
-    /// False for recorders that read neither the strings of plants nor what is drawn of them: a run in which nobody
-    /// does keeps no lineages and draws nothing.
+    /// False for recorders that read neither the strings of plants nor what is drawn of them: a run without others
+    /// keeps no lineages and draws nothing.
     virtual bool reads_plants() const { return true; }
     /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Frames of a timeline hold no
     /// others: to make a field that is not read would cost a step as much as the field itself.

@@ -17,10 +17,10 @@ namespace espalier::turtle {
 /// A plant on its way from the turtle to the recorders. The environment saw the geometry as the turtle left it.
 struct StagedPlant {
     PlantGeometry& geometry;     ///< a copy, to be changed
-    const ModuleString& string;  ///< that was interpreted: internodes name its modules
-    RandomKey key;               ///< of the plant; take samples by Identity, so that an organ keeps them as others come
-    glm::dvec3 heading{0, 1, 0};  ///< of the turtle at the beginning
-    double time = 0;              ///< of the frame, in the scene's unit
+    const ModuleString& string;  ///< the string that was interpreted: internodes name its modules
+    RandomKey key;  ///< key of the plant; take samples by Identity, so that an organ keeps them as others come
+    glm::dvec3 heading{0, 1, 0};  ///< heading of the turtle at the beginning
+    double time = 0;              ///< time of the frame, in the scene's unit
 };
 
 /// Constructors take (Settings&) and read their parameters; the scene rejects unread ones. Thread safe.

@@ -19,7 +19,7 @@ namespace espalier::turtle {
 struct Interpretation {
     PlantGeometry geometry;
     QueryColumn queries;           ///< to processes, in string order
-    Column<TurtleAnswer> answers;  ///< of the turtle itself, in string order
+    Column<TurtleAnswer> answers;  ///< answers of the turtle itself, in string order
     std::vector<TurtleDirection> directions;
 
     void clear();

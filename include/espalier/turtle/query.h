@@ -20,7 +20,7 @@ struct Query {
     std::size_t parameters_at = 0;  ///< where they begin in ModuleString::parameters
     std::span<const double> parameters;
     std::span<const double> following_parameters;
-    Identity identity = 0;  ///< of the communication module; 0 if the string keeps no lineage
+    Identity identity = 0;  ///< identity of the communication module; 0 if the string keeps no lineage
     Identity following_identity = 0;
     Pose pose;
     double width = 0;  ///< line width, metres
@@ -56,7 +56,7 @@ struct TurtleAnswer {
 /// The answer to ?H ?L ?U or ?Q.
 struct TurtleDirection {
     std::size_t parameters_at = 0;
-    std::size_t count = 0;  ///< of the values
+    std::size_t count = 0;  ///< number of values
     std::array<double, 4> values{};
 };
 

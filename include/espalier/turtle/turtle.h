@@ -30,7 +30,7 @@ enum class LineStyle : std::uint8_t { pixel, polygon, cylinder };
 struct TurtleSettings {
     Pose pose;
     double angle = 0.78539816339744831;  ///< radians (45 degrees)
-    std::optional<double> line_width;    ///< none: nobody said; lines are thin until a symbol sets a width
+    std::optional<double> line_width;    ///< none: not given; lines are thin until a symbol sets a width
     double line_width_increment = 0;
     int colour = 128;
     int colour_increment = 1;
@@ -41,10 +41,10 @@ struct TurtleSettings {
     bool past_cut = true;  ///< draw what follows `%`
     std::vector<Tropism> tropisms;
     // cpfg's older scheme: one tropism that acts after every step, its elasticity changed by `_`.
-    glm::dvec3 tropism_direction{0, 1, 0};  ///< of any length but 0
+    glm::dvec3 tropism_direction{0, 1, 0};  ///< any length but 0
     double initial_elasticity = 0;
     double elasticity_increment = 0;
-    LineStyle line_style = LineStyle::cylinder;  ///< of pixel lines the radius is 0. A view file begins with pixel
+    LineStyle line_style = LineStyle::cylinder;  ///< pixel lines have radius 0. A view file begins with pixel
     int contour_sides = 8;                       ///< polygons around cylinders and spheres, at least 3
     bool tapered_lines = true;                   ///< a segment's end may be thinner than its start
     bool twist_of_cylinders = false;       ///< generalized cylinders follow the turtle's roll instead of twisting least
@@ -64,7 +64,7 @@ struct Brush {
 /// What `[` saves and `]` restores, but for the elasticities, which the walk keeps on a stack of their own.
 struct TurtleState {
     Pose pose;
-    double width = 1;  ///< 1 where nobody gave one
+    double width = 1;  ///< 1 where none is given
     double scale = 1;
     int colour = 128;
     int back_colour = -1;  ///< -1: the front's
@@ -72,13 +72,13 @@ struct TurtleState {
     std::uint16_t order = 0;     ///< depth of branching, at most 65535
     bool on_axis = false;        ///< the axis has an internode that ends here
     bool branches_off = false;   ///< the open cylinder is that of the axis this one branches off
-    bool has_width = false;      ///< somebody gave it
+    bool has_width = false;      ///< a width is given
     std::uint16_t texture = 0;   ///< 0: none
     std::uint32_t brush = 0;     ///< which of the walk's brushes
     std::uint32_t systems = 0;   ///< sub-L-systems entered
     std::int32_t cylinder = -1;  ///< which of the walk's generalized cylinders is open; -1: none
     double node_radius = 0;      ///< at the end of that internode
-    double elasticity = 0;       ///< of the older tropism
+    double elasticity = 0;       ///< elasticity of the older tropism
 };
 
 /// The cosine and sine of an angle in radians. Quarter turns are exact, so that right angles stay right.

@@ -19,7 +19,7 @@ struct ViewValue {
     std::string_view unit = {};
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
-    std::string_view words = {};  ///< of kind `word`: those that it takes, separated by blanks
+    std::string_view words = {};  ///< words that a value of kind `word` takes, separated by blanks
     char letter = 0;              ///< that stands before it; 0: none
 };
 
@@ -28,7 +28,7 @@ struct ViewSetting {
     std::string_view values;  ///< what follows it, in words
     std::string_view group;   ///< "growth", "shape", "picture", or "window": without meaning outside one
     ViewValue value;
-    std::span<const ViewValue> letters = {};  ///< of a line of letters
+    std::span<const ViewValue> letters = {};  ///< letters that a line of letters takes
 };
 
 /// All, in the order of the manual.

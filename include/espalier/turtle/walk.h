@@ -74,7 +74,7 @@ struct WalkState {
         std::uint32_t module;
         bool filled;
         bool after_step;       ///< its last vertex was marked by a step, which may have been none
-        std::uint16_t colour;  ///< of the first vertex, as the look
+        std::uint16_t colour;  ///< colour of the first vertex, as the look
         Look look;
     };
     struct OpenCylinder {
@@ -294,7 +294,7 @@ private:
 
     std::uint32_t module_ = 0;       // index in the plant's string of the module that is drawn
     std::size_t parameters_at_ = 0;  // where its parameters begin
-    LetterId letter_ = no_letter;    // of the module that acts: module_'s own, or one of its picture
+    LetterId letter_ = no_letter;    // letter of the module that acts: module_'s own, or one of its picture
     bool in_picture_ = false;
 
     double radius_of_width_ = 0.5;

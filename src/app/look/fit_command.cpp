@@ -1,4 +1,4 @@
-// fit: parameters of a model from lengths and angles that somebody marked on a picture of a plant.
+// fit: parameters of a model from lengths and angles that were marked on a picture of a plant.
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/language/model_settings.h"
@@ -120,7 +120,7 @@ public:
         app()
             .add_option("--steps", steps_, "number of derivation steps; default: that of the model")
             ->check(CLI::Range(0, 1000000));
-        app().add_option("--seed", seed_, "of the model's random numbers; default: 0");
+        app().add_option("--seed", seed_, "seed of the model's random numbers; default: 0");
         app().add_option("--overlay", overlay_, "draw marks (red) and fitted model (blue) into this .svg");
         add_json_flag("print the result as JSON");
         app().footer(

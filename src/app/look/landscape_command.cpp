@@ -89,7 +89,7 @@ private:
         throw UserError(fmt::format("--output {}: expected the name of a .png, .glb or .usda file", output.string()));
     }
 
-    /// Of the species that have any: as they look from the eye, from the middle of the terrain.
+    /// Makes the cards of the species that have any: as they look from the eye, from the middle of the terrain.
     Cards cards_of(const LandscapeScene& scene, const Deadline& deadline) const {
         const PlantedLandscape& landscape = scene.landscape;
         const glm::dvec3 towards = scene.view.eye - scene.view.target;

@@ -18,10 +18,10 @@ public:
         : Command(program, "leaf-texture", "draw a picture of many leaves for the texture of a card") {
         app().add_option("--output", output_, "the picture, a .png file")->required();
         app()
-            .add_option("--blobs", texture_.blobs, "how many leaves")
+            .add_option("--blobs", texture_.blobs, "number of leaves")
             ->check(CLI::Range(1, 10000))
             ->capture_default_str();
-        app().add_option("--colour", colour_, "of leaves, as #rrggbb")->capture_default_str();
+        app().add_option("--colour", colour_, "colour of the leaves, as #rrggbb")->capture_default_str();
         app()
             .add_option("--variation", texture_.variation, "largest change of the brightness of a leaf, as a share")
             ->check(CLI::Range(0.0, 1.0))
@@ -35,7 +35,9 @@ public:
             .add_option("--size", texture_.size, "width and height in pixels")
             ->check(CLI::Range(16, 8192))
             ->capture_default_str();
-        app().add_option("--seed", texture_.seed, "another number draws another picture")->capture_default_str();
+        app()
+            .add_option("--seed", texture_.seed, "seed of the random numbers: another one draws another picture")
+            ->capture_default_str();
         add_json_flag("print what was drawn as JSON");
         app().footer(R"(Leaves are ellipses over a transparent ground. They lie apart while there is room for them.
 Examples:

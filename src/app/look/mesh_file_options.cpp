@@ -2,8 +2,6 @@
 
 #include "espalier/base/error.h"
 
-#include <fmt/format.h>
-
 namespace espalier::app {
 
 MeshFileOptions::MeshFileOptions(CLI::App& command, int sides, const std::string& group) : sides_(sides) {
@@ -35,10 +33,9 @@ MeshFileOptions::MeshFileOptions(CLI::App& command, int sides, const std::string
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();
     command.add_flag("--instances", instances_, "gltf of one frame, usd: organs that look alike are one shape");
-    command.add_flag("--mesh-axes", mesh_axes_,
-                     fmt::format("usd: axes as meshes, with {} and textures, and not as curves; "
-                                 "--bark and --skin smooth imply it",
-                                 "--sides"));
+    command.add_flag(
+        "--mesh-axes", mesh_axes_,
+        "usd: axes as meshes, with --sides and textures, and not as curves; --bark and --skin smooth imply it");
     command.add_flag("--counts", counts_, "file names end in the numbers of vertices and triangles");
     axes_.emplace(command);
     command.option_defaults()->group(before);

@@ -176,11 +176,14 @@ public:
         app().add_option("what", what_,
                          "a model, a scene, the folder of an object or of a recorded run, or a shared link; default: a "
                          "random tree");
-        app().add_option("--folder", folder_,
-                         "files are read and written below it; default: this folder, or the one of a file outside it");
-        app().add_option("--port", port_, "of 127.0.0.1; default: one that is free")->check(CLI::Range(0, 65535));
+        app().add_option(
+            "--folder", folder_,
+            "folder below which files are read and written; default: this one, or that of a file outside it");
+        app()
+            .add_option("--port", port_, "port of 127.0.0.1 to listen on; default: one that is free")
+            ->check(CLI::Range(0, 65535));
         app().add_flag("--programs", programs_,
-                       "start the environment programs that documents name; never for what came by a link");
+                       "start the environment programs that documents name, but never those of a shared link");
         app().add_flag("--no-browser", no_browser_, "print the address instead of opening it");
         app().footer(
             R"(The page runs in the browser; this program serves it, to this machine alone, until Ctrl-C ends it. The address
@@ -243,7 +246,7 @@ private:
         return opened.has_filename() ? opened : opened.parent_path();
     }
 
-    // Nobody begins with an empty page: a random tree grows if nothing is named.
+    // Users do not begin with an empty page: a random tree grows if nothing is named.
     Opened opened() const {
         if (!what_.empty()) return {opened_path(), {}, {}};
         const fs::path tree = model_library({}).parent_path() / "environments/tree.toml";

@@ -217,7 +217,7 @@ std::vector<SweepResult> Sweep::results() const {
 }
 
 fs::path Sweep::write_table(const std::vector<SweepResult>& results) const {
-    std::vector<std::string> columns;  // of all: runs with other processes have other quantities
+    std::vector<std::string> columns;  // columns of all runs: those with other processes have other quantities
     for (const SweepResult& result : results) {
         for (const std::string& column : result.table.columns) {
             if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);

@@ -14,7 +14,7 @@ namespace espalier::app {
 struct SweepRun {
     Variant variant;
     std::filesystem::path folder;
-    std::vector<std::string> words;  ///< of `espalier run`, without --output
+    std::vector<std::string> words;  ///< arguments of `espalier run`, without --output
 };
 
 struct SweepResult {
@@ -29,7 +29,7 @@ public:
     Sweep(const RunArguments& base, const std::vector<Variation>& variations, const std::filesystem::path& folder);
 
     const std::vector<SweepRun>& runs() const { return runs_; }
-    /// Of statistics.csv, as the first run has them at step 0; none if it cannot be grown.
+    /// Returns statistics.csv as the first run has it at step 0; nothing if it cannot be grown.
     RecordedTable first_statistics() const;
     /// Those that have not ended yet, or whose inputs or values have changed since.
     std::vector<const SweepRun*> to_do() const;

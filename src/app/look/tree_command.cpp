@@ -110,7 +110,7 @@ public:
         app().add_option("--preset", preset_, "a named table of settings, listed below");
         app().add_option("--settings", settings_, "a file with settings: crown-width = 6 in a line of its own");
         app().add_option("--save-settings", saved_, "write all settings, and the seed, to a file for --settings");
-        app().add_option("--seed", seed_, "of all random numbers, or new: a random one, which is printed");
+        app().add_option("--seed", seed_, "seed of all random numbers; new: draw a seed and print it");
         app().add_option("--leaf-picture", leaf_picture_,
                          "PNG with opacity that leaves wear; default: that of the scene. See espalier leaf-texture");
         app().add_option("--run", run_, "keep the run in this folder; default: it is removed");
@@ -121,7 +121,7 @@ public:
                          "memory that the growth may use, such as 4G; default: half of the machine");
         app().add_flag("--quiet", arguments_.quiet, "print errors only");
         add_json_flag("print the result as JSON");
-        // The model is read only if somebody asks for a tree.
+        // The model is read only if a tree is asked for.
         app().preparse_callback([this](std::size_t) { add_settings(); });
     }
 
@@ -223,7 +223,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
         }
         dress_leaves();
-        // Only the last frame of a run that nobody keeps is read.
+        // Only the last frame is read of a run that is not kept.
         if (run_.empty()) arguments_.overrides.emplace_back("timeline.every", "1000000000");
         const ReadLog inputs;
         const Scene scene = scene_of(arguments_);

@@ -98,13 +98,13 @@ public:
                          "show a field as volume, slice or iso, as with the key f in the window: light:slice");
         app().add_option("--screenshot", options_.screenshot, "write a picture of the window (.png) and exit");
         app().add_option("--script", script_, "execute a script line by line and exit: docs/view.md");
-        app().add_option("--output", arguments_.output, "of a scene: output folder; default: output/<scene>-<time>");
-        app().add_flag("--overwrite", arguments_.overwrite, "of a scene: replace the timeline in the output folder");
+        app().add_option("--output", arguments_.output,
+                         "output folder of a scene that grows; default: output/<scene>-<time>");
+        app().add_flag("--overwrite", arguments_.overwrite, "replace the timeline in the output folder");
         app()
-            .add_option("--threads", arguments_.threads, "of a scene: number of threads; default: all cores")
+            .add_option("--threads", arguments_.threads, "number of threads that grow a scene; default: all cores")
             ->check(CLI::Range(1, 4096));
-        app().add_flag("--keep-running", keep_running_,
-                       "of a scene: when the window closes, wait for the end of the run");
+        app().add_flag("--keep-running", keep_running_, "grow a scene to its end after the window closes");
         app().footer(R"(The key h shows the keys of the window. Examples:
   espalier view output/two-trees                        a run, finished or still growing
   espalier view environments/two-trees.toml             grows a scene and shows it; closing the window ends the run

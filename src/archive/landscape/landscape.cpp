@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t salt = 0x6c616e64;
 
-/// Of the outermost points in directions around the origin.
+/// Returns the mean distance of the outermost points in directions around the origin.
 double crown_radius(const std::vector<glm::vec3>& points) {
     std::array<double, 12> furthest{};
     for (const glm::vec3& point : points) {

@@ -13,7 +13,7 @@ namespace espalier::archive {
 /// A plant of a stand as the run that planted it recorded it: an internode, its base, radius and colour.
 struct StandPlant {
     glm::dvec2 place;  ///< x and z, metres
-    double radius;     ///< of its crown, metres
+    double radius;     ///< radius of its crown, metres
     int species;       ///< the colour
 };
 
@@ -24,9 +24,9 @@ std::vector<StandPlant> stand_of(const RecordedGeometry& geometry);
 struct LandscapeSpecies {
     std::string name;
     int number;                     ///< its colour in the stand
-    double radius;                  ///< of its crown, metres
+    double radius;                  ///< radius of its crown, metres
     double height;                  ///< metres
-    std::size_t triangles;          ///< of all its detail
+    std::size_t triangles;          ///< triangles of all its detail
     std::vector<FrameMesh> levels;  ///< the nearest first, then coarser
 };
 

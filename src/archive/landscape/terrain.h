@@ -27,7 +27,7 @@ public:
     const glm::dvec2& lower() const { return lower_; }
     const glm::dvec2& upper() const { return upper_; }
     bool holds(double x, double z) const;
-    /// Of the nearest place of the terrain.
+    /// Returns the height at the nearest place of the terrain.
     double height(double x, double z) const;
     /// Two triangles between four neighbouring places.
     FrameMesh mesh(const Rgb& colour) const;

@@ -13,7 +13,7 @@ namespace espalier::archive {
 struct AxisLine {
     TubeLine line;  ///< two nodes at least
     std::uint32_t plant;
-    std::size_t row;           ///< of `of_cells`: of the axis it begins with
+    std::size_t row;           ///< row of `of_cells` of the axis it begins with
     std::string texture = {};  ///< the file that it wears; "": none
 };
 

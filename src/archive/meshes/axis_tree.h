@@ -33,7 +33,7 @@ struct Fork {
 /// Points that one tube follows.
 struct AxisPath {
     std::uint32_t plant;
-    std::size_t row;  ///< of `of_cells`: of the axis it begins with
+    std::size_t row;  ///< row of `of_cells` of the axis it begins with
     std::vector<std::int32_t> points;
     bool stands_free = true;  ///< on no other axis
     std::vector<Fork> forks = {};
@@ -43,7 +43,7 @@ struct AxisPath {
 /// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
 std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOptions& options);
 
-/// Of the plants asked for.
+/// Returns the tree of the plants asked for.
 AxisTree axis_tree(const RecordedGeometry& geometry, const MeshOptions& options);
 
 }  // namespace espalier::archive

@@ -23,13 +23,13 @@ int pictures_around(const std::string& texture, float radius, float thickest);
 struct Bark {
     int stripes = 10;         ///< from side to side
     double waviness = 0.25;   ///< standard deviation of the noise that moves stripes, in stripes
-    double roughness = 0.04;  ///< of the noise that is added to their height, as a share of it
+    double roughness = 0.04;  ///< strength of the noise that is added to their height, as a share of it
     double depth = 0.03;      ///< from ridges to cracks, as a share of the picture's width
-    double darkness = 0.55;   ///< of cracks; 0: as bright as ridges
+    double darkness = 0.55;   ///< how dark cracks are; 0: as bright as ridges
     int size = 512;           ///< pixels along a side
     std::uint64_t seed = 1;
     std::optional<std::filesystem::path> heights;  ///< a picture whose brightness is the height, instead of the above
-    std::optional<std::filesystem::path> picture;  ///< of the colours, instead of the axis's own
+    std::optional<std::filesystem::path> picture;  ///< a picture of the colours, instead of the axis's own
 };
 
 /// Reads a file of settings (TOML). Throws UserError with file and line.
@@ -54,7 +54,7 @@ HeightMap heights_of(const Bark& bark);
 
 /// How far bark is below its ridges.
 struct BarkRelief {
-    double depth;  ///< of the deepest furrow, as a share of a picture's width
+    double depth;  ///< depth of the deepest furrow, as a share of a picture's width
     HeightMap map;
 
     /// At a place of the texture, in pictures, as a share of a picture's width; linear between pixels. Not below 0.

@@ -38,8 +38,8 @@ struct PlaceHash {
 struct Block {
     BlockPlace place;
     std::vector<std::uint32_t> pieces;
-    std::vector<double> distances;  ///< of its centre from them
-    std::uint32_t limb = 0;         ///< of the last pieces, from `first` on
+    std::vector<double> distances;  ///< distances of its centre from them
+    std::uint32_t limb = 0;         ///< limb of the last pieces, from `first` on
     std::size_t first = 0;
     double least = 0;  ///< distance of these
 

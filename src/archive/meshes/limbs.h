@@ -14,8 +14,8 @@ struct LimbPiece {
     glm::dvec3 base, tip;
     double base_radius, tip_radius;
     std::uint32_t limb, node;              ///< its limb, and the node of the limb's curve where it ends
-    glm::dvec3 base_tangent, tip_tangent;  ///< of the curve, unit vectors
-    bool is_first = true, is_last = true;  ///< of its limb
+    glm::dvec3 base_tangent, tip_tangent;  ///< tangents of the curve, unit vectors
+    bool is_first = true, is_last = true;  ///< first and last piece of its limb
     bool is_flat = false;                  ///< cut off at `base`, to stand on a plane
 };
 
@@ -42,7 +42,7 @@ public:
         std::uint32_t piece;
         double distance;
     };
-    /// Of each limb that has pieces among `near`, in the order of limbs, into `found`. `near` is sorted.
+    /// Finds the nearest piece of each limb that has pieces among `near`, in the order of limbs. `near` is sorted.
     void nearest(const glm::dvec3& point, std::span<const std::uint32_t> near, std::vector<Nearest>& found) const;
     /// The distance from the union's surface, roughly: exact where one limb is alone. `limbs` are those `nearest`
     /// finds.

@@ -79,7 +79,7 @@ private:
     const FrameMesh& mesh_;
     const PieceLimit& limit_;
     std::vector<FrameMesh> pieces_;
-    std::vector<std::uint32_t> number_;  ///< of the part's vertices within the piece
+    std::vector<std::uint32_t> number_;  ///< numbers of the part's vertices within the piece
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ constexpr double slack = 0.05;  ///< by how much fewer triangles there may be th
 constexpr double longest_growth = 2;
 constexpr int fewest_sides = 3, sides_of_line = 2;
 
-/// Of a polygon within a circle of radius 1, seen from all directions (Cauchy: the perimeter by pi).
+/// Returns the mean width of a polygon within a circle of radius 1, over all directions (Cauchy: the perimeter by pi).
 double mean_width(int sides) {
     return 2 * sides * std::sin(std::numbers::pi / std::max(sides, 1)) / std::numbers::pi;
 }
@@ -32,7 +32,7 @@ double outline_error(double area) {
     return std::sqrt(area) / 2;
 }
 
-/// Of a tube, seen from its side.
+/// Returns the area of a tube seen from its side.
 double outline_area(const TubeLine& line) {
     double area = 0;
     for (std::size_t i = 1; i < line.nodes.size(); ++i) {
@@ -65,7 +65,7 @@ std::vector<std::size_t> bearers(const std::vector<PlannedTube>& tubes) {
 
 /// The outline of each tube with all that stand on it.
 std::vector<double> borne_areas(const std::vector<PlannedTube>& tubes) {
-    constexpr int most_orders = 100;  // of branching: crossing lines may seem to bear each other
+    constexpr int most_orders = 100;  // most orders of branching: crossing lines may seem to bear each other
     const std::vector<std::size_t> bearer = bearers(tubes);
     std::vector<double> areas(tubes.size(), 0);
     for (std::size_t i = 0; i < tubes.size(); ++i) {
@@ -91,7 +91,7 @@ public:
     /// What the shape may become.
     struct Limits {
         int fewest_sides;
-        double longest_growth;  ///< of organs that stay
+        double longest_growth;  ///< longest growth of organs that stay
         bool keeps_bearers;     ///< an axis counts for all that stands on it
     };
 
@@ -150,7 +150,7 @@ private:
     struct OrganState {
         const std::vector<OrganLevel>* levels;
         double size, area;
-        std::size_t next = 0;  ///< of the levels
+        std::size_t next = 0;  ///< the next of the levels
         std::size_t triangles;
         bool gone = false;
     };

@@ -13,7 +13,7 @@ struct PlannedTube {
     TubeLine line;
     int sides;
     Caps caps;
-    std::size_t row;  ///< of `of_cells`: of the axis it begins with
+    std::size_t row;  ///< row of `of_cells` of the axis it begins with
 };
 
 /// A thousandth of a distance: what lies closer together there looks like one thing.

@@ -53,7 +53,7 @@ double coarse_enough(std::span<const AxisLine> lines, double voxel, double quads
 struct Limb {
     TubeLine curve;
     std::vector<std::uint32_t> node_of;  ///< the line's node that ends the piece in which a node of the curve lies
-    std::vector<TubeFrame> frames;       ///< of the curve
+    std::vector<TubeFrame> frames;       ///< frames of the curve
 };
 
 /// Between two nodes: a cubic with their tangents (Hermite).
@@ -251,7 +251,7 @@ private:
         glm::dvec2 uv;
         std::uint32_t node;
         double picture;      ///< its width there, metres
-        glm::dvec3 tangent;  ///< of the limb
+        glm::dvec3 tangent;  ///< tangent of the limb
     };
 
     // Planes across the curve's nodes, not the nearest point, so that the texture stretches evenly in bends.
@@ -342,15 +342,15 @@ private:
 
     const std::vector<std::size_t>& members_;
     double voxel_;
-    std::vector<Limb> curves_;  ///< of each member
+    std::vector<Limb> curves_;  ///< curve of each member
     LimbUnion limbs_;
     std::optional<LimbLevelSet> set_;
     LimbMesh mesh_;
-    std::vector<const BarkRelief*> reliefs_;  ///< of each member; null: none
+    std::vector<const BarkRelief*> reliefs_;  ///< relief of each member; null: none
     std::vector<glm::dvec3> placed_;          ///< where the points of the mesh are drawn
-    std::vector<std::uint32_t> owners_;       ///< of the level set's points: the nearest limb
+    std::vector<std::uint32_t> owners_;       ///< the limb nearest to each point of the level set
     std::unordered_map<std::uint64_t, std::uint32_t> cuts_;
-    std::vector<std::vector<Triangle>> patches_;  ///< of each limb
+    std::vector<std::vector<Triangle>> patches_;  ///< triangles of each limb
     std::vector<Nearest> found_;
 };
 

@@ -132,7 +132,7 @@ private:
 
     MeshMaterial worn(const Rgb& rgb, std::uint16_t texture) const {
         if (texture == 0) return {rgb, ""};
-        // Where nobody gave a colour the picture has it; bark is only brighter and darker.
+        // Where no colour is given the picture has it; bark is only brighter and darker.
         const std::string& file = geometry_.texture_files[texture];
         const bool has_own = geometry_.of_cells.rgb.empty() && !is_bark(file);
         return {has_own ? Rgb{255, 255, 255} : rgb, file};
@@ -195,7 +195,7 @@ private:
     float thinnest_;
     FrameMesh mesh_;
     std::map<MeshMaterial, std::uint32_t> material_number_;
-    std::vector<std::uint32_t> vertex_of_;  ///< of a point, within the part that `part_of_` counts (from 1)
+    std::vector<std::uint32_t> vertex_of_;  ///< vertex of a point, within the part that `part_of_` counts (from 1)
     std::vector<std::uint32_t> part_of_;
     bool open_ = false;
 };

@@ -34,9 +34,9 @@ struct MeshPart {
 struct FrameMesh {
     std::vector<glm::vec3> points, normals;
     std::vector<glm::vec2> uvs;
-    std::vector<Rgb> rgb;  ///< of vertices
+    std::vector<Rgb> rgb;  ///< colours of vertices
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::uint32_t> material_of;  ///< of triangles
+    std::vector<std::uint32_t> material_of;  ///< material of each triangle
     std::vector<MeshMaterial> materials;
     std::vector<MeshPart> parts;  ///< plant after plant
 };

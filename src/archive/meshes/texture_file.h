@@ -21,7 +21,7 @@ vtkSmartPointer<vtkImageData> texture_image(const std::filesystem::path& run, co
 
 /// The relief of a texture.
 struct ReliefImages {
-    vtkSmartPointer<vtkImageData> normals;  ///< of tangent space; null where a texture is flat, as all but bark are
+    vtkSmartPointer<vtkImageData> normals;  ///< in tangent space; null where a texture is flat, as all but bark are
     vtkSmartPointer<vtkImageData> heights;  ///< grey
 };
 /// The relief as numbers; none where a texture is flat.

@@ -84,7 +84,7 @@ std::vector<glm::dvec3> tangents_of(const TubeLine& line) {
     return tangents;
 }
 
-/// Of the texture between two nodes.
+/// Returns the length of the texture between two nodes.
 double texture_length(const TubeLine& line, const TubeNode& from, const TubeNode& to) {
     const double metres = glm::distance(from.position, to.position);
     if (line.pictures_around == 0) return metres;

@@ -27,9 +27,9 @@ struct TubeFrame {
 struct TubeLine {
     std::vector<TubeNode> nodes;
     int pictures_around =
-        0;  ///< of a texture, which keeps its proportions as it goes round and along; 0: it wears none
+        0;  ///< pictures of a texture, which keeps its proportions round and along it; 0: it wears none
     bool stands_free = true;                        ///< on no other axis
-    std::optional<TubeFrame> first = std::nullopt;  ///< of a ring that belongs to another tube, too
+    std::optional<TubeFrame> first = std::nullopt;  ///< frame of a ring that belongs to another tube, too
 };
 
 /// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
@@ -42,13 +42,13 @@ TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_
 /// colour changes it is the radius at least.
 std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points);
 
-/// Of each node; two nodes at least.
+/// Returns the frame of each node; two nodes at least.
 std::vector<TubeFrame> frames_along(const TubeLine& line);
 
 struct TubeVertex {
     glm::vec3 position, normal;
     glm::vec2 uv;        ///< once round, and metres along the axis; in pictures if it wears a texture
-    std::uint32_t node;  ///< of the line
+    std::uint32_t node;  ///< node of the line
 };
 
 struct TubeTriangle {

@@ -114,7 +114,7 @@ std::size_t CanopyVoxels::number_of(const glm::dvec3& place) const {
 BeamLight send_beams(const CanopyVoxels& voxels, std::span<const float> depth, const glm::dvec3& towards, int beams) {
     const glm::dvec3 direction = -towards;
     const double length = voxels.size.y / towards.y;
-    const double spacing = 1.0 / beams, across = spacing * spacing * towards.y;  // of a beam, in voxels
+    const double spacing = 1.0 / beams, across = spacing * spacing * towards.y;  // a beam's, in voxels
     const auto [first_x, last_x] = first_and_last(direction.x * length, voxels.size.x, voxels.periodic);
     const auto [first_z, last_z] = first_and_last(direction.z * length, voxels.size.z, voxels.periodic);
     const auto rows = static_cast<std::int64_t>((last_z - first_z) * beams);

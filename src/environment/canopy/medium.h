@@ -24,7 +24,7 @@ struct CanopyVoxels {
 
 /// What parallel light of flux 1 across its direction leaves behind.
 struct BeamLight {
-    std::vector<double> flux;  ///< of each voxel: the mean flux that its leaves meet, 0 to 1
+    std::vector<double> flux;  ///< for each voxel, the mean flux that its leaves meet, 0 to 1
     double met = 0;            ///< m2: the area across the light whose light the leaves have met, all in all
     double passed = 0;         ///< share of the light that comes to the voxels and that no leaf has met
 };

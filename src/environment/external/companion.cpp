@@ -39,7 +39,7 @@ Companion::~Companion() {
         platform::end(child_, platform::Ending::at_once);
         platform::wait_for(child_);
     } catch (const std::system_error&) {
-        // Somebody else has waited for it.
+        // Another part of the program has waited for it.
     }
 }
 

@@ -41,7 +41,7 @@ private:
     int code_ = 0;  ///< how it ended
     bool ended_ = false, dismissed_ = false;
     bool has_spoken_ = false;
-    std::string incoming_;  ///< what it has said and nobody has taken yet
+    std::string incoming_;  ///< what it has said and has not been read yet
 };
 
 }  // namespace espalier::environment

@@ -23,7 +23,7 @@ struct ColonizingNode {
 
 struct ColonizationRules {
     double influence = std::numeric_limits<double>::infinity();  ///< m; from farther no point attracts
-    double cosine = -1;                                          ///< of half the angle of perception about the heading
+    double cosine = -1;      ///< cosine of half the angle of perception about the heading
     bool perceived = false;  ///< points go to the nearest of the nodes that perceive them, not of all
 };
 
@@ -45,7 +45,7 @@ public:
         std::uint32_t count = 0;
         glm::dvec3 sum{0};
     };
-    /// Of each node, in the order of set_nodes. Points outside the angle of perception attract nobody.
+    /// Returns what each node has won, in their order. Points outside the angle of perception attract no node.
     std::vector<Won> won() const;
 
     std::span<const glm::dvec3> points() const { return points_; }

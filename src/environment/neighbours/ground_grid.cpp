@@ -45,7 +45,7 @@ std::optional<std::size_t> GroundGrid::cell(const glm::dvec2& place) const {
     return static_cast<std::size_t>(index(1) * size_[0] + index(0));
 }
 
-// Of a place from what must be inside a disc: the centre of the cell, or any point of it.
+// Returns the distance of a place from what must be inside a disc: the centre of the cell, or any point of it.
 double GroundGrid::distance(int axis, std::int64_t index, double place) const {
     const double edge = range_[axis] / static_cast<double>(size_[axis]);
     const double centre = lower_[axis] + edge * (static_cast<double>(index) + 0.5);

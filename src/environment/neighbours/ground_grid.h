@@ -34,7 +34,7 @@ public:
     std::size_t bytes() const { return counts_.size() * sizeof(std::uint32_t); }
     bool has_picture() const { return !image_.empty(); }
     std::uint32_t count(std::size_t cell) const { return counts_[cell]; }
-    /// Of the image over the cell; white if there is none.
+    /// Returns the colour of the image over the cell; white if there is none.
     Picture::Colour colour(std::size_t cell) const;
 
     void save(std::ostream& out) const;

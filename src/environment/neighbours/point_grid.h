@@ -17,7 +17,7 @@ namespace espalier::environment {
 /// cell costs memory. Cells are numbered as their first members come; their table is probed linearly.
 class PointGrid {
 public:
-    /// Of the points whose numbers `members` lists; within a cell they keep its order. Copies the positions.
+    /// Holds the points whose numbers `members` lists; within a cell they keep its order. Copies the positions.
     /// Cells are made larger than `edge` where that is too fine for the precision of the coordinates.
     PointGrid(std::span<const glm::dvec3> points, std::span<const std::uint32_t> members, double edge);
 
@@ -120,7 +120,7 @@ private:
     double per_edge_ = 1;
     glm::dvec3 least_{0}, most_{0};  ///< the corners of all points
     std::vector<Cell> cells_;
-    std::vector<std::uint32_t> ends_;     ///< of each cell's members, behind a zero
+    std::vector<std::uint32_t> ends_;     ///< where each cell's members end, behind a zero
     std::vector<std::uint32_t> members_;  ///< cell by cell
     std::vector<std::uint32_t> table_;    ///< numbers of cells
     int shift_ = 0;

@@ -136,7 +136,7 @@ public:
 
 private:
     std::vector<std::shared_ptr<const Shape>> lasting_;
-    std::map<std::uint64_t, ClimbObject> objects_;  ///< of plants, by owner
+    std::map<std::uint64_t, ClimbObject> objects_;  ///< objects of plants, by owner
     std::map<std::uint64_t, std::shared_ptr<const Shape>> asked_;
     std::vector<ClimbTriangle> triangles_;
 };
@@ -199,7 +199,7 @@ private:
                Stream::process, 0x6172766f),
           climbing_(context.plants),
           stuck_(context.plants) {
-        // Of the grid of cpfg's program; rays need none here.
+        // These describe the grid of cpfg's program; rays need none here.
         for (const char* key : {"domain size", "position", "grid size"}) file.numbers(key, {0, 0, 0});
     }
 

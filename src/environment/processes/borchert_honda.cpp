@@ -95,7 +95,7 @@ private:
     double share_of_lateral(const Fork& fork) const {
         const double main = lambda_ * fork.main, lateral = (1 - lambda_) * fork.lateral;
         if (main + lateral > 0) return lateral / (main + lateral);
-        return fork.main > 0 ? 0 : 1;  // lambda is 0 or 1, or nobody has gathered anything
+        return fork.main > 0 ? 0 : 1;  // lambda is 0 or 1, or nothing has been gathered
     }
 
     /// From the base to the tips.

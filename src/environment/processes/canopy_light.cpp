@@ -204,7 +204,7 @@ private:
         closure_ = lost > 0 ? sum / lost - 1 : 0;
     }
 
-    /// Of the leaves of the module that follows the query, or of its own area.
+    /// Returns the light met by the leaves of the module that follows the query, or by its own area.
     ModuleLight met_by(const Query& query) const {
         if (query.plant >= modules_.size()) return {};
         const std::size_t module = query.module + (asks_area_ ? 0 : 1);

@@ -101,7 +101,7 @@ private:
         if (answer.size() >= 5) answer[4] = probability_of_fork(answer[4], density.value);
     }
 
-    /// Of everything but one tip at that very place, which has no gradient of its own.
+    /// Returns the density of all but one tip at that very place, which has no gradient of its own.
     DensityThere density_at(const glm::dvec3& place) const {
         DensityThere density{-tip_weight_};
         for (const DensePlace& other : matter_) {
@@ -129,7 +129,7 @@ private:
     glm::dvec3 tropism_;
     double branching_, fork_distance_, fork_rise_, crowding_, tip_weight_;
     std::vector<DensePlace> sources_;
-    std::vector<DensePlace> matter_;  ///< of this step
+    std::vector<DensePlace> matter_;  ///< matter of this step
     AnswerStatistics statistics_;
 };
 

@@ -34,7 +34,7 @@ public:
         at_the_point_ = file.flag("one point value", false);
         const bool vector = file.flag("return vector", false, {"yes", "on"}, {"no", "off"});
         as_vector_ = vector && !as_cpfg_;
-        // Of the picture that cpfg's program writes, and we record in other ways.
+        // These describe the picture that cpfg's program writes, and we record in other ways.
         for (const char* key : {"range", "position"}) file.numbers(key, {0, 0});
         for (const char* key : {"quantization step", "gamma"}) file.number(key, 1);
         for (const char* key : {"output image", "frame intervals"}) file.file(key);

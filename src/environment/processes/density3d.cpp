@@ -107,8 +107,8 @@ private:
     glm::dvec3 lower_{0}, range_{1}, size_{1};
     bool whole_;  ///< sums have no fractions
     std::size_t memory_;
-    std::map<std::uint64_t, double> amounts_;  ///< of the voxels that were ever asked
-    double total_ = 0;                         ///< of all of them
+    std::map<std::uint64_t, double> amounts_;  ///< amounts in the voxels that were ever asked
+    double total_ = 0;                         ///< sum of all amounts
     AnswerStatistics statistics_;
 };
 

@@ -38,7 +38,7 @@ fs::path find_program(const std::string& word, const fs::path& folder) {
     return {};
 }
 
-// Nothing is started for what came by a link: its author may be anybody.
+// Nothing is started for what came by a link: its author is not to be trusted.
 void require_trust(const fs::path& file, const Place& place) {
     std::error_code ignored;
     for (const fs::path& path : {file, fs::weakly_canonical(file, ignored)}) {

@@ -293,9 +293,9 @@ private:
     LeafArea leaves_;
     std::vector<glm::dvec3> sky_, sun_;
     std::unordered_map<openvdb::Coord, VoxelView> views_;   ///< past the solid, where leaves make the light change
-    std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< of the voxels looked at so far, as last seen
-    std::unordered_map<openvdb::Coord, double> nodes_;      ///< of this step
-    std::vector<std::vector<VineTrial>> tried_;             ///< of this step, for each query
+    std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< light in the voxels looked at so far, as last seen
+    std::unordered_map<openvdb::Coord, double> nodes_;      ///< nodes of this step
+    std::vector<std::vector<VineTrial>> tried_;             ///< trials of this step, for each query
     std::vector<Totals> totals_;
 };
 

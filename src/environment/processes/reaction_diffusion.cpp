@@ -131,7 +131,7 @@ public:
 private:
     static constexpr int barren_rows = 3;  ///< at the tip, where nothing is produced
     static constexpr double production = 0.02, basic = 0.001;
-    static constexpr double decay = 0.02, spread = 0.01;                     // of the activator
+    static constexpr double decay = 0.02, spread = 0.01;                     // both of the activator
     static constexpr double inhibitor_decay = 0.03, inhibitor_spread = 0.2;  // it reaches further
 
     void add_sources(int row) {
@@ -177,7 +177,7 @@ private:
             for (int right = -1; right <= 1; ++right) {
                 if (down == 0 && right == 0) continue;
                 const double other = activator_[sheet_.cell(sheet_.around(column + right), row + down)];
-                const bool first = down < 0 || (down == 0 && right < 0);  // of equal cells, one is the maximum
+                const bool first = down < 0 || (down == 0 && right < 0);  // one of equal cells is the maximum
                 if (other > value || (other == value && first)) return false;
             }
         }
@@ -369,7 +369,7 @@ pattern          "organs" (default): on a stem that grows by a row of cells in e
                  "net": on a sheet, where veins grow towards a substance that they take up
 cell             m, 1: size of a cell
 columns, rows    of cells; 34 and 20, for a net 56 and 40
-rounds           of reaction and diffusion in a step; 400, for a net 100
+rounds           number of rounds of reaction and diffusion in a step; 400, for a net 100
 noise            0.01, for a net 0.1: cells produce more or less by up to this part
 
 "organs"

@@ -173,13 +173,13 @@ private:
     double growth_ = 0;
     glm::dvec3 movement_{0};
     std::vector<std::uint64_t> inside_, outside_;  ///< queries of each plant in this step
-    Box box_;                                      ///< of the field
+    Box box_;                                      ///< box of the field
 };
 
 std::string help() {
     return std::string(shape_help()) + R"(
 Of the process:
-  voxel        of the field <name>.distance and of a mesh's level set (m; longest side / 128)
+  voxel        edge of the voxels of the field <name>.distance and of a mesh's level set (m; longest side / 128)
   motion = { times = [steps], growth = [metres], movement = [[x, y, z], ...] }
                changes size and position, linearly between the times
 Answers ?name(inside) 1 or 0; (inside, distance); with five parameters also the outward normal,

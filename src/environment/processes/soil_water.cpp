@@ -161,7 +161,7 @@ private:
 
     // Once. Wishes in content times voxels are a million times too large where voxels of a centimetre count as volumes.
     void warn_of_wishes_beyond_voxels(std::span<const Query> queries) {
-        const double most = 8 * parameters_.amount;  // of eight voxels of nothing but water
+        const double most = 8 * parameters_.amount;  // eight voxels of nothing but water
         if (!warnings_ || parameters_.amount == 1) return;
         for (const Query& query : queries) {
             if (query.parameters[0] <= most) continue;

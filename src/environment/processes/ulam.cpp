@@ -156,8 +156,8 @@ private:
     std::string rule_;
     double edge_, corner_, tolerance_;
     std::vector<Cell> cells_;
-    std::vector<glm::dvec3> places_;      ///< of the cells
-    std::vector<std::uint32_t> cell_of_;  ///< of each query
+    std::vector<glm::dvec3> places_;      ///< places of the cells
+    std::vector<std::uint32_t> cell_of_;  ///< cell of each query
     AnswerStatistics statistics_;
 };
 

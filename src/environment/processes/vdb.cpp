@@ -114,8 +114,8 @@ public:
     ProcessMemory memory() const override { return {bytes_}; }
 
 private:
-    std::size_t bytes_ = 0;           ///< of the grid
-    std::vector<std::string> names_;  ///< of the fields
+    std::size_t bytes_ = 0;           ///< bytes of the grid
+    std::vector<std::string> names_;  ///< names of the fields
     FieldValues values_;
 };
 

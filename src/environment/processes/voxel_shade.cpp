@@ -228,7 +228,7 @@ private:
     ShadeCasts casts_;
     ShadeField field_;
     ShadeGrids grids_;
-    std::vector<std::size_t> casts_begin_;  ///< of each query, and the end of the last
+    std::vector<std::size_t> casts_begin_;  ///< where the casts of each query begin, and where the last one's end
     AnswerStatistics statistics_;
     std::vector<double> cast_by_;  ///< pyramids of each plant
 };

@@ -49,8 +49,8 @@ private:
     struct Level {
         double largest;                      ///< radius
         std::vector<std::uint32_t> members;  ///< numbers of the balls
-        std::vector<std::uint32_t> bins;     ///< of the members
-        std::vector<std::uint32_t> ends;     ///< of each bin, behind a zero
+        std::vector<std::uint32_t> bins;     ///< bin of each member
+        std::vector<std::uint32_t> ends;     ///< where each bin ends, behind a zero
         BallColumns balls;
         glm::dvec2 least{0};
         double edge = 1;

@@ -10,7 +10,7 @@ static_assert(sizeof(ShadeCast) == 16, "compared as bytes");
 
 constexpr std::size_t block = 64;     // compared at once
 constexpr std::size_t near = 16;      // births and deaths among neighbours
-constexpr std::size_t far = 1 << 13;  // of a whole plant
+constexpr std::size_t far = 1 << 13;  // births and deaths in a whole plant
 constexpr std::size_t far_searches = 16;
 
 /// How many pyramids both begin with.

@@ -11,7 +11,7 @@
 namespace espalier::environment {
 namespace {
 
-/// How far from `from` a ray can still meet the solid; of one without bounds, farther than anybody builds.
+/// How far from `from` a ray can still meet the solid; for one without bounds, farther than any scene reaches.
 double range_of(const Shape& solid, const glm::dvec3& from) {
     const std::optional<Box> bounds = solid.bounds();
     if (!bounds) return 1e5;

@@ -10,7 +10,7 @@ namespace espalier::environment {
 /// Where voxels lie in space: about the middle of a domain, or else with the centre of voxel (0, 0, 0) at the origin.
 struct ShadeLattice {
     double voxel = 0.5;    ///< metres
-    glm::dvec3 centre{0};  ///< of voxel (0, 0, 0)
+    glm::dvec3 centre{0};  ///< centre of voxel (0, 0, 0)
     bool flat = false;
     bool trilinear = true;
     bool fixed = false;     ///< only the voxels of `domain` exist

@@ -125,8 +125,8 @@ private:
     std::vector<double> fading_;  ///< b^-q of each layer
     Column<ShadeCast> casts_, before_;
     Column<Shade> layers_;              ///< depth + 1 weights for each strength
-    std::vector<double> strengths_;     ///< of each row
-    std::vector<double> darkest_;       ///< of each row, what it takes away in layer 0
+    std::vector<double> strengths_;     ///< strength of each row
+    std::vector<double> darkest_;       ///< what each row takes away in layer 0
     std::vector<std::uint32_t> table_;  ///< open addressing: 1 + number of a strength, 0: free
     std::uint32_t last_ = 0;            ///< number of the strength asked for last
     double total_ = 0;

@@ -15,7 +15,7 @@
 namespace espalier::environment {
 
 struct Ray {
-    glm::dvec3 origin, direction;  ///< of unit length
+    glm::dvec3 origin, direction;  ///< the direction has length 1
     double length = std::numeric_limits<double>::infinity();
     double margin = 0;  ///< how far from the ray a sphere may still matter
 };

@@ -18,8 +18,8 @@ struct SlicedCast {
 /// stand side by side: their apices are half_width(q) away.
 struct ShadeFront {
     const SlicedCast* casts;
-    const std::uint32_t* first;    ///< of x - base: the first pyramid with its apex there or beyond
-    int y;                         ///< of the apices
+    const std::uint32_t* first;    ///< by x - base: the first pyramid with its apex there or beyond
+    int y;                         ///< height of the apices
     int upper_layer, lower_layer;  ///< the layers q that lie at the heights of the rows
     int nearest, farthest;         ///< their half-widths
 };
@@ -35,7 +35,7 @@ struct ShadeWidths {
 /// its row however wide it is (Crow 1984, reversed).
 struct ShadeRows {
     Shade* rows;         ///< one for each of the eight heights, one after the other
-    std::size_t length;  ///< of a row
+    std::size_t length;  ///< length of a row
     int begin;           ///< z of its first voxel
     int lower, upper;    ///< z that may be shaded
     int base;            ///< x that fronts count from
@@ -88,7 +88,7 @@ private:
     std::vector<Layer> layers_;
     Column<std::uint32_t> counts_;  ///< pyramids that reach each place of the directory
     std::vector<Stretch> stretches_;
-    std::span<const ShadeLeaf> leaves_;  ///< of each brick, during a run
+    std::span<const ShadeLeaf> leaves_;  ///< leaves of each brick, during a run
 };
 
 /// Bricks of one layer of them, from `left` to `right` along x and from `back` to `front` along z.

@@ -82,7 +82,7 @@ TakeBinary ply_type(std::string_view name) {
 }
 
 struct PlyProperty {
-    TakeBinary count = nullptr;  ///< of a list; null for a single value
+    TakeBinary count = nullptr;  ///< reads the count of a list; null for a single value
     TakeBinary value = nullptr;
     std::string_view name;
 };

@@ -12,7 +12,7 @@ namespace espalier::environment {
 
 struct PolygonMesh {
     std::vector<glm::dvec3> points;
-    std::vector<std::int64_t> corners;  ///< of all polygons, one after another, counted from 0; not checked
+    std::vector<std::int64_t> corners;  ///< corners of all polygons, one after another, counted from 0; not checked
     std::vector<std::size_t> ends;      ///< where in `corners` each polygon ends
 };
 

@@ -31,7 +31,7 @@ public:
     /// Beams that come from lower than `least_rise`, the sine of their elevation, are left out. Throws UserError.
     DaylightSeries(const Settings& sky, double least_rise);
 
-    /// Of the span of `days` that begins `elapsed` days after the first day; its middle day stands for all of it.
+    /// Returns the light of `days` that begin `elapsed` days after the first; their middle day stands for all of them.
     Daylight over(double elapsed, double days) const;
 
 private:
@@ -50,7 +50,7 @@ private:
     glm::dvec3 sun_{0, 1, 0}, north_{0, 0, -1};
     GroundPlace place_;
     double year_ = 2025, day_ = 172, clearness_ = 0.5, photons_per_joule_ = 0;
-    std::vector<double> hours_, spans_;  ///< of a day, in hours
+    std::vector<double> hours_, spans_;  ///< hours of a day, and how many each stands for
 };
 
 /// What users read of the table.

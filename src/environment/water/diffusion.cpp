@@ -12,8 +12,8 @@
 namespace espalier::environment {
 namespace {
 
-/// Of the stability limit (1: dt times the sum of a voxel's conductances; von Neumann's D dt / h^2 <= 1 / (2 dim)).
-/// At one half a single wet voxel spreads without ripples.
+/// A share of the stability limit, where dt times the sum of a voxel's conductances is 1 (von Neumann:
+/// D dt / h^2 <= 1 / (2 dim)). At one half a single wet voxel spreads without ripples.
 constexpr double part_of_limit = 0.5;
 
 /// A row and those around it; a row beyond the domain is the row itself, from which nothing flows.

@@ -31,7 +31,7 @@ public:
     };
     AcrossSides across_sides(const glm::ivec3& voxel) const;
 
-    const Place& place() const { return place_; }  ///< of the process in its scene
+    const Place& place() const { return place_; }  ///< where the process stands in its scene
 
 private:
     double cross_sides(const WaterFaces& faces, const double* c, double* to, std::size_t row, double dt) const;

@@ -19,7 +19,7 @@ struct WaterBalance {
     double boundary = 0;  ///< net, inwards through the sides
     double drunk = 0;
     double displaced = 0;  ///< out of voxels that a moving obstacle filled
-    double runoff = 0;     ///< of what was added, what found no room
+    double runoff = 0;     ///< the part of what was added that found no room
     double total = 0;      ///< what there is now
     double minimum = 0, maximum = 0;
 

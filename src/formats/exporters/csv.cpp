@@ -163,7 +163,7 @@ private:
     }
 
     const ExportJob& job_;
-    std::vector<std::string> parameters_;  ///< of the first frame
+    std::vector<std::string> parameters_;  ///< parameters of the first frame
     std::string text_;
     std::size_t rows_ = 0;
 };

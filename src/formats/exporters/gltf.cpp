@@ -62,7 +62,7 @@ class Channel {
 public:
     Channel(Glb& glb, std::size_t node, const char* path) : glb_(glb), node_(node), path_(path) {}
 
-    // Of a run of equal values the first and the last stay.
+    // Keeps the first and the last of a run of equal values.
     void add(float time, const glm::vec4& value) {
         const std::size_t count = values_.size();
         if (count >= 2 && values_[count - 1] == value && values_[count - 2] == value) {
@@ -185,7 +185,7 @@ private:
     const RecordedFrame& frame_;
     Glb glb_;
     ShapeMeshes meshes_;
-    std::map<std::uint32_t, std::vector<std::size_t>> children_;  ///< of each plant
+    std::map<std::uint32_t, std::vector<std::size_t>> children_;  ///< children of each plant
     std::size_t vertices_ = 0, triangles_ = 0, organs_ = 0;
 };
 
@@ -324,7 +324,7 @@ private:
     std::vector<float> times_;
     Glb glb_;
     ShapeMeshes meshes_;
-    std::map<std::uint32_t, std::vector<std::size_t>> children_;  ///< of each plant
+    std::map<std::uint32_t, std::vector<std::size_t>> children_;  ///< children of each plant
     std::size_t vertices_ = 0, triangles_ = 0;
 };
 

@@ -108,7 +108,7 @@ private:
 
     const ExportJob& job_;
     const AxisTree& tree_;
-    std::vector<std::uint32_t> column_of_;  ///< of the axes
+    std::vector<std::uint32_t> column_of_;  ///< column of each axis
     std::size_t width_ = 1;
     std::string prefix_;
     std::string text_;

@@ -66,7 +66,7 @@ public:
         mesh_shown_.add(step, visibility(!rgb.empty()));
     }
 
-    std::size_t vertices() const { return vertices_; }  ///< of curves and surfaces, in all samples
+    std::size_t vertices() const { return vertices_; }  ///< vertices of curves and surfaces, in all samples
     std::size_t triangles() const { return triangles_; }
 
     void append_axes_to(std::string& text) const {
@@ -127,7 +127,7 @@ private:
         mesh_points_{"point3f[] points", ""}, normals_{"normal3f[] normals", "vertex"},
         uvs_{"texCoord2f[] primvars:st", "vertex"}, mesh_colours_{"color3f[] primvars:displayColor", "uniform"},
         mesh_extent_{"float3[] extent", ""}, mesh_shown_{"token visibility", ""};
-    std::map<std::string, std::map<int, std::vector<std::size_t>>> faces_;  ///< of each material, by step
+    std::map<std::string, std::map<int, std::vector<std::size_t>>> faces_;  ///< faces of each material, by step
     std::vector<int> steps_;
     std::size_t vertices_ = 0, triangles_ = 0;
 };

@@ -21,7 +21,7 @@ struct ObjMesh {
 
     std::vector<glm::dvec3> positions, normals;
     std::vector<glm::dvec2> uvs;
-    std::vector<Corner> corners;    ///< of all faces, one after another
+    std::vector<Corner> corners;    ///< corners of all faces, one after another
     std::vector<std::size_t> ends;  ///< where in `corners` each face ends
 };
 

@@ -40,7 +40,7 @@ private:
     Symbols& symbols_;
     ExpressionParser& expressions_;
     Model& model_;
-    std::size_t value_depth_ = 0;  // of the braces at hand
+    std::size_t value_depth_ = 0;  // depth of the braces at hand
 };
 
 }  // namespace espalier::language

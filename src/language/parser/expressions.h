@@ -79,9 +79,9 @@ private:
     Names& names_;
     Mistakes& mistakes_;
     Arithmetic arithmetic_;
-    int depth_ = 0;   // of the recursion at hand
-    int height_ = 0;  // of the tree read last
-    int loops_ = 0;   // around the statement at hand
+    int depth_ = 0;   // depth of the recursion at hand
+    int height_ = 0;  // height of the tree read last
+    int loops_ = 0;   // loops around the statement at hand
     bool ends_at_arrow_ = false;
 };
 

@@ -411,7 +411,7 @@ private:
     DeclarationParser declarations_;
     Model& model_;
     LSystem* system_ = nullptr;
-    TimedRules timed_;           // of the L-system at hand
+    TimedRules timed_;           // timed rules of the L-system at hand
     RuleSet* rules_ = nullptr;   // null among the productions proper
     bool complete_;              // nothing was wrong before parsing that may have hidden a part
     bool looked_ahead_ = false;  // for definitions, in the L-system at hand

@@ -23,7 +23,7 @@ public:
 
 private:
     std::set<std::string, std::less<>> declared_;
-    std::map<char, std::set<std::size_t, std::greater<>>> lengths_;  // of declared names, by first character
+    std::map<char, std::set<std::size_t, std::greater<>>> lengths_;  // lengths of declared names, by first character
     std::map<std::string, std::vector<std::size_t>, std::less<>> arities_;
 };
 

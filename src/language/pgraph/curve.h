@@ -18,7 +18,7 @@ public:
     double length() const { return lengths_.back(); }
     /// At a distance from the beginning, along the curve.
     glm::dvec3 at(double distance) const;
-    /// Of point k from the beginning, along the curve.
+    /// Returns how far point k is from the beginning, along the curve.
     double distance_of(std::size_t k) const { return lengths_[k]; }
 
 private:

@@ -12,13 +12,13 @@ namespace espalier::language::pgraph {
 struct Value {
     std::vector<std::string> parts;  ///< expressions: one, the two ends of a range, or a list
     bool is_range = false;           ///< between parts[0] and parts[1]
-    std::string function = {};       ///< of x, applied to what the range gives; may be empty
+    std::string function = {};       ///< function of x, applied to what the range gives; may be empty
     std::string noise = {};          ///< largest deviation drawn at last; may be empty
     Place place = {};
     /// Where the parts stand in its line, then the function and the noise; none for a default.
     std::vector<int> columns = {};
 
-    /// Of a part, or of what stands behind the parts.
+    /// Returns the place of a part, or of what stands behind the parts.
     Place place_of(std::size_t k) const {
         return k < columns.size() ? Place{place.file, place.line, columns[k]} : Place{};
     }

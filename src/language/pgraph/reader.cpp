@@ -329,9 +329,9 @@ private:
     std::string line_;
     int number_ = 0;
     std::map<std::string, Place> defined_;
-    Definitions definitions_;  // of the file at hand
+    Definitions definitions_;  // definitions of the file at hand
     bool has_version_ = false;
-    bool skips_keys_ = false;  // those of a component that is not known
+    bool skips_keys_ = false;  // keys of a component that is not known
     Graph graph_;
     std::vector<Diagnostic> mistakes_;
 };

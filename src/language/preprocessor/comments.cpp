@@ -61,7 +61,7 @@ private:
         return begin == std::string_view::npos ? read : read.substr(begin + 1);
     }
 
-    // Of two backslashes at the end of a line of a macro, one belongs to nothing.
+    // Where a line of a macro ends with two backslashes, one belongs to nothing.
     bool at_stray_backslash() const {
         if (peek() != '\\' || peek(1) != '\\' || (peek(2) != '\n' && (peek(2) != '\r' || peek(3) != '\n')))
             return false;

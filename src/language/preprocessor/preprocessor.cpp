@@ -351,7 +351,7 @@ private:
     std::vector<std::string> files_;  // being read, outermost first
     std::size_t inclusions_ = 0;
     std::size_t expanded_ = 0;  ///< bytes that macros stand for
-    Location at_;               // of the directive at hand
+    Location at_;               // place of the directive at hand
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ struct SettingComment {
     std::string unit = {};
 };
 
-/// Of a line as its author wrote it; nothing if it has no comment, or one without a range.
+/// Reads a line as its author wrote it; nothing if it has no comment, or one without a range.
 std::optional<SettingComment> setting_comment(std::string_view line);
 
 /// "Crown" of a line that is nothing but a heading: /* --- Crown --- */ or // --- Crown ---; otherwise "".

@@ -52,7 +52,7 @@ public:
         }
         return length >= shortest_word ? length : 0;
     }
-    /// Does the production replace a word that nobody declares?
+    /// Does the production replace a word that is not declared?
     bool is_word(const Production& production) const;
     /// Does any?
     bool has_words() const { return has_words_; }

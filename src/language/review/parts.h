@@ -71,7 +71,7 @@ void review_statements(const LSystem& system, Findings& findings);
 
 /// Environments that no module asks.
 void review_processes(const ModelUses& uses, Findings& findings);
-/// L-systems of the file that nobody calls, and calls of those that are not there.
+/// L-systems of the file that no production calls, and calls of those that are not there.
 void review_calls(const ModelUses& uses, Findings& findings);
 
 }  // namespace espalier::language

@@ -1,4 +1,4 @@
-// Productions: those that can never apply, words that nobody declares, and weights.
+// Productions: those that can never apply, words that are not declared, and weights.
 #include "language/parser/constant.h"
 #include "language/review/parts.h"
 
@@ -140,7 +140,7 @@ private:
 
     const ModelUses& uses_;
     Findings& findings_;
-    std::map<LetterId, std::vector<const Production*>> unconditional_by_letter_;  ///< of this set
+    std::map<LetterId, std::vector<const Production*>> unconditional_by_letter_;  ///< in this set
 };
 
 /// Modules are single letters: a word needs a declaration.

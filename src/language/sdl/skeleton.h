@@ -42,7 +42,7 @@ struct Component {
 /// A component on the right side of a rule, and those it is the master of.
 struct Slave {
     std::string component;
-    int count = 1;  ///< of a cycle
+    int count = 1;  ///< turns of a cycle
     std::vector<Slave> slaves;
     Location at;
 };

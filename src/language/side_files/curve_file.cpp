@@ -37,7 +37,7 @@ public:
         if (points_.size() < least_points) {
             start.fail(fmt::format("a curve needs at least {} points, not {}", least_points, points_.size()));
         }
-        // Of the patches of a surface the language reaches the first row of the first.
+        // The language reaches only the first row of the first patch of a surface.
         if (is_surface_) points_.resize(least_points);
         return SpaceCurve(std::move(points_), type_, samples);
     }

@@ -50,7 +50,7 @@ struct Choosing {
     std::uint32_t places() const { return left_classes * right_classes; }
 
     std::vector<Candidates> trials;
-    std::vector<std::uint32_t> candidates;  ///< of all trials: indices of productions
+    std::vector<std::uint32_t> candidates;  ///< candidates of all trials: indices of productions
     std::vector<LetterId> ranks;            ///< choice of each production, among its letter's
     std::vector<Pool> pools;
 };

@@ -39,9 +39,9 @@ struct CompiledPattern {
 struct Descent {
     static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-    std::vector<std::uint32_t> heirs;    ///< of each module that is replaced: the module that carries it on, or `none`
-    std::vector<std::uint32_t> carries;  ///< of each module of the successor: which of those it carries on, or `none`
-    std::vector<Birth> births;           ///< of each its place among those that are born, padded to whole blocks
+    std::vector<std::uint32_t> heirs;    ///< for each module that is replaced: the module that carries it on, or `none`
+    std::vector<std::uint32_t> carries;  ///< for each module of the successor: which of those it carries on, or `none`
+    std::vector<Birth> births;           ///< place of each among those that are born, padded to whole blocks
     std::uint32_t born = 0;
 
     /// The successor is what it replaces, module by module.
@@ -53,7 +53,7 @@ struct CompiledProduction {
     std::vector<CompiledPattern> left, strict, right;  ///< left: nearest first
     Program before, condition, after, successor, weight;
     bool has_condition = false, has_weight = false;
-    std::vector<LetterId> letters;  ///< of the successor, padded to whole blocks
+    std::vector<LetterId> letters;  ///< letters of the successor, padded to whole blocks
     std::vector<std::uint16_t> arities;
     Descent descent;
     std::size_t length = 0;
@@ -65,7 +65,7 @@ struct CompiledProduction {
     std::vector<std::uint32_t> rest_places;
     // For many modules at once, where that is possible.
     std::optional<ColumnProgram> tests;   ///< the condition
-    std::optional<ColumnProgram> values;  ///< of `rest` or, where nothing is a lane, the successor
+    std::optional<ColumnProgram> values;  ///< computes `rest` or, where nothing is a lane, the successor
     bool reads_context = false;           ///< the successor needs parameters of modules in the context
     bool decomposes = false;              ///< what it writes may be decomposed
     bool writing_samples = false;         ///< after-block or successor take random numbers
@@ -86,7 +86,7 @@ struct CompiledRules {
     std::vector<std::uint32_t> first;
     /// The production that replaces every module of a letter whatever surrounds it, -1 if none or it depends.
     std::vector<std::int32_t> always;
-    /// Of a homomorphism, by letter: the production that is always its picture, with lanes for values and no picture in
+    /// By letter of a homomorphism: the production that is always its picture, with lanes for values and no picture in
     /// turn; null: a writer must find out.
     std::vector<const CompiledProduction*> laid_out;
     bool stochastic = false;
@@ -132,7 +132,7 @@ public:
     const LSystem* system = nullptr;
     std::size_t index = 0;  ///< among the model's L-systems; 0 is the main one
     CompiledRules rules, decomposition, homomorphism;
-    Plans plans;  ///< of `rules`
+    Plans plans;  ///< plans of `rules`
     Choosing choosing;
     Program start, start_each, end_each, end;
     Program axiom, length, seed;
@@ -147,7 +147,7 @@ public:
     bool ring = false;
     bool computes_columns = false;  ///< some production of `rules` has `values`
     bool may_cut = false;           ///< `%` can stand in the string and is no production's business
-    /// Of all plants that grow from it: see scratch_lease.h.
+    /// Shared by all plants that grow from it: see scratch_lease.h.
     mutable tbb::enumerable_thread_specific<std::shared_ptr<Machine>> machines;
 
     Machine machine() const { return Machine(constants, registers, arrays, source->arithmetic); }
@@ -208,7 +208,7 @@ public:
     bool uses_context = false, binds_context = false, samples = false, uses_files = false;
     bool has_memory = false;  ///< besides the string: arrays or files
     mutable tbb::enumerable_thread_specific<std::shared_ptr<PictureWriter>>
-        picture_writers;  ///< of all plants that grow from it
+        picture_writers;  ///< shared by all plants that grow from it
 
     const CompiledSystem& main() const { return *systems.front(); }
     /// The L-system of a number; null if there is none.

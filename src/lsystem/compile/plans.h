@@ -84,7 +84,7 @@ struct alignas(64) Plan {
 struct PackedSizes {
     static constexpr int bits = 16;
     static constexpr std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    static constexpr int flag_bits = 8;  ///< of siblings, and of letters that are not simple: they share a field
+    static constexpr int flag_bits = 8;  ///< for siblings, and for letters that are not simple: they share a field
     static constexpr std::uint64_t flag_mask = (std::uint64_t{1} << flag_bits) - 1;
     static constexpr std::size_t most_at_once = flag_mask;
 
@@ -101,7 +101,7 @@ struct PackedSizes {
         const auto field = [&](int k) { return sum >> k * bits & mask; };
         return {{field(0), field(1), field(3) & flag_mask}, field(2), field(3) >> flag_bits == 0};
     }
-    /// Of at most `at_once` modules.
+    /// Adds up at most `at_once` modules.
     Sum add_up(const LetterId* letters, std::size_t count) const {
         std::uint64_t sum = 0;
         for (std::size_t i = 0; i < count; ++i) sum += of_letter[letters[i]];
@@ -116,13 +116,13 @@ struct Lookup {
 };
 
 struct Plans {
-    /// Of all letters, one after the other: the copy, then the letter's productions in file order.
+    /// Plans of all letters, one after the other: the copy, then the letter's productions in file order.
     std::vector<Plan> choices;
     std::vector<std::uint32_t> first;  ///< by letter: its first choice
     std::vector<std::uint32_t> known;  ///< by letter: the choice that the letter decides, else the copy
     std::vector<Lookup> lookups;       ///< by letter
     bool all_known = true;             ///< letters alone decide: no module needs choosing
-    PackedSizes sizes;                 ///< of known choices
+    PackedSizes sizes;                 ///< sizes of known choices
     // The most that any plan reads and writes.
     std::size_t longest = 1, most_parameters = 0, most_read = 0;
 

@@ -22,11 +22,11 @@ public:
 
     virtual void begins(const CompiledRules& rules, const Site& site) = 0;
     virtual void tried(const CompiledProduction& production, const Trial& trial) = 0;
-    /// Of those that apply one is drawn.
+    /// Called for each that applies, before one of them is drawn.
     virtual void weighed(const CompiledProduction& production, double probability) = 0;
     virtual void chose(const CompiledProduction* production) = 0;  ///< null: none
 
-    /// What matchers made on this thread tell; null: nobody listens.
+    /// What matchers made on this thread tell; null: they are not watched.
     static MatchWatch* current() { return current_; }
 
     class Scope {

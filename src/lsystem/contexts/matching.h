@@ -25,7 +25,7 @@ struct StringView {
 /// `module` differs from the string's letter while a successor is being decomposed.
 struct Site {
     std::size_t first = 0;
-    std::size_t parameters_at = 0;  ///< of `first` in the string
+    std::size_t parameters_at = 0;  ///< where the parameters of `first` begin in the string
     LetterId letter = no_letter;
     const double* values = nullptr;
     Identity identity = 0;  ///< whose random numbers are taken

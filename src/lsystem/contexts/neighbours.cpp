@@ -108,7 +108,7 @@ void Scan<Value, Forward>::scan(Section<Value>& part) {
 template <class Value, bool Forward>
 void Scan<Value, Forward>::join(bool ring) {
     std::vector<Value> branches;
-    Value before = unknown;  // of the whole string: in a ring, what is seen from behind it
+    Value before = unknown;  // before the whole string: in a ring, what is seen from behind it
     for (std::size_t n = 0; n < parts_.size(); ++n) {
         Section<Value>& part = parts_[Forward ? n : parts_.size() - 1 - n];
         part.beyond.assign(part.exits.size() + 1, none);

@@ -49,13 +49,13 @@ struct Section {
 
 /// Where right neighbours are still to be entered at the end of a part, and what modules before the part see of it.
 struct alignas(64) PendingRight {
-    /// Of a branch: the entry of the module before it, and the class of its left neighbours.
+    /// A branch: the entry of the module before it, and the class of its left neighbours.
     struct Branch {
         std::uint8_t* entry;
         std::uint8_t left;
     };
-    Column<Branch> branches;        ///< begun in the part and not ended
-    std::uint8_t* entry = nullptr;  ///< of the last module of the part
+    Column<Branch> branches;        ///< branches begun in the part and not ended
+    std::uint8_t* entry = nullptr;  ///< entry of the last module of the part
     std::vector<std::uint8_t>
         firsts;               ///< right neighbours of modules before the part, and before branches that exits end
     std::uint8_t first = 0;   ///< entry of a module before the part

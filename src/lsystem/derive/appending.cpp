@@ -7,7 +7,7 @@
 
 namespace espalier::lsystem {
 
-// Of the string's memory only what is used counts: how much there is depends on who had it before.
+// Only the used memory of the string counts: how much there is depends on who had it before.
 GrowingPart::GrowingPart(ModuleString& string, const StepInput& input, std::atomic<std::size_t>& bytes)
     : siblings(input.from.siblings.size()), string_(string), input_(input), bytes_(bytes) {
     string_.clear();

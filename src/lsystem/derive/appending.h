@@ -26,7 +26,7 @@ public:
     void append_run(std::size_t begin, std::size_t end, const double* values, std::size_t parameters);
 
     AddedSiblings siblings;
-    std::vector<std::uint64_t> uses;  ///< of each production of the main L-system, for when memory runs out
+    std::vector<std::uint64_t> uses;  ///< by production of the main L-system, for when memory runs out
 
 private:
     void grow(std::size_t modules, std::size_t parameters);

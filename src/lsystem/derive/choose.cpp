@@ -102,7 +102,7 @@ private:
     const double* values_of(const Replacement& replacement) const {
         return input_.from.parameters.data() + replacement.parameters_at;
     }
-    /// Of a choice among those of a module's letter.
+    /// Returns the plan of a choice among those of a module's letter.
     std::uint32_t plan_of(const Replacement& replacement, std::uint32_t choice) const {
         return plans_.first[letters_[replacement.module]] + choice;
     }

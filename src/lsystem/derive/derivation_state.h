@@ -57,7 +57,7 @@ struct Derivation::State {
     const bool in_order;  ///< steps replace one module after the other
     /// Letters may decide alone what a step writes, and need nothing besides the string.
     const bool may_be_simple;
-    bool lineage;  ///< births are kept: somebody asks, or random numbers are taken
+    bool lineage;  ///< births are kept: a recorder or process asks, or random numbers are taken
     /// Grows with every change of variables, so that writers of pictures know what they have seen.
     std::uint64_t generation = 0;
     Scratch* scratch = nullptr;  ///< lent for the step at hand

@@ -123,7 +123,7 @@ private:
     void evaluate(const CompiledProduction& production, const double* values);
     void begin_births(const CompiledProduction& production, const Lineage* strict, std::uint32_t step,
                       std::uint32_t depth);
-    /// Of a module of the successor.
+    /// Returns the lineage of a module of the successor.
     Lineage lineage(const Descent& descent, std::size_t k, const Lineage* strict) const {
         if (descent.carries[k] != Descent::none) return strict[descent.carries[k]];
         const std::uint32_t place = descent.births[k].place;
@@ -131,12 +131,12 @@ private:
     }
 
     AddedSiblings* siblings_;
-    // Of those who are born of the module at hand.
+    // Describes the modules that are born of the module at hand.
     std::uint64_t origin_ = 0;
     std::uint32_t row_ = 0;
     std::vector<double> values_, successor_;
     ModuleStack::Entry entry_;
-    // Of predecessors of several modules.
+    // For predecessors of several modules.
     std::vector<LetterId> following_;
     std::vector<Lineage> strict_;
     LetterId letter_ = no_letter;

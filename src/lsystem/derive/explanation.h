@@ -14,7 +14,7 @@ struct ExplainedProduction {
     const Production* production = nullptr;
     bool is_tried = false;  ///< false: one before it applied
     Trial trial;
-    double probability = 1;  ///< of being drawn from those that apply
+    double probability = 1;  ///< probability of being drawn from those that apply
     bool is_chosen = false;
 };
 

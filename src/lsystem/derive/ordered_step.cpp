@@ -62,7 +62,7 @@ private:
     const CompiledModel& model_;
     std::vector<std::unique_ptr<Worker>> workers_;
     Scopes scopes_;
-    std::vector<Variables*> variables_;  ///< of each scope that was entered
+    std::vector<Variables*> variables_;  ///< variables of each scope that was entered
     std::size_t rewritten_ = 0;          ///< modules before this one, by productions that reached beyond a cut
 };
 

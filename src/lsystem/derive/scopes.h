@@ -12,7 +12,7 @@ namespace espalier::lsystem {
 struct Scope {
     const CompiledSystem* system = nullptr;
     std::uint32_t parent = 0;
-    Identity identity = 0;    ///< of the `?`
+    Identity identity = 0;    ///< identity of the `?`
     std::uint32_t level = 0;  ///< branches around the `?`
     std::uint32_t depth = 0;  ///< scopes around it
     bool cut = false;         ///< a `%` cuts the `?` off
@@ -25,7 +25,7 @@ struct Passage {
     Kind kind = Kind::rewrite;
     std::uint32_t scope = 0;
     std::size_t begin = 0, end = 0;  ///< modules to be rewritten, or that a `%` cuts off
-    std::size_t parameters_at = 0;   ///< of `begin`
+    std::size_t parameters_at = 0;   ///< where the parameters of `begin` begin
 };
 
 /// Brackets save and restore which L-system applies: a scope ends with its `$`, with its branch, or with the string.

@@ -22,7 +22,7 @@ ThreadScratch& of_this_thread() {
 }  // namespace
 
 Machine& Machines::local() const {
-    // Of many small plants the next one is mostly of the same L-system. A machine ends with its system, so that another
+    // Among many small plants the next mostly has the same L-system. A machine ends with its system, so that another
     // system in the same place is not mistaken for it.
     struct Last {
         const CompiledSystem* system = nullptr;

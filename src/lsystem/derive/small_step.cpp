@@ -34,7 +34,7 @@ private:
 
     const ModuleString& from_;
     const std::uint32_t step_;
-    std::uint32_t row_;  ///< of the next siblings
+    std::uint32_t row_;  ///< row of the next siblings
     ModuleString& to_;
 };
 

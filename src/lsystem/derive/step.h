@@ -27,13 +27,13 @@ struct StepInput {
     /// Ranges of modules that live on: the whole string but for what a `%` cuts off.
     const std::vector<std::pair<std::size_t, std::size_t>>& kept;
 
-    /// For random numbers; 0 where nobody takes any.
+    /// For random numbers; 0 where none are taken.
     Identity identity(std::size_t module) const { return lineage && system.samples() ? from.identity(module) : 0; }
 };
 
 /// A module that is replaced, or may be.
 struct Replacement {
-    std::size_t parameters_at;  ///< of the module, in the old string
+    std::size_t parameters_at;  ///< where the module's parameters begin in the old string
     std::uint32_t module;
     std::uint32_t plan;  ///< among Plans::choices; the module's place in the table of outcomes until that is known
 };
@@ -58,7 +58,7 @@ struct Scratch {
     std::vector<std::pair<std::size_t, std::size_t>> kept;
     std::vector<Chunk> chunks;
     Column<LetterId> outcomes;         ///< each module's place in the table of outcomes
-    Column<Replacement> replacements;  ///< of all chunks
+    Column<Replacement> replacements;  ///< replacements of all chunks
     std::vector<ModuleString> pieces;  ///< parts of the new string whose length is not known before they are written
 };
 

@@ -27,13 +27,13 @@ public:
     void erase(const Scope& scope);
     void clear();
     void begin_step() { made_ = 0; }
-    std::size_t bytes() const { return bytes_; }  ///< of arrays
+    std::size_t bytes() const { return bytes_; }  ///< bytes of arrays
 
     void save(std::ostream& out) const;
     void restore(std::istream& in, const CompiledModel& model);
 
 private:
-    using Key = std::pair<Identity, std::size_t>;  // of the `?`, and which L-system
+    using Key = std::pair<Identity, std::size_t>;  // identity of the `?`, and which L-system
     static Key key(const Scope& scope) { return {scope.identity, scope.system->index}; }
 
     std::map<Key, Variables> instances_;

@@ -11,7 +11,7 @@ struct Births {
     Birth* to;
     std::ptrdiff_t in_end, out_end;  ///< where blocks may reach
     std::size_t in, out;
-    Siblings* row;  ///< of the next siblings
+    Siblings* row;  ///< row of the next siblings
     std::uint32_t number;
 };
 

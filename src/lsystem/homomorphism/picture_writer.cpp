@@ -8,7 +8,7 @@
 namespace espalier::lsystem {
 namespace {
 
-constexpr std::size_t most_modules = 100'000'000;  // of one picture, whatever memory there is
+constexpr std::size_t most_modules = 100'000'000;  // most modules of one picture, whatever memory there is
 constexpr std::size_t modules_between_looks = 4096;
 
 }  // namespace

@@ -71,9 +71,9 @@ private:
     void forget_variables();
 
     Derivation::State* state_ = nullptr;
-    std::uint64_t serial_ = 0;  ///< of the plant's state: another may come to lie where one was
+    std::uint64_t serial_ = 0;  ///< serial number of the plant's state: another may come to lie where one was
     const CompiledModel& model_;
-    std::vector<std::unique_ptr<SystemPictures>> systems_;  ///< of each L-system
+    std::vector<std::unique_ptr<SystemPictures>> systems_;  ///< one for each L-system
     bool changes_ = false;                                  ///< homomorphisms assign, or more
     ModuleStack stack_;
     std::vector<Lineage> strict_;
@@ -86,8 +86,8 @@ private:
     std::size_t size_ = 0;
     std::uint64_t generation_ = 0;
     Scopes scopes_;
-    std::uint32_t scope_ = 0;                            ///< of the subject
-    std::vector<std::unique_ptr<Variables>> variables_;  ///< copies, of each scope that was asked for
+    std::uint32_t scope_ = 0;                            ///< scope of the subject
+    std::vector<std::unique_ptr<Variables>> variables_;  ///< copies, for each scope that was asked for
     std::vector<std::uint32_t> made_;
     std::vector<Inner> inner_;
     int level_ = 0;

@@ -35,7 +35,7 @@ bool may_divide_by_zero(const Instruction& instruction, std::span<const double> 
 
 /// The modules that an instruction is run for.
 struct Running {
-    const double* goes_on;  ///< of each module, the number of the instruction where it does; null: all run
+    const double* goes_on;  ///< for each module, the number of the instruction where it goes on; null: all run
     double at;              ///< number of the instruction
     std::size_t count;
 
@@ -64,7 +64,7 @@ void call_each(double* columns, const Instruction& i, const Running& running, Ar
     }
 }
 
-/// True if somebody's divisor is zero.
+/// True if a divisor is zero.
 [[gnu::always_inline]] inline bool divides_by_zero(const double* columns, const Instruction& i,
                                                    const Running& running) {
     const double* const b = columns + i.b * lanes;
@@ -86,7 +86,7 @@ template <class Jumps>
     }
 }
 
-/// `goes_on`: of each module, the instruction where it does; null if nobody jumps.
+/// `goes_on`: for each module, the instruction where it does; null if no module jumps.
 ESPALIER_VECTOR_CLONES
 bool run_code(std::span<const ColumnProgram::Step> steps, double* columns, std::size_t count, double* goes_on,
               const Variables& variables, Arithmetic arithmetic) {

@@ -30,7 +30,7 @@ public:
     /// Whose parameters a program reads: the module's that is replaced, or its nearest neighbours'.
     enum Whose : std::uint8_t { own, left, right };
     static constexpr std::size_t whose_count = 3;
-    /// Of modules at once, where the parameters of each begin; of neighbours only where a program reads them.
+    /// Where the parameters of each of `lanes` modules begin; of neighbours only where a program reads them.
     using Modules = std::array<std::array<const double*, lanes>, whose_count>;
 
     /// Where a formal stands among whose parameters; nothing if it belongs to another module.
@@ -44,7 +44,7 @@ public:
     static std::optional<ColumnProgram> make(const Program& program, std::span<const double> constants,
                                              std::uint32_t formals, const Place& place);
 
-    /// Of `count` modules. `columns` is memory to work in. False if one of them
+    /// Runs the program for `count` modules. `columns` is memory to work in. False if one of them
     /// divides by zero where that is an error: running it for each alone says which.
     bool run(const Modules& modules, std::size_t count, const Variables& variables, Arithmetic arithmetic,
              std::vector<double>& columns) const;

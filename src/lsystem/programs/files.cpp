@@ -223,7 +223,7 @@ void ModelFiles::write_out(const std::string& name, Contents& contents) {
 }
 
 void ModelFiles::flush_all() {
-    if (written_.empty()) return;  // nobody opens files while a step ends
+    if (written_.empty()) return;  // no program opens files while a step ends
     const std::lock_guard lock(mutex_);
     for (const auto& [name, contents] : written_) write_out(name, *contents);
 }

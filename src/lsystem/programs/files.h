@@ -69,7 +69,7 @@ private:
     std::filesystem::path input_, output_;
     std::map<int, Open> open_;
     std::map<std::string, std::shared_ptr<Contents>> written_;  ///< by the model, open or closed
-    std::size_t bytes_ = 0;                                     ///< of all that was written
+    std::size_t bytes_ = 0;                                     ///< bytes of all that was written
     std::size_t room_ = std::size_t(-1);                        ///< bytes that are left of the memory
     mutable std::mutex mutex_;
 };

@@ -11,7 +11,7 @@
 
 namespace espalier::lsystem {
 
-/// An expression that has no value, before anybody knows which module it belongs to.
+/// An expression that has no value, before it is known which module it belongs to.
 struct EvaluationError : std::runtime_error {
     EvaluationError(const Place& where, const std::string& message) : std::runtime_error(message), place(where) {}
     Place place;

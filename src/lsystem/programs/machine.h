@@ -26,7 +26,7 @@ struct CompiledArray {
 struct Variables {
     std::vector<double> globals;
     std::vector<std::vector<double>> arrays;
-    // Of an L-system inside others, by index: where its external globals and arrays are kept.
+    // For an L-system inside others, by index: where its external globals and arrays are kept.
     std::vector<double*> external_globals;
     std::vector<std::vector<double>*> external_arrays;
 
@@ -76,7 +76,7 @@ public:
         if (number >= batches_.size()) batches_.resize(number + 1);
         return batches_[number];
     }
-    /// Nobody waits any more.
+    /// No module waits any more.
     void clear_batches() {
         for (Batch& batch : batches_) batch.count = 0;
     }

@@ -102,7 +102,7 @@ struct Effects {
 
 struct Program {
     std::vector<Instruction> code;
-    std::vector<const Place*> places;  ///< of each instruction
+    std::vector<const Place*> places;  ///< place of each instruction
     std::vector<std::uint32_t> results;
     std::vector<PrintCall> prints;
     std::vector<OpenCall> opens;

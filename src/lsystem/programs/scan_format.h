@@ -26,7 +26,7 @@ private:
         enum class Kind : char { blank, literal, number, whole, character, word, set };
         Kind kind = Kind::blank;
         char literal = 0;
-        int base = 10;          ///< of whole numbers; 0: as the digits say
+        int base = 10;          ///< base of whole numbers; 0: as the digits say
         std::size_t width = 0;  ///< most characters; 0: any number
         bool stored = true;
         std::string set;  ///< characters of %[...]

@@ -20,10 +20,10 @@ constexpr const char* seed_key = "simulation.seed";
 
 /// A key that was varied, and its values in the order in which they are drawn.
 struct Axis {
-    std::size_t column;  ///< of SweptRun::values
+    std::size_t column;  ///< column of SweptRun::values
     std::string title;
     std::vector<std::string> names;
-    std::vector<double> numbers;  ///< of the names; empty if they are none
+    std::vector<double> numbers;  ///< numbers that the names stand for; empty if they are none
 
     std::size_t index(const SweptRun& run) const {
         const auto found = std::find(names.begin(), names.end(), run.values[column]);

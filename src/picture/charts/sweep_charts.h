@@ -10,7 +10,7 @@
 namespace espalier::picture {
 
 struct SweptRun {
-    std::vector<std::string> values;  ///< of each key
+    std::vector<std::string> values;  ///< value of each key
     RecordedTable table;              ///< its statistics; the last step's rows are drawn
 };
 

@@ -97,7 +97,7 @@ void add_series(Chart& chart, const PlottedTable& table, std::size_t run, const 
     if (!column) return;
     const std::size_t at_x = table.table.column(along), plant = table.table.column("plant");
     const std::map<double, std::string> groups = groups_of(table, lines);
-    std::map<std::size_t, std::map<double, Merged>> values;  // of each key, by x
+    std::map<std::size_t, std::map<double, Merged>> values;  // values of each key, by x
     for (const std::vector<double>& row : table.table.rows) {
         const auto group = groups.find(row[plant]);
         if (group == groups.end() || !std::isfinite(row[at_x])) continue;

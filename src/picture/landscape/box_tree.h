@@ -53,8 +53,8 @@ public:
 private:
     struct Node {
         RayBox box;
-        std::uint32_t first;  ///< of its items; of an inner node its second child, the first being the next node
-        std::uint32_t count;  ///< of items; 0: an inner node
+        std::uint32_t first;  ///< its first item; of an inner node the second child, the first being the next node
+        std::uint32_t count;  ///< number of items; 0: an inner node
     };
     struct Part {
         std::size_t first, last;
@@ -62,7 +62,7 @@ private:
     };
 
     static constexpr std::size_t most_of_leaf = 4;
-    static constexpr std::size_t deepest = 168;  ///< of 2^32 items, with an eighth on the smaller side of each split
+    static constexpr std::size_t deepest = 168;  ///< for 2^32 items, with an eighth on the smaller side of each split
 
     std::size_t split(std::span<const RayBox> boxes, std::size_t first, std::size_t last, const RayBox& centres);
 

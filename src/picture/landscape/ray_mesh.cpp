@@ -16,7 +16,7 @@ glm::vec3 bright(const Rgb& rgb) {
     return glm::vec3(rgb[0], rgb[1], rgb[2]) / 255.0F;
 }
 
-/// Of a picture that repeats.
+/// Returns the place of a texel of a picture that repeats.
 std::size_t texel_at(float share, std::size_t count) {
     const float inside = share - std::floor(share);
     return std::min(count - 1, static_cast<std::size_t>(inside * static_cast<float>(count)));
@@ -62,7 +62,7 @@ bool RayMesh::meets(const Ray& ray, const Triangle& triangle, float& distance, f
     return !looks_[triangle.material].texture || is_opaque(triangle, u, v);
 }
 
-// Of the rays through what is half transparent every other one goes on, as chance decides for its place.
+// Every other ray goes on through what is half transparent, as chance decides for its place.
 bool RayMesh::is_opaque(const Triangle& triangle, float u, float v) const {
     const int opacity = texel(triangle, u, v)[3];
     const std::uint64_t place = std::uint64_t{std::bit_cast<std::uint32_t>(u)} << 32 | std::bit_cast<std::uint32_t>(v);

@@ -15,7 +15,7 @@ namespace espalier::picture {
 using TextureOf = std::function<std::shared_ptr<const OpacityPicture>(const std::string& file)>;
 
 struct RaySurface {
-    glm::vec3 normal;  ///< of length 1
+    glm::vec3 normal;  ///< a vector of length 1
     glm::vec3 colour;  ///< 0 to 1
     bool is_thin;      ///< light goes through
 };

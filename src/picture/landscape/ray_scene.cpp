@@ -8,7 +8,7 @@
 namespace espalier::picture {
 namespace {
 
-/// Of the place's mesh, turned and moved.
+/// Returns the bounds of the place's mesh, turned and moved.
 RayBox bounds_of(const RayMesh& mesh, const RayPlace& place) {
     RayBox box;
     for (int corner = 0; corner < 8; ++corner) {

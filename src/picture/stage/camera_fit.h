@@ -39,8 +39,8 @@ struct CameraView {
     double distance = 1;
     double view_angle = 24;  ///< degrees, vertically
     bool is_parallel = false;
-    double half_height = 1;  ///< of a parallel projection, metres
-    glm::dvec2 shift{0};     ///< of the middle of what is framed against the picture's, in half widths and heights
+    double half_height = 1;  ///< half height of a parallel projection, metres
+    glm::dvec2 shift{0};     ///< from the picture's middle to that of what is framed, in half widths and heights
 };
 
 /// `aspect`: width by height. `turns`: it fits whatever the azimuth.

@@ -17,7 +17,7 @@ namespace espalier::picture {
 struct ColourKey {
     std::string title;
     std::array<double, 2> range{0, 1};
-    std::span<const Rgb> colours;  ///< of a bar; empty for names
+    std::span<const Rgb> colours;  ///< colours of a bar; empty for names
     std::vector<std::pair<std::string, Rgb>> names;
 };
 

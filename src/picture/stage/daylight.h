@@ -48,9 +48,9 @@ public:
     /// `sun`: the unit vector to it. Equal triangles give equal light, with any number of threads.
     Daylight(std::span<const Occluder> occluders, const glm::vec3& sun);
 
-    /// Of the sky above a surface, what is not covered: 0 to 1. What is lit from both sides takes the light of both.
+    /// Returns the free part of the sky above a surface, 0 to 1. What is lit from both sides takes the light of both.
     float sky(const glm::vec3& point, const glm::vec3& normal, bool both_sides) const;
-    /// Of the sun, what is not covered; nothing is said of the angle at which it shines. Shadows fade over `softness`
+    /// Returns the part of the sun that is free, whatever the angle at which it shines. Shadows fade over `softness`
     /// texels of the sun's map to either side.
     float sun(const glm::vec3& point, int softness) const;
 

@@ -19,7 +19,7 @@ struct FieldProp {
     ColourKey key;
 };
 
-/// `range`: the values at the ends of the colours. `middle`: of the plants, where slices lie that nobody placed.
+/// `range`: the values at the ends of the colours. `middle`: of the plants, where slices lie that have no place.
 /// A field of one layer is its slice, whatever the look; its surface is a line.
 FieldProp field_prop(const RecordedField& field, const FieldLook& look, const std::array<double, 2>& range,
                      const glm::dvec3& middle, std::span<const Rgb> colours);

@@ -18,7 +18,7 @@ struct Legend {
     std::string title, time;
     std::string caption;  ///< in the middle of the lower edge
     bool shows_keys = true;
-    double metres_per_pixel = 0;  ///< of the scale bar; 0: none
+    double metres_per_pixel = 0;  ///< metres in a pixel of the scale bar; 0: none
     bool dark = false;
 
     /// The part of a picture's width that the keys take at its right end, in pixels.

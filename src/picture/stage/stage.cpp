@@ -79,7 +79,7 @@ public:
     std::optional<RecordedFrame> frame_;
     std::shared_ptr<const RecordedGeometry> geometry_ = std::make_shared<RecordedGeometry>();
     std::optional<StageSurvey> survey_;  ///< what `settle` was given
-    StageSurvey here_;                   ///< of the frame that is shown
+    StageSurvey here_;                   ///< survey of the frame that is shown
     std::optional<Highlight> highlighted_;
 
     struct Part {
@@ -208,7 +208,7 @@ private:
         return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
     }
 
-    /// Of all frames that the camera frames: lines without radius keep their width from frame to frame.
+    /// Returns the size of all that the camera frames: lines without radius keep their width from frame to frame.
     double framed_size() const {
         const Box& box = survey_ && !survey_->box.empty() ? survey_->box : here_.box;
         return box.empty() ? 1 : std::max(glm::length(box.upper - box.lower), 1e-9);
@@ -241,12 +241,12 @@ private:
         }
         std::vector<Rgb> colours = colouring_->colours(*run_, *frame_, *geometry_, colour_range());
         if (is_line_drawing()) std::fill(colours.begin(), colours.end(), style_.background.is_dark() ? chalk : ink);
-        // Colours that mean a number are only tinged, or nobody could read them.
+        // Colours that mean a number are only tinged, or they could not be read.
         const float shade = colouring_->is_natural() ? 1.0F : 0.5F;
         const std::vector<Rgb> white(colours.size(), Rgb{255, 255, 255});
         for (Part& part : parts_) {
             const auto texture = texture_worn(part.mesh);
-            // Where nobody gave a colour the picture has it; bark is only brighter and darker.
+            // Where no colour is given the picture has it; bark is only brighter and darker.
             const std::string& file = texture ? geometry_->texture_files[part.mesh.texture] : none;
             const bool has_own_colours = texture && geometry_->of_points.rgb.empty() && !is_bark(file);
             dress_actor(*part.actor, part.mesh,
@@ -264,7 +264,7 @@ private:
         return texture_of(run_->folder(), geometry_->texture_files[mesh.texture]);
     }
 
-    /// A flat curve that nobody coloured.
+    /// A flat curve without a colour of its own.
     bool is_line_drawing() const {
         return colouring_->is_natural() && is_flat() && geometry_->of_points.rgb.empty() &&
                geometry_->polygons.size() == 0;

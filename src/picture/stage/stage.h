@@ -27,9 +27,9 @@ struct Legend;
 
 /// What frames have in common, so that neither camera nor colours jump between them.
 struct StageSurvey {
-    Box box;                                     ///< of the plants that are shown; empty where nothing is
-    Outline outline;                             ///< of plants and fields
-    std::optional<std::array<double, 2>> range;  ///< of `colour_by`, if it is a number
+    Box box;                                     ///< box of the plants that are shown; empty where nothing is
+    Outline outline;                             ///< outline of plants and fields
+    std::optional<std::array<double, 2>> range;  ///< range of `colour_by`, if it is a number
     std::map<std::string, std::array<double, 2>> field_ranges;
     bool has_labels = false;
     std::size_t drawn = 0, pale = 0;  ///< lines and faces whose colour is known, and those hardly seen on white
@@ -42,7 +42,7 @@ struct StageSurvey {
 struct StageModule {
     std::uint32_t plant = 0;
     std::uint64_t identity = 0;
-    std::size_t row = 0;  ///< of `of_points` (internodes) or `of_cells` (everything else)
+    std::size_t row = 0;  ///< row of `of_points` (internodes) or `of_cells` (everything else)
     bool of_points = false;
     glm::dvec3 position{0};  ///< the middle of its cell
 };

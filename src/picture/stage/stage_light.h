@@ -17,7 +17,7 @@ namespace espalier::picture {
 void set_lights(vtkRenderer& renderer, const glm::vec3& sun);
 
 struct MeshDress {
-    const std::vector<Rgb>& colours;  ///< of the frame's points
+    const std::vector<Rgb>& colours;  ///< colours of the frame's points
     const Daylight* daylight;         ///< null: no shadows
     float shade;                      ///< how much shadows darken: 1 as much as they do, 0 not at all
     bool lit;

@@ -82,7 +82,7 @@ struct PlacedTube {
     AxisLine axis;
     std::uint16_t texture = 0;
     int sides = 3;
-    std::optional<Tube> patch = std::nullopt;  ///< of a skin; none: it is still to be swept
+    std::optional<Tube> patch = std::nullopt;  ///< the tube's part of a skin; none: it is still to be swept
     std::size_t first_point = 0, first_triangle = 0;
 
     // What `sweep` makes: a ring per node, and two caps with a centre each.
@@ -170,7 +170,7 @@ void fill_tube(const PlacedTube& placed, MeshFiller& filler) {
     }
 }
 
-/// Of tubes that wear one texture.
+/// Makes a mesh of tubes that wear one texture.
 StageMesh mesh_of(std::span<PlacedTube> tubes) {
     std::size_t points = 0, triangles = 0;
     for (PlacedTube& tube : tubes) {

@@ -16,8 +16,8 @@ namespace espalier::picture {
 
 struct StageMesh {
     vtkSmartPointer<vtkPolyData> data;           ///< points, normals, texture coordinates and triangles
-    std::vector<std::uint32_t> row_of_point;     ///< of `of_points`
-    std::vector<std::uint32_t> row_of_triangle;  ///< of `of_points` for axes, of `of_cells` for surfaces
+    std::vector<std::uint32_t> row_of_point;     ///< rows of `of_points`
+    std::vector<std::uint32_t> row_of_triangle;  ///< rows of `of_points` for axes, of `of_cells` for surfaces
     bool is_of_axes = false;
     bool is_thin = false;       ///< seen from both sides: no axis, and no closed surface
     std::uint16_t texture = 0;  ///< the same for all of it
@@ -25,8 +25,8 @@ struct StageMesh {
 
 struct StageMeshOptions {
     std::optional<std::uint32_t> plant;  ///< this one alone
-    std::size_t triangles = 0;           ///< of tubes, about
-    double size = 1;                     ///< of the scene: thick axes have more sides than thin ones
+    std::size_t triangles = 0;           ///< most triangles of tubes, about
+    double size = 1;                     ///< size of the scene: thick axes have more sides than thin ones
     float thinnest = 0.001f;             ///< radius of lines that have none, and half a pixel of those with such widths
     archive::AxisSkin skin = {};
 };

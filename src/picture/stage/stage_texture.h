@@ -10,7 +10,7 @@
 
 namespace espalier::picture {
 
-/// Of `texture_image`; null where that is.
+/// Makes a texture of `texture_image`; null where that is.
 vtkSmartPointer<vtkTexture> texture_of(const std::filesystem::path& run, const std::string& file);
 
 /// Lets light see the relief of a texture on the actor that wears it, which must be lit; nothing if it has none.

@@ -12,7 +12,7 @@ namespace espalier::simulation {
 
 struct PlainLine {
     std::string text;  ///< without its line end, be it \n or \r\n
-    Place place;       ///< of its first character
+    Place place;       ///< place of its first character
 };
 
 /// `name` is the file's, for the places.

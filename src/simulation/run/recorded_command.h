@@ -14,7 +14,7 @@ struct RecordedCommand {
     std::string version, exit;
     int checkpoint_every = 0;
     std::filesystem::path folder;        ///< where it was started
-    std::vector<std::string> arguments;  ///< of `espalier run`, without --output and what does not change the timeline
+    std::vector<std::string> arguments;  ///< for `espalier run`, without --output and what does not change the timeline
     std::map<std::filesystem::path, ReadLog::File> inputs;
 };
 
@@ -25,8 +25,8 @@ RecordedCommand read_command(const std::filesystem::path& run);
 bool is_unchanged(const std::filesystem::path& path, const ReadLog::File& file);
 
 /// Writes the inputs below `root`, each at its own absolute path, and returns the folder to start the program in.
-/// Inputs that run.json does not hold are copied from where they were. Throws UserError if one of those is gone or changed,
-/// or if run.json itself was.
+/// Inputs that run.json does not hold are copied from where they were. Throws UserError if one of those is gone or
+/// changed, or if run.json itself was.
 std::filesystem::path lay_out_inputs(const RecordedCommand& command, const std::filesystem::path& root);
 
 /// Paths among the arguments that lie below `root` once laid out there are replaced by those.

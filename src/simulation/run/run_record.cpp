@@ -69,7 +69,7 @@ Json overrides_json(const Scene& scene) {
     return overrides;
 }
 
-// Of the whole scene, with the steps that it leaves to its models.
+// Returns the settings of the whole scene, with the steps that it leaves to its models.
 Json parameters_json(const Scene& scene, int planned_steps) {
     Json parameters = Json::parse(scene.root.resolved_json());
     if (!scene.steps && !scene.frames) parameters["simulation"]["steps"] = planned_steps;

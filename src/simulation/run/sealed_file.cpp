@@ -11,7 +11,7 @@
 namespace espalier::simulation {
 namespace {
 
-// Of the first `bytes` bytes, in pieces: the file may be larger than the memory.
+// Returns the digest of the first `bytes` bytes, in pieces: the file may be larger than the memory.
 std::optional<std::uint64_t> digest_of(std::istream& in, std::uintmax_t bytes) {
     char piece[65536];
     std::uint64_t sum = digest({});

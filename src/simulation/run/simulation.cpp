@@ -59,7 +59,7 @@ private:
         return options.output.empty() ? std::filesystem::path() : files_folder_of(options.output);
     }
 
-    // Of what is new.
+    // Tells the new warnings.
     void warn() {
         const std::vector<Diagnostic>& all = world_.warnings();
         if (options_.warn && all.size() > warned_) {
@@ -251,7 +251,7 @@ private:
     RunRecord record_;
     std::optional<Timeline> timeline_;
     std::optional<DiskBudget> disk_;
-    std::size_t warned_ = 0;     ///< of the world's warnings
+    std::size_t warned_ = 0;     ///< how many of the world's warnings were told
     double checkpoint_end_ = 0;  ///< seconds since the run began
     std::optional<double> checkpoint_seconds_;
 };

@@ -10,7 +10,7 @@ namespace espalier::simulation {
 
 nlohmann::ordered_json vector_json(const glm::dvec3& vector);
 
-/// Of the first plant with a view file; null if there is none.
+/// Describes the first plant with a view file; null if there is none.
 nlohmann::ordered_json view_json(const Scene& scene);
 
 }  // namespace espalier::simulation

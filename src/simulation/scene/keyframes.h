@@ -14,7 +14,7 @@ namespace espalier::simulation {
 
 /// One [[plant.keyframes]] or [[keyframes]] table. Before the first time and after the last the value stays.
 struct Keyframes {
-    std::string name;           ///< of a #define, or the key of a setting of the scene
+    std::string name;           ///< name of a #define, or the key of a setting of the scene
     std::vector<double> times;  ///< rising
     std::vector<double> values;
     bool spline = false;  ///< a smooth curve, which stays between its values (Steffen 1990)

@@ -152,7 +152,7 @@ void end_without_window(Scene& scene) {
     warning.severity = Diagnostic::Severity::warning;
     warning.place.file = scene.timeline.path("animation").string();
     warning.message = fmt::format(
-        "the last frame, {}, is meant for a window that somebody closes: the run ends at the derivation length, {}; "
+        "the last frame, {}, is meant for a window that the user closes: the run ends at the derivation length, {}; "
         "--steps N grows further",
         *scene.last_frame, longest);
     scene.notes.diagnostics.push_back(warning);

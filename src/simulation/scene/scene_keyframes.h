@@ -52,7 +52,7 @@ private:
     Make make_;
     double dt_;
     mutable std::mutex mutex_;
-    mutable int step_ = -1;  ///< of the drawing made last: many plants ask for the same
+    mutable int step_ = -1;  ///< step of the drawing made last: many plants ask for the same
     mutable std::shared_ptr<const Drawing> drawing_;
 };
 

@@ -93,7 +93,7 @@ std::vector<std::string> values_of(const std::string& text, const std::string& v
     return split(values, ",");
 }
 
-/// Of several keys: 3:4,5:6
+/// Splits the values of several keys: 3:4,5:6
 std::vector<std::vector<std::string>> values_together(const std::string& text, const std::string& values,
                                                       std::size_t keys) {
     std::vector<std::vector<std::string>> all;

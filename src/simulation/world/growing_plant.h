@@ -67,7 +67,7 @@ private:
 
     DerivationSettings settings_;
     const Model* model_;
-    std::optional<Derivation> regrown_;  ///< of a plant that grows anew in every step
+    std::optional<Derivation> regrown_;  ///< derivation of a plant that grows anew in every step
     Insertions insertions_;
     std::shared_ptr<const SymbolTable> symbols_;
     Reusable<ModuleString> previous_;  // the string of the step before; the next one is written in its memory

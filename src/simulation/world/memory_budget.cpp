@@ -99,7 +99,7 @@ void MemoryBudget::refuse_strings(std::span<const GrowingPlant> plants, int step
     const GrowingPlant& largest =
         *std::max_element(plants.begin(), plants.end(),
                           [&](const GrowingPlant& a, const GrowingPlant& b) { return before(a) < before(b); });
-    // Of a string whose memory may have been passed on, the commonest module is not known.
+    // The commonest module is not known for a string whose memory may have been passed on.
     const bool is_kept = step > 0 && (!is_plentiful() || before(largest) > PlantMemory::most_of_small);
     const ModuleString* string = is_done(largest) ? largest.string_before() : &*largest.string;
     throw RunError(

@@ -56,7 +56,7 @@ private:
 
     std::size_t bytes_;
     std::vector<const Recorder*> recorders_;
-    PlantMemory held_;         // of all plants, as the last check left it
+    PlantMemory held_;         // memory of all plants, as the last check left it
     std::size_t modules_ = 0;  // the same
     std::size_t besides_ = 0;  // held beside the strings
     std::atomic<std::size_t> strings_{0};

@@ -11,7 +11,7 @@ std::size_t bytes_of(const Interpretation& interpretation) {
     const auto held = [](const auto& column) {
         return column.empty() ? 0 : std::bit_ceil(column.size()) * sizeof(column[0]);
     };
-    // Of large plants these are counted before they are written.
+    // The columns of large plants are counted before they are written.
     constexpr std::size_t large = 8192;
     const auto written = [&](const auto& column) {
         return column.size() < large ? held(column) : column.size() * sizeof(column[0]);
@@ -26,7 +26,7 @@ std::size_t bytes_of(const Interpretation& interpretation) {
 
 }  // namespace
 
-// Of small strings always as if there were two that fit: when memory gets scarce there will be.
+// Counts small strings always as if there were two that fit: when memory gets scarce there will be.
 void PlantMemory::set_strings(const ModuleString* before, std::size_t modules_before, const ModuleString& now,
                               std::size_t working) {
     const bool is_small = !before || modules_before <= most_of_small || now.size() <= most_of_small;

@@ -14,14 +14,14 @@ struct PlantMemory {
     std::size_t strings = 0;       ///< old and new, and what derivation needs besides
     std::size_t drawn = 0;         ///< the interpretation, and its queries on their way
     std::size_t drawn_before = 0;  ///< that of the frame on its way to the files
-    RecordedMemory recorded = {};  ///< of what is kept, the sum of all steps
+    RecordedMemory recorded = {};  ///< memory of what is kept, the sum of all steps
 
     /// Strings of at most so many modules may be written in memory that plants pass on to each other.
     static constexpr std::size_t most_of_small = 8192;
     /// `before` may be null, if that string was small. `working`: what derivation holds besides the two strings.
     void set_strings(const ModuleString* before, std::size_t modules_before, const ModuleString& now,
                      std::size_t working);
-    /// Of many plants the queries are copied.
+    /// The queries of many plants are copied.
     void set_drawn(const Interpretation& interpretation, bool many_plants);
     /// After set_drawn(): the copy that geometry stages have changed.
     void add_staged(const Interpretation& staged);

@@ -86,10 +86,10 @@ struct World::State {
 
     std::shared_ptr<Printout> printout;
     Scene scene;
-    std::size_t budget;  ///< of plants and fields, bytes
+    std::size_t budget;  ///< bytes for plants and fields
     MemoryBudget memory;
     bool is_seen = true;
-    ReadLog* reads = ReadLog::current();  ///< of the thread that makes the world
+    ReadLog* reads = ReadLog::current();  ///< log of the thread that makes the world
     std::vector<GrowingPlant> plants;
     std::unique_ptr<Environment> environment;
     std::vector<std::string> fields_read;  ///< by turtles

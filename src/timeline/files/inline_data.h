@@ -18,7 +18,7 @@ struct DataArray {
     int components = 1;
     std::size_t tuple_bytes = 0;
     std::size_t tuples = 0;
-    const void* values = nullptr;              ///< of the tuples, or of the runs if there are any
+    const void* values = nullptr;              ///< values of the tuples, or of the runs if there are any
     std::span<const std::uint32_t> ends = {};  ///< where runs of equal tuples end; empty: every tuple has its own value
     bool changed = true;                       ///< values or runs, since the file before
 

@@ -32,7 +32,7 @@ void VtkFile::begin_after(std::string_view type) {
 }
 
 void VtkFile::begin(std::string_view type) {
-    for (std::size_t i = count_; i < parts_.size(); ++i) parts_[i].encoded = false;  // of files before the last
+    for (std::size_t i = count_; i < parts_.size(); ++i) parts_[i].encoded = false;  // left from files before the last
     count_ = 0;
     after_ = false;
     open_.clear();

@@ -35,7 +35,7 @@ public:
     /// Closes what is open, compresses the arrays, on several threads if they are large, and writes the file: complete
     /// or not at all. Throws RunError.
     void write(const std::filesystem::path& path);
-    /// Of what write() would write.
+    /// Returns the digest of what write() would write.
     std::uint64_t digest();
 
 private:
@@ -54,7 +54,7 @@ private:
 
     Part& add(std::string_view element, const DataArray& array, std::size_t tuples);
     void encode_all();
-    /// Of the whole file; valid until it is begun anew.
+    /// Returns the pieces of the whole file; valid until it is begun anew.
     std::vector<std::string_view> pieces();
 
     std::vector<std::string> open_;

@@ -61,7 +61,7 @@ private:
     /// They hold their frames until the run's thread releases these: it alone lets go of what is shared, and knows
     /// thereby what it may write into.
     std::vector<std::unique_ptr<Job>> done_;
-    std::size_t bytes_ = 0;  ///< of those that wait
+    std::size_t bytes_ = 0;  ///< bytes of the frames that wait
     std::size_t room_ = most_bytes;
     std::exception_ptr failure_;
     bool ends_ = false;

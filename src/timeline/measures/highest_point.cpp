@@ -82,7 +82,7 @@ private:
     }
 
     const Shapes* shapes_;
-    std::map<std::uint32_t, double> reach_;  ///< of surfaces, by their ids
+    std::map<std::uint32_t, double> reach_;  ///< reach of surfaces, by their ids
     double top_ = nowhere;
 };
 

@@ -15,7 +15,7 @@ namespace espalier::timeline {
 struct InternodeLife {
     Identity identity, parent;
     std::uint32_t part;  ///< a module may draw several internodes; this is its part-th
-    std::int32_t birth;  ///< of the module
+    std::int32_t birth;  ///< birth of the module
     std::int32_t death;  ///< first step without it; meaningful once it is dead
     bool alive;
     std::uint16_t symbol, order, colour;

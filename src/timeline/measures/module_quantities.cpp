@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<std::string> functions{"sum", "mean", "min", "max", "count"};
 
-/// Of the values met so far.
+/// Sums up the values met so far.
 struct Total {
     double sum = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
     std::size_t count = 0;

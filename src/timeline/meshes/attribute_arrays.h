@@ -84,8 +84,8 @@ private:
     struct Plant {
         const PlantFrame* frame;
         const std::vector<std::uint16_t>* symbols;
-        std::vector<std::size_t> offsets;   ///< of the parameters, if any are chosen
-        std::vector<ParameterSlots> slots;  ///< of each chosen parameter
+        std::vector<std::size_t> offsets;   ///< offsets of the parameters, if any are chosen
+        std::vector<ParameterSlots> slots;  ///< slots of each chosen parameter
         bool lineage;
     };
 

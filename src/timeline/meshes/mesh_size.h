@@ -10,12 +10,12 @@
 
 namespace espalier::timeline {
 
-/// Of a PlantMesh or a part of it, or a little more than that: polygons count as if all were cut into triangles.
+/// The size of a PlantMesh or a part of it, or a little more: polygons count as if all were cut into triangles.
 struct MeshSize {
     std::size_t points = 0;
-    std::size_t corners = 0;  ///< of all cells: the points that they name
+    std::size_t corners = 0;  ///< corners of all cells: the points that they name
     std::size_t cells = 0;
-    std::size_t point_runs = 0, cell_runs = 0;  ///< of one owner
+    std::size_t point_runs = 0, cell_runs = 0;  ///< runs of one owner
 
     void add(const MeshSize& other, std::size_t times = 1);
 };
@@ -23,7 +23,7 @@ struct MeshSize {
 /// Sizes of the surfaces that view files describe. Each is meshed once; thread safe.
 class SurfaceSizes {
 public:
-    /// Of all surfaces of a view file, by their ids; stays where it is.
+    /// Returns the sizes of all surfaces of a view file, by their ids; stays where it is.
     const std::map<std::uint32_t, MeshSize>& of(const std::shared_ptr<const Shapes>& shapes);
 
 private:

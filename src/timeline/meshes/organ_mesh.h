@@ -38,7 +38,7 @@ public:
 private:
     struct Round {
         OrganMesh mesh;
-        std::vector<glm::dvec4> angles;  ///< of the vertices: cosines and sines
+        std::vector<glm::dvec4> angles;  ///< cosines and sines of the vertices
     };
 
     const OrganMesh& disc(const Organ& organ);
@@ -59,7 +59,7 @@ public:
         const Surface* surface;
         SurfaceMesh mesh;
         std::vector<glm::dvec2> whole;             ///< texture coordinates for one picture over the whole surface
-        std::vector<const BicubicPatch*> patches;  ///< of the vertices: that of the last face with it; null: none
+        std::vector<const BicubicPatch*> patches;  ///< patch of each vertex, that of the last face with it; null: none
     };
     /// Null if there is no such surface.
     const Entry* find(std::uint32_t id);

@@ -36,8 +36,8 @@ struct Owner {
 /// The owners of points or cells in their order; neighbours mostly have the same one, so they are kept as runs.
 class Owners {
 public:
-    Column<Owner> values;                 ///< of the runs
-    RewrittenColumn<std::uint32_t> ends;  ///< of the runs; whole after end()
+    Column<Owner> values;                 ///< owners of the runs
+    RewrittenColumn<std::uint32_t> ends;  ///< ends of the runs; whole after end()
 
     std::size_t size() const { return size_; }
     void begin();
@@ -83,9 +83,9 @@ public:
     RewrittenColumn<float> uvs;      ///< two a point
     RewrittenColumn<float> radii;
     RewrittenColumn<float> pixels;  ///< widths of lines, in pixels; empty where no plant has such widths
-    Owners owners;                  ///< of the points
+    Owners owners;                  ///< owners of the points
     Cells vertices, lines, polygons;
-    std::vector<std::string> labels;  ///< of the vertices of that kind, in their order
+    std::vector<std::string> labels;  ///< texts of the vertices of that kind, in their order
 
     void begin(bool with_pixels = false);
     void end();

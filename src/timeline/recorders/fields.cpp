@@ -84,7 +84,7 @@ private:
     struct Written {
         std::string name;  ///< without extension
         std::shared_ptr<const FieldGrid> grid;
-        std::uint64_t digest = 0;  ///< of the grid, all that a checkpoint holds of it
+        std::uint64_t digest = 0;  ///< digest of the grid, all that a checkpoint holds of it
     };
 
     // At the first frame every process has provided its fields.

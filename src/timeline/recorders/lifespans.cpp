@@ -140,7 +140,7 @@ private:
     std::vector<Row> rows_;
     Column<float> coordinates_, radii_;
     Column<std::int32_t> connectivity_, offsets_;
-    std::deque<Column<std::byte>> columns_;  ///< of the cells, until the file is written
+    std::deque<Column<std::byte>> columns_;  ///< arrays of the cells, until the file is written
     VtkFile file_;
     int last_step_ = 0;
     double time_ = 0;

@@ -33,10 +33,10 @@ struct PlantData {
     PlantMesh mesh;
     Owners cell_owners;  ///< VTK counts a data set's cells so: vertices, lines, polygons
     OwnerArrays of_points, of_cells;
-    std::vector<std::string> texture_files;  ///< of the run so far, the first ""
+    std::vector<std::string> texture_files;  ///< files of the run so far, the first ""
     std::vector<std::string> symbol_names;
 
-    bool texts_changed = false;  ///< of these two
+    bool texts_changed = false;  ///< one of these two has changed
 
     void begin(bool with_pixels) {
         mesh.begin(with_pixels);
@@ -81,9 +81,9 @@ void add_arrays(VtkFile& file, const OwnerArrays& arrays) {
     for (std::size_t i = 0; i < arrays.size(); ++i) file.add(arrays[i]);
 }
 
-// Of the arrays, and of the texts that they become. Measured, as the texts' bytes in files of 13 models rich in one
-// kind of organ each: 28 a point, nearly all of them coordinates, which hardly compress; 5.4 a corner and a cell; up to
-// 28 for the attributes of a run. An array that grows beyond its memory is there twice for a moment.
+// Bytes of the arrays and of the texts that they become. Measured, as the texts' bytes in files of 13 models rich in
+// one kind of organ each: 28 a point, nearly all of them coordinates, which hardly compress; 5.4 a corner and a cell;
+// up to 28 for the attributes of a run. An array that grows beyond its memory is there twice for a moment.
 std::size_t bytes_to_write(const MeshSize& size, std::size_t parameters) {
     constexpr std::size_t of_owner = sizeof(Owner) + sizeof(std::uint32_t);
     constexpr std::size_t attributes = 38, texts_of_attributes = 28;

@@ -10,9 +10,9 @@ namespace espalier::turtle {
 
 /// The internodes that one module drew, or those of them that may bear: they follow each other.
 struct BearingNode {
-    std::uint32_t first, count;  ///< of PlantGeometry::internodes
-    std::uint32_t number;        ///< of nodes before it, from the base of the plant
-    Identity identity;           ///< of the module; its index if the string keeps no lineage
+    std::uint32_t first, count;  ///< range of PlantGeometry::internodes
+    std::uint32_t number;        ///< number of nodes before it, from the base of the plant
+    Identity identity;           ///< identity of the module; its index if the string keeps no lineage
     glm::dvec3 reference;        ///< a unit vector across the first, which turns along a branch as little as it must
 };
 

@@ -3,7 +3,7 @@
 namespace espalier::turtle {
 namespace {
 
-/// Of one quadrilateral; s runs along `across`, t along the heading.
+/// Makes a patch of one quadrilateral; s runs along `across`, t along the heading.
 BicubicPatch square(const glm::dvec3& across) {
     BicubicPatch patch;
     for (std::size_t row = 0; row < 4; ++row) {

@@ -53,7 +53,7 @@ private:
 
     /// At the tip of each internode: r^n is the sum over what it bears, and ends have the radius `tip`.
     std::vector<double> node_radii(const std::vector<std::uint32_t>& bearers) const {
-        std::vector<double> powers(bearers.size(), 0);  // of r / tip
+        std::vector<double> powers(bearers.size(), 0);  // powers of r / tip
         for (std::size_t i = bearers.size(); i-- > 0;) {
             if (powers[i] == 0) powers[i] = 1;
             if (bearers[i] != no_bearer) powers[bearers[i]] += powers[i];

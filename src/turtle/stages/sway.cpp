@@ -113,7 +113,7 @@ private:
         const Column<Internode>& internodes = plant.geometry.internodes;
         const std::vector<std::uint32_t> bearers = internode_bearers(plant.geometry, plant.string);
         const Rods rods(internodes, bearers);
-        std::vector<glm::dvec3> turns;  // of a whole rod, about the world's axes, per degree of bend
+        std::vector<glm::dvec3> turns;  // turn of a whole rod, about the world's axes, per degree of bend
         for (const RodOfInternodes& rod : rods.all) turns.push_back(turn_of(rod, plant));
         std::vector<RigidMotion> motions;
         motions.reserve(internodes.size());
@@ -132,7 +132,7 @@ private:
         return motions;
     }
 
-    /// Of a bend of one degree: the axis times the degrees.
+    /// Returns the turn of a bend of one degree: the axis times the degrees.
     glm::dvec3 turn_of(const RodOfInternodes& rod, const StagedPlant& plant) const {
         const Internode& foot = plant.geometry.internodes[rod.first];
         if (foot.base_radius == 0 || rod.length == 0) return glm::dvec3(0);

@@ -39,7 +39,7 @@ const VectorField& field_of(const std::string& text) {
     return known != fields.end() ? known->second : fields.emplace(text, VectorField::parse(text)).first->second;
 }
 
-/// Of a field that reads those of processes.
+/// Returns the vector of a field that reads those of processes.
 glm::dvec3 vector_read(const VectorField& field, const FieldValues& values, const glm::dvec3& place) {
     const std::vector<std::string>& names = field.fields();
     if (field.kind() == VectorField::Kind::gradient) return values.gradient(names[0], place);

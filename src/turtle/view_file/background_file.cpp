@@ -213,7 +213,7 @@ private:
     static constexpr double most_coordinate = 1e30;
 
     TextCursor text_;
-    TextCursor place_ = text_;  // of the command at hand
+    TextCursor place_ = text_;  // where the command at hand begins
     Background& background_;
     Material material_;
     std::vector<Diagnostic>& diagnostics_;

@@ -237,7 +237,7 @@ constexpr std::array keywords{
     ViewKeyword{"viewing angle:",
                 "a number",
                 viewing_angle,
-                {ViewKind::number, "of the picture, in perspective", "45", "degrees", 1, 120}},
+                {ViewKind::number, "angle of view of the picture, in perspective", "45", "degrees", 1, 120}},
     ViewKeyword{
         "front distance:", "a number", front_distance, {ViewKind::number, "what is nearer is cut off", "-100000"}},
     ViewKeyword{
@@ -253,7 +253,7 @@ constexpr std::array keywords{
     ViewKeyword{"light direction:",
                 "three numbers",
                 light_direction,
-                {ViewKind::vector, "to the light, where no line gives a light", "1 0 0"}},
+                {ViewKind::vector, "direction to the light, where no line gives a light", "1 0 0"}},
     ViewKeyword{"background color:", "three numbers", background_color, {ViewKind::colour, "what is behind the plant"}},
     ViewKeyword{
         "background scene:", "files", background_scene, {ViewKind::file, "objects that stand around the plant"}},

@@ -24,7 +24,7 @@ struct ViewKeyword {
     /// Reads the values. Those of a setting without meaning outside a window are read and ignored.
     void (*read)(ViewReader&);
     ViewValue value;
-    std::span<const ViewValue> letters = {};  ///< of a line of letters
+    std::span<const ViewValue> letters = {};  ///< letters that a line of letters takes
     bool display = false;                     ///< without meaning outside a window
 };
 

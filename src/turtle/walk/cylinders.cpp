@@ -111,7 +111,7 @@ void Walk::end_cylinder(std::optional<double> strips) {
         std::vector<CylinderPoint>& points = open.cylinder.points;
         if (open.cylinder.curve == closed_hermite || open.cylinder.curve == closed_spline) {
             if (points.size() > 3 && same_place(points.front(), points.back())) points.pop_back();
-            points.front().strips = strips_of(strips, points.back().strips);  // of the stretch that closes it
+            points.front().strips = strips_of(strips, points.back().strips);  // the stretch that closes it
         } else {
             record_control_point({}, false);
         }

@@ -24,7 +24,7 @@ std::uint64_t packed_rows(Symbol::Effect effect) {
            std::uint64_t{effect == answers} << answers_at;
 }
 
-/// Of packed counts: all of them, and the least of all sums from the first on. The depth decides which is less.
+/// All packed counts added up, and the least of all sums from the first on. The depth decides which is less.
 struct Sum {
     std::uint64_t all = 0;
     std::int64_t least = 0;

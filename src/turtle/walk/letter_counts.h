@@ -21,9 +21,9 @@ struct WalkCounts {
 /// Sums over a block of letters.
 struct LetterSum {
     WalkCounts counts;
-    std::int64_t depth;  ///< of branches behind the last letter, counted from that before the first
-    std::int64_t least;  ///< of the depths behind its letters, and 0
-    bool clear;          ///< false: of some symbol more than two modules must be seen to count its rows
+    std::int64_t depth;  ///< depth of branches behind the last letter, counted from that before the first
+    std::int64_t least;  ///< least of the depths behind its letters, and 0
+    bool clear;          ///< false: more than two modules of some symbol must be seen to count its rows
 };
 
 /// What every letter behind another adds to the counts and to the depth of branches.
@@ -33,7 +33,7 @@ public:
 
     explicit LetterCounts(const SymbolTable& symbols);
 
-    /// Of at most block_size letters, which stand behind the letter `before`.
+    /// Returns the sum over at most block_size letters, which stand behind the letter `before`.
     LetterSum sum(const LetterId* letters, std::size_t count, LetterId before) const;
 
 private:

@@ -53,7 +53,7 @@ public:
 private:
     const ModuleString& string_;
     const Alphabet& alphabet_;
-    std::optional<SymbolId> opening_, closing_;  ///< of polygons
+    std::optional<SymbolId> opening_, closing_;  ///< symbols of polygons
 };
 
 /// Axes that a stretch takes over from those before it are numbered from here until all of them are known.

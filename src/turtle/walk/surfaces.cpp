@@ -15,7 +15,7 @@ int precision(double wanted) {
     return std::isnan(wanted) ? 1 : int(std::clamp(wanted, 1.0, finest));
 }
 
-/// Of a row or column: 0 to 4, whichever way the model counts; -1 if it is neither.
+/// Returns the index of a row or column: 0 to 4, whichever way the model counts; -1 if it is neither.
 int index_of(double number) {
     return number >= 0 && number < 5 ? int(number) : -1;
 }

@@ -21,7 +21,7 @@ std::vector<glm::dvec3> points_of(const std::string& text, std::uint64_t seed = 
     return read_clouds(Settings::parse_toml(text, "scene.toml"), context, most);
 }
 
-/// Of `counts` expected to be equal.
+/// Returns chi square for `counts` expected to be equal.
 double chi_square(const std::array<int, 8>& counts) {
     double total = 0, sum = 0;
     for (const int count : counts) total += count;

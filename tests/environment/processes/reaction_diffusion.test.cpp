@@ -86,7 +86,7 @@ std::vector<double> divergences(const std::vector<Leaf>& leaves, std::size_t ski
 
 struct Order {
     std::size_t all = 0, broken = 0;
-    double sum = 0;  ///< of those in order
+    double sum = 0;  ///< sum over those in order
 };
 
 /// In 20 runs, behind the first 12 of 40 leaves: a divergence more than 30 degrees from 137.5 breaks the order.

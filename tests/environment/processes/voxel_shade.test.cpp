@@ -406,7 +406,7 @@ TEST_CASE("statistics sum up one plant's answers", "[environment]") {
     const std::vector<double> expected{1 - 0.25 / 4, 1 - 0.25 / 2, 1, 2, 1};
     for (std::size_t i = 0; i < 5; ++i) CHECK(first[i].value == Approx(expected[i]));
     CHECK(environment.statistics(1)[0].value == 1);
-    for (std::size_t i = 0; i < 3; ++i) CHECK(std::isnan(last[i].value));  // of nothing
+    for (std::size_t i = 0; i < 3; ++i) CHECK(std::isnan(last[i].value));  // statistics of nothing
     for (std::size_t i = 3; i < 5; ++i) CHECK(last[i].value == 0);
 }
 

@@ -110,7 +110,7 @@ public:
 private:
     struct End {
         std::string name, arrow;
-        double copies;  ///< of what the arrow leads to, for each of what led to the first
+        double copies;  ///< copies of what the arrow leads to, for each of what led to the first
     };
     using Counts = std::vector<std::pair<std::string, double>>;
 

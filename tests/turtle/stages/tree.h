@@ -109,7 +109,7 @@ private:
     std::vector<Turtle> branches_;
 };
 
-/// Of length 1, so many degrees from straight down.
+/// Returns a vector of length 1, so many degrees from straight down.
 inline glm::dvec3 from_down(double degrees) {
     return {std::sin(glm::radians(degrees)), -std::cos(glm::radians(degrees)), 0};
 }
