@@ -104,7 +104,7 @@ TEST_CASE("a material of a background holds until the next, and only its complet
           background.triangles.size());
 }
 
-TEST_CASE("backgrounds may define macros, and what nobody understands is told and passed over", "[turtle]") {
+TEST_CASE("backgrounds may define macros, and commands that are unknown are told and passed over", "[turtle]") {
     std::vector<Diagnostic> found;
     const Background background = background_of(
         "#define SIZE 2 2 2\n"
