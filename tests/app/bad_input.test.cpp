@@ -50,7 +50,8 @@ TEST_CASE_METHOD(BadInput, "mistakes on the command line exit with 1 and offer t
     CHECK(run("run bush.l --steps -1").code == 1);
     CHECK(run("run bush.l --steps many").code == 1);
     CHECK(run("run bush.l --threads 0").code == 1);
-    CHECK_THAT(run("run bush.l --seed -1").err, Contains("--seed: a whole number of at least 0, or random, is expected, not -1"));
+    CHECK_THAT(run("run bush.l --seed -1").err,
+               Contains("--seed: a whole number of at least 0, or random, is expected, not -1"));
     for (const std::string layer : {"0", "-1", "nan", "inf", "1m"}) {
         const Outcome outcome = run("analyse out --layer " + layer);
         CHECK(outcome.code == 1);

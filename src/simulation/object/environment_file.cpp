@@ -287,7 +287,8 @@ private:
     void add_own_program(const std::string& name, const Lines& lines, const fs::path& path) {
         const fs::path program = named_file(lines.command[0], path.parent_path(), folder_, lines.command_place);
         result_.files.push_back(program);
-        result_.processes.emplace_back(name, table_of_own_program(lines, fs::absolute(program).lexically_normal(), path));
+        result_.processes.emplace_back(name,
+                                       table_of_own_program(lines, fs::absolute(program).lexically_normal(), path));
         for (const char* keyword : {"interpreted modules", "when interpret", "remote host"}) {
             if (std::erase(result_.unused, keyword) == 0) continue;
             result_.diagnostics.push_back({Diagnostic::Severity::error,
