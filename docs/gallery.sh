@@ -169,7 +169,7 @@ entry models/leaves/compound-leaf-timed.l "Compound leaf in continuous time" "Pr
 entry models/leaves/compound-leaf.l "Compound leaf" "Prusinkiewicz & Lindenmayer 1990" -- --size 360x360
 entry models/leaves/contour-leaf.l "Leaf traced along its edge" "Prusinkiewicz & Lindenmayer 1990, section 5.1"
 entry models/leaves/cordate-leaf.l "Heart-shaped leaf" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
-entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990"
+entry models/leaves/fern.l "Fern frond that unrolls" "after Prusinkiewicz & Lindenmayer 1990" -- --azimuth 60
 entry models/leaves/framework-leaf.l "Leaf on a growing framework" "Prusinkiewicz & Lindenmayer 1990, section 5.2"
 entry models/leaves/rose-leaf.l "Serrated leaf" "Prusinkiewicz & Lindenmayer 1990"
 entry models/leaves/simple-leaf.l "Leaf with midrib and ribs" "Prusinkiewicz & Lindenmayer 1990, figure 5.6"

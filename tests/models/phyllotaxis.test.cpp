@@ -108,7 +108,7 @@ TEST_CASE("zinnia: petals turn by the divergence, and lean out and lengthen from
     glm::dvec3 before(0);
     for (const Polygon& polygon : geometry.polygons) {
         const auto* vertices = &geometry.vertices[polygon.first];
-        const glm::dvec3 petal = 0.5 * (vertices[2] + vertices[3]) - vertices[0];
+        const glm::dvec3 petal = 0.5 * (vertices[3] + vertices[4]) - vertices[0];
         CHECK(glm::length(petal) > length);
         CHECK(petal.y / glm::length(petal) < rise + 1e-9);
         length = glm::length(petal);
