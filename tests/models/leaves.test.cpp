@@ -190,7 +190,8 @@ TEST_CASE("compound-leaf-alternate: a(n) = a(n-1) + a(n-1-D), laterals left and 
 }
 
 TEST_CASE("fern: the tip is coiled, what is old is straight, and pinnae stand in pairs", "[leaves]") {
-    LonePlant frond("models/leaves/fern.l", {{"COIL", "32"}, {"STRAIGHT", "16"}, {"PAIRS", "24"}, {"PINNA_DELAY", "8"}});
+    LonePlant frond("models/leaves/fern.l",
+                    {{"COIL", "32"}, {"STRAIGHT", "16"}, {"PAIRS", "24"}, {"PINNA_DELAY", "8"}});
     for (int step : {10, 20, 30}) {
         frond.grow(10);
         std::vector<Internode> axis;
