@@ -59,7 +59,6 @@ TEST_CASE("a comment that hides modules of a production is warned about", "[lang
     const auto warned = [](const std::string& production) {
         return reading_warnings(lsystem_of("seed: 1\n", "A", production + "\nB --> C\n")).size();
     };
-    CHECK(warned("A --> [&FL!A]/////[&FL!A]") == 1);
     CHECK(warned("A --> S ///// F") == 1);
     CHECK(warned("A --> B\n\tC//D") == 1);
     CHECK(warned("A --> B // a comment") == 0);
@@ -67,6 +66,22 @@ TEST_CASE("a comment that hides modules of a production is warned about", "[lang
     CHECK(warned("A : {x = 1;// a comment\n} --> B") == 0);
     CHECK(warned("A --> B/ / /C") == 0);
     CHECK(reading_warnings("// A --> B//C\n" + lsystem_of("", "A", "A --> B\n")).empty());
+}
+
+TEST_CASE("a production as it is printed, with slashes between its modules, is a mistake with its place",
+          "[language]") {
+    const auto mistake = [](const std::string& production) {
+        try {
+            read(lsystem_of("", "A", production + "\n"));
+        } catch (const UserError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK_THAT(mistake("A --> [&FL!A]/////'[&FL!A]///////'[&FL!A]"), Contains(":14: a comment begins here"));
+    CHECK_THAT(mistake("A --> F///A"), Contains("blanks between slashes make them modules"));
+    CHECK(mistake("A --> F(1)//A") == "");
+    CHECK(mistake("A --> F(1) /// a comment") == "");
 }
 
 TEST_CASE("a quote that nothing reads is warned about once", "[language]") {

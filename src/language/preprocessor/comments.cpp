@@ -76,17 +76,21 @@ private:
         return line.starts_with("define");
     }
 
-    // F//F has lost its end, and so has F ///// F; other comments stand behind a blank, a weight or a statement in C.
-    void warn_of_lost_modules() {
+    // F//F has lost its end, and so have F ///// F and F/////F; other comments stand behind a blank, a weight or a
+    // statement in C.
+    void tell_lost_modules() {
         const std::string_view read = statement();
         if (read.empty() || read.back() == '\n' || read.starts_with('#')) return;
         if (is_blank(read.back()) && peek(2) != '/') return;
         const std::size_t arrow = std::min(read.find("-->"), read.find("-o>"));
         if (arrow == std::string_view::npos || arrow + 3 >= read.size()) return;
         if (read.find(':', arrow) != std::string_view::npos) return;
-        mistakes_.warning(at_,
-                          "a comment begins here and hides the rest of the production: blanks "
-                          "between slashes make them modules, as in 'F / / F'");
+        const bool is_sure = !is_blank(read.back()) && peek(2) == '/';  // as printed in books: F/////F
+        const std::string message =
+            "a comment begins here and hides the rest of the production: blanks between slashes make them modules, as "
+            "in "
+            "'F / / F'";
+        is_sure ? mistakes_.error(at_, message) : mistakes_.warning(at_, message);
     }
 
     void copy() {
@@ -109,7 +113,7 @@ private:
             mistakes_.warning(at_, "this backslash is ignored: one alone joins the line with the next");
             advance();
         } else if (c == '/' && peek(1) == '/') {
-            warn_of_lost_modules();
+            tell_lost_modules();
             while (position_ < text_.size() && peek() != '\n') {
                 if (!next_line_joined()) advance();
             }
