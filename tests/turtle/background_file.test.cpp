@@ -51,7 +51,8 @@ TEST_CASE("transformations of a background apply before those that stand there",
 TEST_CASE("solids of a background are closed, outside out, where and as large as they should be", "[turtle]") {
     CHECK(volume_of(background_of("box 2 3 4")) == Approx(24));
     CHECK(volume_of(background_of("prism 2 3 4")) == Approx(24));
-    const double round = 24 / (2 * std::acos(-1)) * std::sin(2 * std::acos(-1) / 24);  // of a polygon of 24 sides
+    const double round =
+        24 / (2 * std::acos(-1)) * std::sin(2 * std::acos(-1) / 24);  // area of a polygon of 24 sides over the circle's
     const double pi = std::acos(-1);
     CHECK(volume_of(background_of("cylinder 2 5")) == Approx(20 * pi * round));
     CHECK(volume_of(background_of("cone 2 0 3")) == Approx(4 * pi * round));

@@ -243,7 +243,7 @@ private:
 
     Daylight light_;  ///< all that follows is of this step
     LitTriangles triangles_;
-    std::vector<std::uint32_t> slots_;  ///< of the first module of each plant, and behind the last
+    std::vector<std::uint32_t> slots_;  ///< the number of the first module of each plant, and behind the last
     std::vector<double> absorbed_;      ///< mol, by slot and band: the mean of the trials
     std::vector<double> by_plant_;      ///< mol, by plant, band and trial
     Balance balance_;

@@ -87,9 +87,8 @@ private:
         if (read.find(':', arrow) != std::string_view::npos) return;
         const bool is_sure = !is_blank(read.back()) && peek(2) == '/';  // as printed in books: F/////F
         const std::string message =
-            "a comment begins here and hides the rest of the production: blanks between slashes make them modules, as "
-            "in "
-            "'F / / F'";
+            "a comment begins here and hides the rest of the production: blanks between slashes make them modules, "
+            "as in 'F / / F'";
         is_sure ? mistakes_.error(at_, message) : mistakes_.warning(at_, message);
     }
 
