@@ -2,12 +2,12 @@
 
 #include "espalier/geometry/surface.h"
 
+#include "geometry/organ_mesh.h"
 #include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
 #include "geometry/vectors.h"
 #include "studio/message_bytes.h"
 #include "studio/packet_parts.h"
-#include "timeline/meshes/organ_mesh.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -174,7 +174,7 @@ private:
             const bool is_surface = organ.shape == Organ::Shape::surface;
             const std::optional<std::uint32_t> shape = shape_of(organ, geometry.shapes);
             if (!shape) {
-                add_polygon(timeline::rhombus_of(organ), colour, first + organ.module, 0);
+                add_polygon(rhombus_of(organ), colour, first + organ.module, 0);
                 continue;
             }
             const Pose& pose = organ.pose;
@@ -234,8 +234,8 @@ private:
     };
 
     static void put_shape(const NewShape& shape, MessageBytes& out) {
-        timeline::SurfaceMeshes meshes(shape.shapes);
-        const timeline::SurfaceMeshes::Entry& entry = *meshes.find(shape.surface);
+        SurfaceMeshes meshes(shape.shapes);
+        const SurfaceMeshes::Entry& entry = *meshes.find(shape.surface);
         const SurfaceMesh& mesh = entry.mesh;
         std::vector<std::uint32_t> triangles;
         std::uint32_t at = 0;

@@ -22,20 +22,22 @@ void CanopyLeaves::add(std::uint32_t plant, std::uint32_t module, const glm::dve
 }
 
 void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, double longest) {
-    drawn_.collect(geometry);
+    drawn_.clear();
+    drawn_.add_leaves(plant, geometry);
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
-        const auto& [module, corners] = drawn_[i];
-        const glm::dvec3 middle = middle_of(corners);
-        const bool is_small = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) {
+        const DrawnFace face = drawn_[i];
+        const std::uint32_t module = face.owner.module;
+        const glm::dvec3 middle = face.middle();
+        const bool is_small = std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
             return glm::distance(corner, middle) <= longest / 2;
         });
         if (is_small) {
-            add({plant, module, middle, glm::vec3(area_vector(corners)), false});
+            add({plant, module, middle, glm::vec3(face.area()), false});
             continue;
         }
-        for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-            cut(plant, module, corners[0], corners[k], corners[k + 1], longest);
-        }
+        face.for_triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+            cut(plant, module, a, b, c, longest);
+        });
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include "environment/canopy/leaf_angles.h"
 #include "environment/canopy/medium.h"
-#include "environment/shade/drawn_leaves.h"
+#include "geometry/drawn_faces.h"
 
 #include <glm/vec3.hpp>
 
@@ -50,7 +50,7 @@ private:
     std::vector<float> per_volume(const CanopyVoxels& voxels, const AreaOf& area_of) const;
 
     std::vector<LeafPiece> pieces_;
-    DrawnLeaves drawn_;
+    DrawnFaces drawn_;
     Box bounds_;
 };
 

@@ -1,15 +1,9 @@
 #include "environment/rays/lit_triangles.h"
 
-#include "espalier/base/math.h"
-
 #include "geometry/vectors.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-
-#include <array>
-#include <cmath>
-#include <numbers>
 
 namespace espalier::environment {
 
@@ -21,16 +15,18 @@ void LitTriangles::clear(std::size_t slots) {
 }
 
 void LitTriangles::add(const PlantGeometry& geometry, std::uint32_t first_slot) {
-    leaves_.collect(geometry);
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        const auto& [module, corners] = leaves_[i];
-        for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-            const glm::dvec3 &a = corners[0], &b = corners[k], &c = corners[k + 1];
-            add(a, b, c, {first_slot + module, LitKind::leaf});
-            leaf_areas_[first_slot + module] += glm::length(glm::cross(b - a, c - a)) / 2;
-        }
+    faces_.clear();
+    faces_.add_leaves(0, geometry);
+    faces_.add_stems(0, geometry);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        const DrawnFace face = faces_[i];
+        const std::uint32_t slot = first_slot + face.owner.module;
+        const LitKind kind = face.owner.is_stem() ? LitKind::stem : LitKind::leaf;
+        face.for_triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+            add(a, b, c, {slot, kind});
+            if (kind == LitKind::leaf) leaf_areas_[slot] += glm::length(glm::cross(b - a, c - a)) / 2;
+        });
     }
-    for (const Internode& internode : geometry.internodes) add_stem(internode, first_slot + internode.module);
 }
 
 void LitTriangles::add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Owner owner) {
@@ -39,26 +35,6 @@ void LitTriangles::add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
         bounds_.add(corner);
     }
     owners_.push_back(owner);
-}
-
-void LitTriangles::add_stem(const Internode& internode, std::uint32_t slot) {
-    const glm::dvec3 along = internode.tip - internode.base;
-    const double length = glm::length(along);
-    if (!(length > 0) || !(internode.base_radius + internode.tip_radius > 0)) return;
-    constexpr int sides = 6;
-    constexpr double same_perimeter = std::numbers::pi / 3;  // six chords of a circle of this radius are 2 pi long
-    const glm::dvec3 x = any_across(along / length), y = glm::cross(along / length, x);
-    std::array<glm::dvec3, sides + 1> low, high;
-    for (int i = 0; i <= sides; ++i) {
-        const double angle = 2 * std::numbers::pi * (i % sides) / sides;
-        const glm::dvec3 out = same_perimeter * (math::cos(angle) * x + math::sin(angle) * y);
-        low[i] = internode.base + internode.base_radius * out;
-        high[i] = internode.tip + internode.tip_radius * out;
-    }
-    for (int i = 0; i < sides; ++i) {
-        add(low[i], low[i + 1], high[i + 1], {slot, LitKind::stem});
-        add(low[i], high[i + 1], high[i], {slot, LitKind::stem});
-    }
 }
 
 void LitTriangles::repeat(const Box& period) {

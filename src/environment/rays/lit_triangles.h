@@ -3,7 +3,7 @@
 
 #include "espalier/geometry/plant_geometry.h"
 
-#include "environment/shade/drawn_leaves.h"
+#include "geometry/drawn_faces.h"
 
 #include <glm/vec3.hpp>
 
@@ -25,8 +25,7 @@ public:
 
     /// Forgets all triangles; those to come belong to so many modules.
     void clear(std::size_t slots);
-    /// Flat parts as leaves, internodes as open prisms with six sides and the surface of the cone. `first_slot` is that
-    /// of the plant's first module.
+    /// Leaves and stems as `DrawnFaces` has them. `first_slot` is that of the plant's first module.
     void add(const PlantGeometry& geometry, std::uint32_t first_slot);
     /// Copies of all that reaches beyond the sides of a period, so that no triangle is missing inside; what lies wholly
     /// outside comes in.
@@ -43,12 +42,11 @@ public:
 
 private:
     void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Owner owner);
-    void add_stem(const Internode& internode, std::uint32_t slot);
 
     std::vector<glm::vec3> corners_;
     std::vector<Owner> owners_;
     std::vector<double> leaf_areas_;
-    DrawnLeaves leaves_;
+    DrawnFaces faces_;
     Box bounds_;
 };
 

@@ -1,6 +1,6 @@
 #include "timeline/meshes/mesh_size.h"
 
-#include "timeline/meshes/organ_mesh.h"
+#include "geometry/organ_mesh.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

@@ -182,11 +182,11 @@ void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner) {
     mesh.polygons.add(shape.faces, origin, owner);
 }
 
-/// Patches may have colours of their own, on both sides; with materials they have none, as in cpfg.
 Owner owner_of_patch(Owner owner, const BicubicPatch* patch, const Palette* palette) {
-    if (!patch || (palette && palette->of_materials)) return owner;
-    if (patch->top_colour > 0) owner.colour = static_cast<std::uint16_t>(patch->top_colour);
-    if (patch->bottom_colour > 0) owner.look.back_colour = static_cast<std::uint16_t>(patch->bottom_colour);
+    const geometry::SideColours colours =
+        geometry::colours_of_patch({owner.colour, owner.look.back_colour}, patch, palette);
+    owner.colour = colours.front;
+    owner.look.back_colour = colours.back;
     return owner;
 }
 
@@ -195,7 +195,7 @@ void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ
     const SurfaceMesh& shape = entry.mesh;
     const auto origin = static_cast<std::int32_t>(mesh.size());
     for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
-        SurfaceVertex vertex = placed(shape.vertices[i], organ);
+        SurfaceVertex vertex = geometry::placed(shape.vertices[i], organ);
         if (as_whole) vertex.uv = entry.whole[i];
         mesh.add_point(vertex, 0, owner_of_patch(owner, entry.patches[i], palette));
     }
@@ -204,9 +204,7 @@ void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ
         for (std::size_t k = 0; k < shape.faces[face]; ++k) {
             mesh.polygons.connectivity.add(origin + static_cast<std::int32_t>(shape.indices[at++]));
         }
-        const BicubicPatch* patch =
-            face < shape.patches.size() ? &entry.surface->patches[shape.patches[face]] : nullptr;
-        mesh.polygons.close(owner_of_patch(owner, patch, palette));
+        mesh.polygons.close(owner_of_patch(owner, entry.patch(face), palette));
     }
 }
 

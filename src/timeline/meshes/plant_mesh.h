@@ -5,8 +5,8 @@
 #include "espalier/geometry/kind.h"
 #include "espalier/timeline/frame.h"
 
+#include "geometry/organ_mesh.h"
 #include "timeline/frames/rewritten_column.h"
-#include "timeline/meshes/organ_mesh.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,6 +1,7 @@
 // Organs as the polygons and lines a viewer can show.
 #pragma once
 
+#include "espalier/geometry/palette.h"
 #include "espalier/geometry/plant_geometry.h"
 
 #include <glm/vec4.hpp>
@@ -11,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace espalier::timeline {
+namespace espalier::geometry {
 
 /// Runs of indices into vertices: the faces of a mesh, or its outlines.
 struct IndexRuns {
@@ -60,6 +61,11 @@ public:
         SurfaceMesh mesh;
         std::vector<glm::dvec2> whole;             ///< texture coordinates for one picture over the whole surface
         std::vector<const BicubicPatch*> patches;  ///< patch of each vertex, that of the last face with it; null: none
+
+        /// The patch of a face; null for a surface of triangles.
+        const BicubicPatch* patch(std::size_t face) const {
+            return face < mesh.patches.size() ? &surface->patches[mesh.patches[face]] : nullptr;
+        }
     };
     /// Null if there is no such surface.
     const Entry* find(std::uint32_t id);
@@ -70,10 +76,29 @@ private:
     std::map<std::uint32_t, Entry> entries_;
 };
 
+/// Colour indices of the two sides of something flat.
+struct SideColours {
+    std::uint16_t front, back;
+};
+
+/// The colours of an organ where its surface has this patch, which may be null. Patches may have colours of their own;
+/// where `palette` has materials they have none, as in cpfg.
+SideColours colours_of_patch(SideColours organ, const BicubicPatch* patch, const Palette* palette);
+
 /// The corners of what stands for a surface that no view file describes, from the foot around.
 std::array<glm::dvec3, 4> rhombus_of(const Organ& organ);
 
 /// A vertex of a surface where the organ stands, stretched as the organ is.
 SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ);
 
-}  // namespace espalier::timeline
+}  // namespace espalier::geometry
+
+namespace espalier {
+
+using geometry::IndexRuns;
+using geometry::OrganMesh;
+using geometry::OrganMeshes;
+using geometry::rhombus_of;
+using geometry::SurfaceMeshes;
+
+}  // namespace espalier

@@ -1,4 +1,4 @@
-#include "timeline/meshes/organ_mesh.h"
+#include "geometry/organ_mesh.h"
 
 #include "espalier/base/math.h"
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace espalier::timeline {
+namespace espalier::geometry {
 namespace {
 
 constexpr std::uint32_t sides_of_discs = 16;
@@ -191,6 +191,7 @@ const OrganMesh& OrganMeshes::of(const Organ& organ) {
 const SurfaceMeshes::Entry* SurfaceMeshes::find(std::uint32_t id) {
     const auto known = entries_.find(id);
     if (known != entries_.end()) return &known->second;
+    if (!shapes_) return nullptr;
     const auto surface = shapes_->surfaces.find(id);
     if (surface == shapes_->surfaces.end()) return nullptr;
     Entry entry{&surface->second, mesh_of(surface->second), {}, {}};
@@ -202,6 +203,13 @@ const SurfaceMeshes::Entry* SurfaceMeshes::find(std::uint32_t id) {
 bool SurfaceMeshes::textured_as_whole(const Organ& organ) const {
     const std::size_t texture = organ.look.texture;
     return texture >= 1 && texture <= shapes_->textures.size() && shapes_->textures[texture - 1].per_surface;
+}
+
+SideColours colours_of_patch(SideColours organ, const BicubicPatch* patch, const Palette* palette) {
+    if (!patch || (palette && palette->of_materials)) return organ;
+    if (patch->top_colour > 0) organ.front = static_cast<std::uint16_t>(patch->top_colour);
+    if (patch->bottom_colour > 0) organ.back = static_cast<std::uint16_t>(patch->bottom_colour);
+    return organ;
 }
 
 std::array<glm::dvec3, 4> rhombus_of(const Organ& organ) {
@@ -221,4 +229,4 @@ SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ) {
     return {pose.position + in_world(vertex.position * s), length > 0 ? normal / length : pose.up, vertex.uv};
 }
 
-}  // namespace espalier::timeline
+}  // namespace espalier::geometry
