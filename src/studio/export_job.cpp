@@ -2,6 +2,7 @@
 
 #include "espalier/formats/exporter.h"
 #include "espalier/simulation/simulation.h"
+#include "espalier/timeline/last_frame.h"
 
 #include "studio/document_files.h"
 #include "studio/textures.h"
@@ -55,27 +56,38 @@ void ExportRun::work() {
     ended_ = true;
 }
 
-// Returns the folder of the run.
-fs::path ExportRun::grow() {
+// The frames of a film, and fields, lie in files; else the last frame is in memory.
+bool ExportRun::needs_folder() const {
+    const auto format = registered<ExporterType>().find(order_.format);
+    return order_.is_film || (format != registered<ExporterType>().end() && format->second->of_fields);
+}
+
+RecordedRun ExportRun::grow() {
     const ReadLog reads(std::size_t(16) << 20, order_.unsaved, order_.permission);
     Opened opened = order_.opened;
     if (order_.step >= 0) opened.steps = order_.step;
     const Scene scene = order_.read(opened);
     note_texture_files(scene);
 
+    LastFrame last(scene.timeline);
     RunOptions options;
-    options.output = order_.scratch / "run";
+    if (needs_folder()) {
+        options.output = order_.scratch / "run";
+    } else {
+        options.recorder = &last;
+    }
     options.overwrite = true;
     options.inputs = &reads;
     options.progress = [this](const Progress& progress) {
         if (progress.steps > 0) progressed_(double(progress.step) / progress.steps);
     };
-    run(scene, options);
-    return options.output;
+    const RunResult result = run(scene, options);
+    if (!options.output.empty()) return RecordedRun(options.output);
+    return RecordedRun(result.record, {{last.step(), last.time(), {}, {}, last.geometry()}});
 }
 
 std::vector<fs::path> ExportRun::write() {
-    const RecordedRun recorded(is_run(order_.opened.path) ? order_.opened.path : grow());
+    const RecordedRun recorded = is_run(order_.opened.path) ? RecordedRun(order_.opened.path) : grow();
     if (stop_.is_asked()) return {};
     std::vector<const RecordedFrame*> frames;
     for (const RecordedFrame& frame : recorded.frames()) {

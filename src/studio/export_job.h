@@ -1,6 +1,7 @@
-// Grows what is open once more with a timeline, and writes it for another program; on a thread of its own.
+// Grows what is open once more, and writes it for another program; on a thread of its own.
 #pragma once
 
+#include "espalier/archive/recorded_run.h"
 #include "espalier/base/read_log.h"
 #include "espalier/base/stop.h"
 #include "espalier/studio/studio.h"
@@ -49,7 +50,8 @@ public:
 
 private:
     void work();
-    std::filesystem::path grow();
+    bool needs_folder() const;
+    RecordedRun grow();
     std::vector<std::filesystem::path> write();
 
     const ExportOrder order_;

@@ -105,7 +105,7 @@ public:
     }
 
     const Head& head() const { return head_; }
-    const RecordedGeometry& geometry() const { return geometry_; }
+    const FrameGeometry& geometry() const { return geometry_; }
     std::uint32_t module(std::size_t point) const { return modules_[point]; }
 
 private:
@@ -145,7 +145,7 @@ private:
         modules_.push_back(internode.module);
     }
 
-    void add_attributes(RecordedAttributes& of, const archive::Rgb& rgb, std::uint16_t order) const {
+    void add_attributes(FrameAttributes& of, const archive::Rgb& rgb, std::uint16_t order) const {
         of.identities.push_back(0);
         of.parents.push_back(0);
         of.plants.push_back(plant_);
@@ -173,7 +173,7 @@ private:
 
     PacketCursor in_;
     const Head head_;
-    RecordedGeometry geometry_;
+    FrameGeometry geometry_;
     std::vector<std::uint32_t> modules_;  ///< modules of the points
     std::vector<Line> lines_;
     std::array<std::size_t, 256> open_{};  ///< the line of each order
@@ -188,7 +188,7 @@ public:
 
     void add(const AxisLine& axis, const Tube& tube) {
         const auto origin = static_cast<std::uint32_t>(positions_.size());
-        const RecordedGeometry& geometry = axes_.geometry();
+        const FrameGeometry& geometry = axes_.geometry();
         for (const TubeVertex& vertex : tube.vertices) {
             const auto row = static_cast<std::size_t>(axis.line.nodes[vertex.node].row);
             const auto [red, green, blue] = geometry.of_points.rgb[row];
@@ -256,7 +256,7 @@ std::vector<Tube> tubes_of_plant(std::span<const AxisLine> lines, const AxisSkin
 std::string limb_mesh(std::string_view packet, const std::vector<BrowserTexture>& textures, bool smooth,
                       const ContinueCallback& may_continue) {
     const Axes axes(packet, textures);
-    const RecordedGeometry& geometry = axes.geometry();
+    const FrameGeometry& geometry = axes.geometry();
     const std::vector<AxisLine> lines =
         axis_lines(geometry, axis_paths(geometry, {}), 0, archive::thinnest_radius(geometry),
                    smooth ? archive::Forks::none : archive::Forks::rings);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
-RecordedModule module_at(const RecordedAttributes& of, std::size_t row) {
+RecordedModule module_at(const FrameAttributes& of, std::size_t row) {
     return {{of.plants[row], of.identities[row]}, of.parents[row], of.symbols[row], of.births[row], of.orders[row], {}};
 }
 
@@ -27,19 +27,19 @@ Rgba rgba(const archive::Rgb& rgb, double opacity) {
 }  // namespace
 
 DrawnFrame::DrawnFrame(const RecordedRun& run, const RecordedFrame& frame) : geometry_(run.geometry(frame)) {
-    const std::vector<RecordedInternode> internodes = internodes_of(geometry_);
+    const std::vector<FrameInternode> internodes = internodes_of(geometry_);
     find_modules(run, internodes);
     add_internodes(internodes);
     add_surfaces(run);
 }
 
-void DrawnFrame::find_modules(const RecordedRun& run, const std::vector<RecordedInternode>& internodes) {
+void DrawnFrame::find_modules(const RecordedRun& run, const std::vector<FrameInternode>& internodes) {
     const auto add = [this](RecordedModule module, std::int32_t point) {
         if (!numbers_.try_emplace(module.organ).second) return;
         module.point = static_cast<std::size_t>(point);
         modules_.push_back(std::move(module));
     };
-    for (const RecordedInternode& internode : internodes) {
+    for (const FrameInternode& internode : internodes) {
         add(module_at(geometry_.of_points, static_cast<std::size_t>(internode.tip_point)), internode.tip_point);
     }
     for (std::size_t i = 0; i < geometry_.polygons.size(); ++i) {
@@ -57,11 +57,11 @@ void DrawnFrame::find_modules(const RecordedRun& run, const std::vector<Recorded
     }
 }
 
-void DrawnFrame::add_internodes(const std::vector<RecordedInternode>& internodes) {
-    for (const RecordedInternode& one : internodes) {
+void DrawnFrame::add_internodes(const std::vector<FrameInternode>& internodes) {
+    for (const FrameInternode& one : internodes) {
         parts_.extent.add(one.base, one.tip, double(one.base_radius), double(one.tip_radius));
     }
-    for (const RecordedInternode& one : internodes) {
+    for (const FrameInternode& one : internodes) {
         parts_.internodes.push_back({parts_.extent.parts(one.base), parts_.extent.parts(one.tip),
                                      parts_.extent.part_of_radius(double(one.base_radius)),
                                      parts_.extent.part_of_radius(double(one.tip_radius)),

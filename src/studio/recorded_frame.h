@@ -39,12 +39,12 @@ public:
     std::string packet(std::uint32_t growth, int step) const { return parts_.bytes(growth, step); }
 
 private:
-    void find_modules(const RecordedRun& run, const std::vector<RecordedInternode>& internodes);
-    void add_internodes(const std::vector<RecordedInternode>& internodes);
+    void find_modules(const RecordedRun& run, const std::vector<FrameInternode>& internodes);
+    void add_internodes(const std::vector<FrameInternode>& internodes);
     void add_surfaces(const RecordedRun& run);
     std::uint32_t number_of(const OrganKey& organ) const { return numbers_.at(organ); }
 
-    RecordedGeometry geometry_;
+    FrameGeometry geometry_;
     std::vector<RecordedModule> modules_;
     std::map<OrganKey, std::uint32_t> numbers_;
     PacketParts parts_;

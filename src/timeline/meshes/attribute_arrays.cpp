@@ -26,13 +26,15 @@ void for_each_owner(const Owners& owners, const Visit& visit) {
     }
 }
 
-/// How a file is reached from a folder; both are relative to the current one, or absolute.
-std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+/// How a file is reached from a folder; both are relative to the current one, or absolute. Without a folder the whole
+/// path.
+std::string name_from(const std::optional<std::filesystem::path>& folder, const std::filesystem::path& file) {
     if (file.empty()) return "";
     const auto whole = [](const std::filesystem::path& path) {
         return std::filesystem::absolute(path).lexically_normal();
     };
-    return whole(file).lexically_relative(whole(folder.empty() ? "." : folder)).generic_string();
+    if (!folder) return whole(file).generic_string();
+    return whole(file).lexically_relative(whole(folder->empty() ? "." : *folder)).generic_string();
 }
 
 }  // namespace
@@ -58,6 +60,12 @@ DataArray OwnerArrays::operator[](std::size_t i) const {
     DataArray data = arrays_[i].data;
     data.changed = arrays_[i].changed;
     return data;
+}
+
+const OwnerArrays::Array* OwnerArrays::find(std::string_view name) const {
+    const auto end = arrays_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto found = std::find_if(arrays_.begin(), end, [&](const Array& array) { return array.data.name == name; });
+    return found == end ? nullptr : &*found;
 }
 
 bool OwnerArrays::changed() const {
@@ -100,7 +108,8 @@ void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) 
     });
 }
 
-void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners, const std::filesystem::path& folder,
+void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
+                                const std::optional<std::filesystem::path>& folder,
                                 std::vector<std::string>& texture_files) const {
     // Texture k of a plant is file numbers[k] of the run, whose file 0 is none.
     if (texture_files.empty()) texture_files.emplace_back();

@@ -1,4 +1,4 @@
-#include "espalier/archive/recorded_run.h"
+#include "espalier/geometry/frame_geometry.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace espalier::archive {
+namespace espalier::geometry {
 namespace {
 
 /// A place of a plant, bit for bit: an axis begins exactly where the turtle was.
@@ -32,16 +32,16 @@ struct SpotHash {
 /// Finds what an axis stands on, among the axes that came before it.
 class Bearers {
 public:
-    explicit Bearers(const std::vector<RecordedInternode>& internodes) : internodes_(internodes) {}
+    explicit Bearers(const std::vector<FrameInternode>& internodes) : internodes_(internodes) {}
 
-    std::int32_t of(const RecordedInternode& first) const {
+    std::int32_t of(const FrameInternode& first) const {
         const Spot spot{first.plant, first.base};
         const std::int32_t ended = best(tips_, spot, first.order);
-        return ended != RecordedInternode::none ? ended : best(bases_, spot, first.order);
+        return ended != FrameInternode::none ? ended : best(bases_, spot, first.order);
     }
 
     void add(std::int32_t number) {
-        const RecordedInternode& internode = internodes_[static_cast<std::size_t>(number)];
+        const FrameInternode& internode = internodes_[static_cast<std::size_t>(number)];
         put(tips_[{internode.plant, internode.tip}], internode.order, number);
         put(bases_[{internode.plant, internode.base}], internode.order, number);
     }
@@ -62,23 +62,23 @@ private:
 
     // The last of lower order; if none is of lower order, the last.
     static std::int32_t best(const Spots& spots, const Spot& spot, std::uint16_t order) {
-        std::int32_t lower = RecordedInternode::none, any = RecordedInternode::none;
+        std::int32_t lower = FrameInternode::none, any = FrameInternode::none;
         const auto found = spots.find(spot);
         if (found == spots.end()) return any;
         for (const auto& [known, last] : found->second) {
             any = std::max(any, last);
             if (known < order) lower = std::max(lower, last);
         }
-        return lower != RecordedInternode::none ? lower : any;
+        return lower != FrameInternode::none ? lower : any;
     }
 
-    const std::vector<RecordedInternode>& internodes_;
+    const std::vector<FrameInternode>& internodes_;
     Spots tips_, bases_;
 };
 
-RecordedInternode internode(const RecordedGeometry& geometry, std::size_t line, std::int32_t base, std::int32_t tip) {
+FrameInternode internode(const FrameGeometry& geometry, std::size_t line, std::int32_t base, std::int32_t tip) {
     const auto from = static_cast<std::size_t>(base), to = static_cast<std::size_t>(tip);
-    const RecordedAttributes& of = geometry.of_points;
+    const FrameAttributes& of = geometry.of_points;
     return {geometry.points[from],
             geometry.points[to],
             geometry.radii[from],
@@ -91,22 +91,22 @@ RecordedInternode internode(const RecordedGeometry& geometry, std::size_t line, 
             of.colours[to],
             of.births[to],
             static_cast<std::uint32_t>(line),
-            RecordedInternode::none,
+            FrameInternode::none,
             base,
             tip};
 }
 
 }  // namespace
 
-std::vector<RecordedInternode> internodes_of(const RecordedGeometry& geometry) {
-    std::vector<RecordedInternode> internodes;
+std::vector<FrameInternode> internodes_of(const FrameGeometry& geometry) {
+    std::vector<FrameInternode> internodes;
     Bearers bearers(internodes);
     for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
         if (geometry.of_cells.kinds[geometry.lines.first + line] != Kind::axis) continue;
         const auto points = geometry.lines[line];
         const std::size_t first = internodes.size();
         for (std::size_t i = 1; i < points.size(); ++i) {
-            RecordedInternode next = internode(geometry, line, points[i - 1], points[i]);
+            FrameInternode next = internode(geometry, line, points[i - 1], points[i]);
             next.bearer = i == 1 ? bearers.of(next) : static_cast<std::int32_t>(internodes.size()) - 1;
             internodes.push_back(next);
         }
@@ -115,4 +115,4 @@ std::vector<RecordedInternode> internodes_of(const RecordedGeometry& geometry) {
     return internodes;
 }
 
-}  // namespace espalier::archive
+}  // namespace espalier::geometry

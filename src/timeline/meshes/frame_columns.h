@@ -1,0 +1,63 @@
+// A frame's plants as the points, cells and arrays that its file holds.
+#pragma once
+
+#include "espalier/geometry/frame_geometry.h"
+#include "espalier/timeline/frame.h"
+
+#include "timeline/meshes/attribute_arrays.h"
+#include "timeline/meshes/chosen_parameters.h"
+#include "timeline/meshes/plant_mesh.h"
+#include "timeline/meshes/symbol_numbers.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier::timeline {
+
+class VtkFile;
+
+/// Written anew for every frame, over the frame before.
+class FrameColumns {
+public:
+    /// Files of textures are named from `folder`, or by their whole paths if there is none. Queries are shown where one
+    /// of their parameters is chosen.
+    explicit FrameColumns(std::optional<std::filesystem::path> folder, std::vector<ChosenParameter> chosen = {});
+
+    void fill(const Frame& frame);
+    /// Adds all but the time to a file that has begun.
+    void put_into(VtkFile& file, double time, int step) const;
+    FrameGeometry geometry() const;
+    /// Since the frame before.
+    bool changed() const;
+
+    /// Frees the memory of the frame.
+    void release();
+
+    bool shows_queries() const;
+    const std::vector<ChosenParameter>& chosen() const { return chosen_; }
+    /// Those of all frames so far, the first "".
+    const std::vector<std::string>& texture_files() const { return texture_files_; }
+    /// The files come first, as after the frames that had them.
+    void expect(std::vector<std::string> texture_files) { texture_files_ = std::move(texture_files); }
+
+private:
+    void fill_mesh(const Frame& frame);
+    void fill_arrays(const Frame& frame);
+    void add_asked_queries(const PlantFrame& plant, std::uint32_t index);
+
+    std::optional<std::filesystem::path> folder_;
+    std::vector<ChosenParameter> chosen_;
+    OrganSource organs_;
+    SymbolNumbers symbols_;
+    std::vector<std::string> texture_files_;
+
+    PlantMesh mesh_;
+    Owners cell_owners_;  ///< VTK counts a data set's cells so: vertices, lines, polygons
+    OwnerArrays of_points_, of_cells_;
+    std::size_t texts_before_ = 0;  ///< texture files and symbols, which only grow
+    bool texts_changed_ = false;
+};
+
+}  // namespace espalier::timeline
