@@ -66,6 +66,7 @@ public:
     bool has_packet(int step) const override { return steps_->has_packet(step); }
     void draw(int step) override;
     std::string packet(int step) const override { return steps_->packet(step); }
+    LimbAxes limb_axes(int step) const override { return steps_->limb_axes(step); }
     std::vector<std::string> shapes() const override { return steps_->shapes(); }
     std::vector<BrowserTexture> textures() const override { return steps_->textures(); }
     std::vector<std::string> column_names() const override;

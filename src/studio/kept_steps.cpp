@@ -58,7 +58,7 @@ std::size_t KeptSteps::add(const timeline::Frame& frame) {
         for (const timeline::PlantFrame& plant : frame.plants) derived.plants.push_back({plant.string, ""});
         drawn.strings = std::make_shared<const StepStrings>(std::move(derived), nullptr);
     }
-    drawn.packet = std::make_shared<const std::string>(std::move(packet.bytes));
+    drawn.drawing = std::make_shared<const Drawing>(Drawing{std::move(packet.bytes), std::move(packet.axes)});
     keep(frame.step, std::move(drawn));
     return packet.internodes;
 }
@@ -78,8 +78,8 @@ void KeptSteps::file_oldest() {
         std::find_if(steps_.begin(), steps_.end(), [](const auto& entry) { return entry.second.is_in_memory(); });
     Step& step = oldest->second;
     in_memory_ -= step.bytes();
-    if (step.packet) step.filed_packet = spool_->add(*step.packet);
-    step.packet.reset();
+    if (step.drawing) step.filed_drawing = {spool_->add(step.drawing->packet), spool_->add(step.drawing->axes)};
+    step.drawing.reset();
     if (!step.strings->is_filed()) step.strings = step.strings->filed(spool_);
     in_memory_ += step.bytes();
 }
@@ -92,12 +92,18 @@ bool KeptSteps::has(int step) const {
 bool KeptSteps::has_packet(int step) const {
     const std::lock_guard lock(mutex_);
     const auto found = steps_.find(step);
-    return found != steps_.end() && (found->second.packet || found->second.filed_packet);
+    return found != steps_.end() && (found->second.drawing || found->second.filed_drawing);
 }
 
 std::string KeptSteps::packet(int number) const {
     const Step kept = step(number);
-    return kept.packet ? *kept.packet : spool_->text(kept.filed_packet.value());
+    return kept.drawing ? kept.drawing->packet : spool_->text(kept.filed_drawing.value().packet);
+}
+
+LimbAxes KeptSteps::limb_axes(int number) const {
+    const Step kept = step(number);
+    const KeptAxes axes(kept.drawing ? kept.drawing->axes : spool_->text(kept.filed_drawing.value().axes));
+    return axes.axes(textures());
 }
 
 std::vector<std::string> KeptSteps::shapes() const {

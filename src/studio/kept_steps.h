@@ -4,6 +4,7 @@
 #include "espalier/lsystem/module_string.h"
 #include "espalier/timeline/frame.h"
 
+#include "studio/limb_axes.h"
 #include "studio/packet.h"
 #include "studio/spool.h"
 #include "studio/step_strings.h"
@@ -45,6 +46,8 @@ public:
     bool has_packet(int step) const;
     /// The packet of a step that was drawn.
     std::string packet(int step) const;
+    /// Its axes.
+    LimbAxes limb_axes(int step) const;
     /// The messages with all surfaces that packets have used so far, in the order in which they came.
     std::vector<std::string> shapes() const;
     /// What packets have worn so far.
@@ -57,14 +60,22 @@ public:
     ModuleString string(int step, std::size_t plant) const;
 
 private:
+    struct Drawing {
+        std::string packet, axes;  ///< bytes of each
+    };
+    struct FiledDrawing {
+        Spool::Place packet, axes;
+    };
     struct Step {
-        std::shared_ptr<const std::string> packet;  ///< null: it was not drawn, or is in the file
-        std::optional<Spool::Place> filed_packet;
+        std::shared_ptr<const Drawing> drawing;  ///< null: it was not drawn, or is in the file
+        std::optional<FiledDrawing> filed_drawing;
         std::shared_ptr<const StepStrings> strings;
         std::shared_ptr<const ReusePlan> changes;  ///< to be made in the strings; null: none
 
-        std::size_t bytes() const { return (packet ? packet->size() : 0) + strings->bytes(); }
-        bool is_in_memory() const { return packet || !strings->is_filed(); }
+        std::size_t bytes() const {
+            return (drawing ? drawing->packet.size() + drawing->axes.size() : 0) + strings->bytes();
+        }
+        bool is_in_memory() const { return drawing || !strings->is_filed(); }
         ModuleString string(std::size_t plant) const;
     };
 

@@ -1,30 +1,30 @@
 // The limbs of a step as pictures have them: tubes that run into each other or one smooth skin, with bark.
 #pragma once
 
-#include "studio/textures.h"
+#include "studio/limb_axes.h"
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <thread>
-#include <vector>
 
 namespace espalier::studio {
 
 /// Told which part is done; false: it is not wanted any more.
 using ContinueCallback = std::function<bool(double share)>;
 
-/// The message `ESM1` of docs/studio-protocol.md, from the packet `ESP1` of the step; "" if it was not wanted any
-/// more. Throws UserError as `skin_voxel` does.
-std::string limb_mesh(std::string_view packet, const std::vector<BrowserTexture>& textures, bool smooth,
-                      const ContinueCallback& may_continue);
-
 struct LimbOrder {
-    std::string packet;
-    std::vector<BrowserTexture> textures;
+    LimbAxes axes;
+    std::uint32_t growth = 0;
+    int step = 0;
     bool smooth = false;
 };
+
+/// The message `ESM1` of docs/studio-protocol.md; "" if it was not wanted any more. Throws UserError as `skin_voxel`
+/// does.
+std::string limb_mesh(const LimbOrder& order, const ContinueCallback& may_continue);
 
 /// Makes one on a thread of its own.
 class LimbRun {
@@ -32,7 +32,7 @@ public:
     /// Called on the job's thread. Without bytes, `why` says what is wrong.
     using Done = std::function<void(std::string bytes, std::string why)>;
 
-    LimbRun(LimbOrder order, std::function<void(double share)> progressed, Done done);
+    LimbRun(std::shared_ptr<const LimbOrder> order, std::function<void(double share)> progressed, Done done);
     /// Waits for the plant at hand.
     ~LimbRun();
     LimbRun(const LimbRun&) = delete;
@@ -45,7 +45,7 @@ public:
 private:
     void work();
 
-    const LimbOrder order_;
+    const std::shared_ptr<const LimbOrder> order_;
     const std::function<void(double)> progressed_;
     const Done done_;
     std::atomic<bool> cancelled_ = false, ended_ = false;

@@ -6,6 +6,7 @@
 #include "geometry/polygon_texture.h"
 #include "geometry/polygon_triangles.h"
 #include "geometry/vectors.h"
+#include "studio/limb_axes.h"
 #include "studio/message_bytes.h"
 #include "studio/packet_parts.h"
 
@@ -99,10 +100,23 @@ public:
         }
         parts_.first_modules.assign(firsts.begin(), firsts.end() - 1);
         parts_.triangles.sort();
-        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), parts_.internodes.size()};
+        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), axes().bytes(), parts_.internodes.size()};
     }
 
 private:
+    KeptAxes axes() {
+        std::vector<Colours> colours;
+        for (const timeline::PlantFrame& plant : frame_.plants) colours.emplace_back(plant.palette);
+        const auto colour = [&](std::uint32_t plant, std::uint16_t index) {
+            const Rgba rgba = colours[plant].of(index, true);
+            return KeptAxes::Rgb{rgba[0], rgba[1], rgba[2]};
+        };
+        const auto texture = [&](std::uint32_t plant, std::uint16_t number) {
+            return picture(frame_.plants[plant].interpretation->geometry, number);
+        };
+        return KeptAxes(frame_, {colour, texture});
+    }
+
     void add_internodes(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
         parts_.internodes.reserve(parts_.internodes.size() + geometry.internodes.size());
         for (const Internode& internode : geometry.internodes) {

@@ -23,6 +23,7 @@ std::vector<std::uint32_t> first_modules(const timeline::Frame& frame);
 struct Packet {
     std::string shapes;  ///< the message with the surfaces that this packet is the first to use; may be empty
     std::string bytes;
+    std::string axes;  ///< bytes of KeptAxes
     std::size_t internodes = 0;
 };
 

@@ -137,4 +137,10 @@ std::string PacketParts::bytes(std::uint32_t growth, int step) const {
     return out.take();
 }
 
+std::string PacketParts::of_step(int step, std::string bytes) {
+    constexpr std::size_t place = 4 + sizeof(std::uint32_t);  // behind the letters and the growth
+    const auto number = static_cast<std::int32_t>(step);
+    return bytes.replace(place, sizeof number, reinterpret_cast<const char*>(&number), sizeof number);
+}
+
 }  // namespace espalier::studio

@@ -86,6 +86,8 @@ struct PacketParts {
     std::vector<ShownLabel> labels;
 
     std::string bytes(std::uint32_t growth, int step) const;
+    /// The bytes of the same parts, shown at another step.
+    static std::string of_step(int step, std::string bytes);
 };
 
 }  // namespace espalier::studio

@@ -6,6 +6,7 @@
 #include "espalier/studio/studio.h"
 
 #include "studio/document.h"
+#include "studio/limb_axes.h"
 #include "studio/textures.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -79,8 +80,9 @@ public:
     virtual bool has_packet(int step) const = 0;
     /// A step that has been derived is drawn next.
     virtual void draw(int step) = 0;
-    // As docs/studio-protocol.md has them. A packet is that of a step that was drawn.
+    // As docs/studio-protocol.md has them. Packets and axes are those of a step that was drawn.
     virtual std::string packet(int step) const = 0;
+    virtual LimbAxes limb_axes(int step) const = 0;
     virtual std::vector<std::string> shapes() const = 0;
     virtual std::vector<BrowserTexture> textures() const = 0;
     virtual std::vector<std::string> column_names() const = 0;

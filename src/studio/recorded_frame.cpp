@@ -89,6 +89,17 @@ void DrawnFrame::add_surfaces(const RecordedRun& run) {
     parts_.triangles.sort();
 }
 
+LimbAxes DrawnFrame::limb_axes() const {
+    LimbAxes axes{geometry_, std::vector<std::uint32_t>(geometry_.points.size(), 0)};
+    std::fill(axes.geometry.textures.begin(), axes.geometry.textures.end(), std::uint16_t{0});
+    const FrameAttributes& of = geometry_.of_points;
+    for (std::size_t i = 0; i < axes.modules.size(); ++i) {
+        const auto number = numbers_.find({of.plants[i], of.identities[i]});
+        if (number != numbers_.end()) axes.modules[i] = number->second;
+    }
+    return axes;
+}
+
 std::vector<std::pair<std::string, double>> DrawnFrame::parameters(const RecordedModule& module) const {
     std::vector<std::pair<std::string, double>> known;
     for (const auto& [name, values] : geometry_.parameters) {

@@ -4,6 +4,7 @@
 #include "espalier/archive/organ_history.h"
 #include "espalier/archive/recorded_run.h"
 
+#include "studio/limb_axes.h"
 #include "studio/packet_parts.h"
 
 #include <cstdint>
@@ -37,6 +38,8 @@ public:
     /// The messages of docs/studio-protocol.md. Throws UserError if there is no such column.
     std::string column(std::uint32_t growth, int step, const std::string& name) const;
     std::string packet(std::uint32_t growth, int step) const { return parts_.bytes(growth, step); }
+    /// They wear nothing: packets of recorded frames name no textures.
+    LimbAxes limb_axes() const;
 
 private:
     void find_modules(const RecordedRun& run, const std::vector<FrameInternode>& internodes);

@@ -225,10 +225,7 @@ bool Recording::has_packet(int step) const {
 // Under the step that was asked for: pages wait for that.
 std::string Recording::packet(int step) const {
     const std::lock_guard lock(mutex_);
-    std::string bytes = packets_.at(frame_at(step));
-    constexpr std::size_t place_of_step = 8;
-    const auto number = static_cast<std::int32_t>(step);
-    return bytes.replace(place_of_step, sizeof number, reinterpret_cast<const char*>(&number), sizeof number);
+    return PacketParts::of_step(step, packets_.at(frame_at(step)));
 }
 
 std::shared_ptr<const DrawnFrame> Recording::frame(std::size_t number) const {

@@ -42,6 +42,7 @@ public:
     bool has_packet(int step) const override;
     void draw(int step) override;
     std::string packet(int step) const override;
+    LimbAxes limb_axes(int step) const override { return frame(frame_at(step))->limb_axes(); }
     std::vector<std::string> shapes() const override { return {}; }
     std::vector<BrowserTexture> textures() const override { return {}; }
     std::vector<std::string> column_names() const override { return columns_; }

@@ -43,7 +43,7 @@ Json Session::limbs(Viewer& viewer, const Json& request) {
             post_([this, why] { notify("error", why); });
         }
     };
-    LimbOrder order{shown.packet(step), shown.textures(), smooth};
+    auto order = std::make_shared<const LimbOrder>(LimbOrder{shown.limb_axes(step), shown.number(), step, smooth});
     waiting_limbs_[page] = [order = std::move(order), progressed, done] {
         return std::make_unique<LimbRun>(order, progressed, done);
     };
