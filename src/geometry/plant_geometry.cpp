@@ -1,5 +1,7 @@
 #include "espalier/geometry/plant_geometry.h"
 
+#include "geometry/drawn_columns.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -18,15 +20,7 @@ void Box::add(const Box& box) {
 }
 
 void PlantGeometry::clear() {
-    internodes.clear();
-    polygons.clear();
-    vertices.clear();
-    organs.clear();
-    mesh.vertices.clear();
-    mesh.triangles.clear();
-    mesh.pieces.clear();
-    labels.clear();
-    textures.clear();
+    for_drawn_columns(*this, [](auto& column) { column.clear(); });
     shapes.reset();
     in_pixels = false;
     axes = 0;

@@ -1,5 +1,7 @@
 #include "timeline/frames/kept_frame.h"
 
+#include "geometry/drawn_columns.h"
+
 #include <algorithm>
 
 namespace espalier::timeline {
@@ -11,9 +13,9 @@ std::size_t bytes_of(const Values& values) {
 }
 
 std::size_t bytes_of(const PlantGeometry& geometry) {
-    return bytes_of(geometry.internodes) + bytes_of(geometry.polygons) + bytes_of(geometry.vertices) +
-           bytes_of(geometry.organs) + bytes_of(geometry.mesh.vertices) + bytes_of(geometry.mesh.triangles) +
-           bytes_of(geometry.mesh.pieces) + bytes_of(geometry.labels) + bytes_of(geometry.textures);
+    std::size_t bytes = 0;
+    geometry::for_drawn_columns(geometry, [&bytes](const auto& column) { bytes += bytes_of(column); });
+    return bytes;
 }
 
 }  // namespace
