@@ -1,8 +1,8 @@
 #include "studio/limb_axes.h"
 
+#include "geometry/drawn/plant_mesh.h"
 #include "studio/message_bytes.h"
 #include "studio/packet.h"
-#include "timeline/meshes/plant_mesh.h"
 
 #include <algorithm>
 #include <numeric>
@@ -23,7 +23,7 @@ void KeptAxes::for_columns(Self& self, const Visit& visit) {
 }
 
 KeptAxes::KeptAxes(const timeline::Frame& frame, const Look& look) {
-    timeline::PlantMesh mesh;
+    geometry::PlantMesh mesh;
     mesh.begin();
     for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
         add_axes(mesh, frame.plants[i].interpretation->geometry, i);
@@ -37,7 +37,7 @@ KeptAxes::KeptAxes(const timeline::Frame& frame, const Look& look) {
     const std::vector<std::uint32_t> firsts = first_modules(frame);
     const std::span<const std::uint32_t> ends = mesh.owners.ends.values();
     for (std::size_t run = 0; run < ends.size(); ++run) {
-        const timeline::Owner& owner = mesh.owners.values[run];
+        const geometry::Owner& owner = mesh.owners.values[run];
         modules_.resize(ends[run], firsts[owner.plant] + owner.module);
         orders_.resize(ends[run], owner.order);
         rgb_.resize(ends[run], look.colour(owner.plant, owner.colour));
@@ -45,7 +45,7 @@ KeptAxes::KeptAxes(const timeline::Frame& frame, const Look& look) {
     ends_.assign(mesh.lines.offsets.values().begin(), mesh.lines.offsets.values().end());
     const std::span<const std::uint32_t> line_ends = mesh.lines.owners.ends.values();
     for (std::size_t run = 0; run < line_ends.size(); ++run) {
-        const timeline::Owner& owner = mesh.lines.owners.values[run];
+        const geometry::Owner& owner = mesh.lines.owners.values[run];
         plants_.resize(line_ends[run], owner.plant);
         textures_.resize(line_ends[run], static_cast<std::uint16_t>(look.texture(owner.plant, owner.look.texture)));
     }

@@ -2,10 +2,7 @@
 
 #include "espalier/geometry/surface.h"
 
-#include "geometry/organ_mesh.h"
-#include "geometry/polygon_texture.h"
-#include "geometry/polygon_triangles.h"
-#include "geometry/vectors.h"
+#include "geometry/drawn/plant_mesh.h"
 #include "studio/limb_axes.h"
 #include "studio/message_bytes.h"
 #include "studio/packet_parts.h"
@@ -65,11 +62,6 @@ std::array<float, 12> matrix(const glm::dvec3& x, const glm::dvec3& y, const glm
     return rows;
 }
 
-/// Newell's normal: right for polygons that are not quite flat.
-glm::dvec3 normal_of_polygon(std::span<const glm::dvec3> corners) {
-    return unit_or(geometry::area_vector(corners.size(), [&](std::size_t i) { return corners[i]; }), {0, 1, 0});
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> first_modules(const timeline::Frame& frame) {
@@ -89,24 +81,26 @@ public:
 
     Packet write() {
         const std::vector<std::uint32_t> firsts = first_modules(frame_);
-        for (std::size_t i = 0; i < frame_.plants.size(); ++i) {
-            const timeline::PlantFrame& plant = frame_.plants[i];
-            Colours colours(plant.palette);
-            add_internodes(plant.interpretation->geometry, firsts[i], colours);
-            add_polygons(plant.interpretation->geometry, firsts[i], colours);
-            add_mesh(plant.interpretation->geometry, firsts[i], colours);
-            add_organs(plant.interpretation->geometry, firsts[i], colours);
-            add_labels(plant.interpretation->geometry, firsts[i], colours);
+        std::vector<Colours> colours;
+        for (const timeline::PlantFrame& plant : frame_.plants) colours.emplace_back(plant.palette);
+        mesh_.begin();
+        for (std::uint32_t i = 0; i < frame_.plants.size(); ++i) {
+            const PlantGeometry& geometry = frame_.plants[i].interpretation->geometry;
+            add_internodes(geometry, firsts[i], colours[i]);
+            add_polygons(mesh_, geometry, i);
+            add_pieces(mesh_, geometry, i);
+            add_organs(geometry, i, firsts[i], colours[i]);
+            add_labels(geometry, firsts[i], colours[i]);
         }
+        add_mesh(firsts, colours);
         parts_.first_modules.assign(firsts.begin(), firsts.end() - 1);
         parts_.triangles.sort();
-        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), axes().bytes(), parts_.internodes.size()};
+        return {shapes_message(), parts_.bytes(writer_.growth_, frame_.step), axes(colours).bytes(),
+                parts_.internodes.size()};
     }
 
 private:
-    KeptAxes axes() {
-        std::vector<Colours> colours;
-        for (const timeline::PlantFrame& plant : frame_.plants) colours.emplace_back(plant.palette);
+    KeptAxes axes(std::vector<Colours>& colours) {
         const auto colour = [&](std::uint32_t plant, std::uint16_t index) {
             const Rgba rgba = colours[plant].of(index, true);
             return KeptAxes::Rgb{rgba[0], rgba[1], rgba[2]};
@@ -141,54 +135,53 @@ private:
         return geometry.shapes ? writer_.texture_of(*geometry.shapes, texture) : 0;
     }
 
-    void add_polygon(std::span<const glm::dvec3> corners, Rgba colour, std::uint32_t module, std::uint32_t texture) {
-        if (corners.size() < 3) return;
-        const glm::dvec3 normal = normal_of_polygon(corners);
-        std::vector<std::uint32_t> cut = geometry::triangles_of(corners, normal);
-        for (std::uint32_t i = 2; cut.size() < 3 * (corners.size() - 2) && i < corners.size(); ++i) {
-            cut.insert(cut.end(), {0, i - 1, i});
-        }
-        const auto origin = static_cast<std::uint32_t>(parts_.triangles.points.size());
-        std::vector<glm::dvec2> uvs(corners.size());
-        if (texture > 0) uvs = geometry::texture_coordinates(corners, normal);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            parts_.triangles.add({corners[i], normal, uvs[i]}, colour, module);
-        }
-        for (const std::uint32_t corner : cut) parts_.triangles.indices.push_back(origin + corner);
-        parts_.triangles.set_texture(texture);
-    }
-
-    void add_polygons(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
-        for (const Polygon& polygon : geometry.polygons) {
-            add_polygon(std::span(geometry.vertices).subspan(polygon.first, polygon.count),
-                        colours.of(polygon.colour, false), first + polygon.module,
-                        picture(geometry, polygon.look.texture));
-        }
-    }
-
-    // Pieces of a cylinder share rings: a vertex is the first piece's that uses it.
-    void add_mesh(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
-        const DrawnMesh& mesh = geometry.mesh;
-        constexpr std::uint32_t unused = 0xFFFFFFFF;
-        std::vector<std::uint32_t> written(mesh.vertices.size(), unused);
-        for (const MeshPiece& piece : mesh.pieces) {
-            const Rgba colour = colours.of(piece.colour, piece.kind == MeshPiece::Kind::cylinder);
-            for (const std::uint32_t index : std::span(mesh.triangles).subspan(piece.first, piece.count)) {
-                std::uint32_t& place = written[index];
-                if (place == unused) place = parts_.triangles.add(mesh.vertices[index], colour, first + piece.module);
-                parts_.triangles.indices.push_back(place);
+    // Triangles of all that stands once: polygons, cylinders, patches, and what no view file describes.
+    void add_mesh(const std::vector<std::uint32_t>& firsts, std::vector<Colours>& colours) {
+        mesh_.end();
+        const std::span<const float> places = mesh_.points.values(), normals = mesh_.normals.values(),
+                                     uvs = mesh_.uvs.values();
+        const std::span<const std::uint32_t> ends = mesh_.owners.ends.values();
+        std::size_t point = 0;
+        for (std::size_t run = 0; run < ends.size(); ++run) {
+            const geometry::Owner& owner = mesh_.owners.values[run];
+            const Rgba colour = colours[owner.plant].of(owner.colour, owner.kind == Kind::cylinder);
+            for (; point < ends[run]; ++point) {
+                const std::size_t at = 3 * point;
+                parts_.triangles.add({{places[at], places[at + 1], places[at + 2]},
+                                      {normals[at], normals[at + 1], normals[at + 2]},
+                                      {uvs[2 * point], uvs[2 * point + 1]}},
+                                     colour, firsts[owner.plant] + owner.module);
             }
-            parts_.triangles.set_texture(picture(geometry, piece.look.texture));
+        }
+        add_cells(mesh_.polygons);
+    }
+
+    void add_cells(const geometry::Cells& cells) {
+        const std::span<const std::int32_t> offsets = cells.offsets.values(), corners = cells.connectivity.values();
+        const std::span<const std::uint32_t> ends = cells.owners.ends.values();
+        std::size_t cell = 0;
+        std::int32_t first = 0;
+        for (std::size_t run = 0; run < ends.size(); ++run) {
+            const geometry::Owner& owner = cells.owners.values[run];
+            for (; cell < ends[run]; first = offsets[cell++]) {
+                for (std::int32_t k = first + 2; k < offsets[cell]; ++k) {
+                    for (const std::int32_t corner : {first, k - 1, k}) {
+                        const auto at = static_cast<std::size_t>(corner);
+                        parts_.triangles.indices.push_back(static_cast<std::uint32_t>(corners[at]));
+                    }
+                }
+            }
+            parts_.triangles.set_texture(
+                picture(frame_.plants[owner.plant].interpretation->geometry, owner.look.texture));
         }
     }
 
-    void add_organs(const PlantGeometry& geometry, std::uint32_t first, Colours& colours) {
+    void add_organs(const PlantGeometry& geometry, std::uint32_t plant, std::uint32_t first, Colours& colours) {
         for (const Organ& organ : geometry.organs) {
-            const Rgba colour = colours.of(organ.colour, false);
             const bool is_surface = organ.shape == Organ::Shape::surface;
             const std::optional<std::uint32_t> shape = shape_of(organ, geometry.shapes);
             if (!shape) {
-                add_polygon(rhombus_of(organ), colour, first + organ.module, 0);
+                add_organ(mesh_, plain_.of(organ), {plant, organ.module, organ.order, organ.colour, Kind::organ});
                 continue;
             }
             const Pose& pose = organ.pose;
@@ -196,7 +189,7 @@ private:
             // Round organs lie across `up`; surfaces have x along left, y along heading, z along up.
             const glm::dvec3 size = is_surface ? organ.size : glm::dvec3(organ.size.x);
             group.places.push_back(matrix(size.x * pose.left, size.y * pose.heading, size.z * pose.up, pose.position));
-            group.colours.push_back(colour);
+            group.colours.push_back(colours.of(organ.colour, false));
             group.modules.push_back(first + organ.module);
         }
     }
@@ -273,6 +266,8 @@ private:
     PacketWriter& writer_;
     const timeline::Frame& frame_;
     PacketParts parts_;
+    geometry::PlantMesh mesh_;
+    OrganMeshes plain_;
     std::vector<NewShape> new_shapes_;
 };
 

@@ -9,6 +9,8 @@
 
 namespace espalier::timeline {
 
+class FrameColumns;
+
 /// Keeps what a run ends with: its plants as their file in a timeline would hold them, but for textures, which are
 /// named by their whole paths.
 class LastFrame final : public Recorder {
@@ -29,9 +31,7 @@ public:
     const std::vector<std::vector<Quantity>>& quantities() const { return quantities_; }
 
 private:
-    struct Columns;
-
-    std::unique_ptr<Columns> columns_;
+    std::unique_ptr<FrameColumns> columns_;
     int step_ = 0;
     double time_ = 0;
     std::shared_ptr<const FrameGeometry> geometry_;

@@ -5,7 +5,7 @@
 
 #include "environment/canopy/leaf_angles.h"
 #include "environment/canopy/medium.h"
-#include "geometry/drawn_faces.h"
+#include "geometry/drawn/faces.h"
 
 #include <glm/vec3.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "espalier/geometry/plant_geometry.h"
 
-#include "geometry/drawn_faces.h"
+#include "geometry/drawn/faces.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,6 +1,6 @@
 #include "environment/shade/leaf_area.h"
 
-#include "geometry/drawn_faces.h"
+#include "geometry/drawn/faces.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

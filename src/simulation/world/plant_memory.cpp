@@ -1,6 +1,6 @@
 #include "simulation/world/plant_memory.h"
 
-#include "geometry/drawn_columns.h"
+#include "geometry/drawn/columns.h"
 
 #include <algorithm>
 #include <bit>

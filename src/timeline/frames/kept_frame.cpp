@@ -1,6 +1,6 @@
 #include "timeline/frames/kept_frame.h"
 
-#include "geometry/drawn_columns.h"
+#include "geometry/drawn/columns.h"
 
 #include <algorithm>
 

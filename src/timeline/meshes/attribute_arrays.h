@@ -3,9 +3,9 @@
 
 #include "espalier/timeline/frame.h"
 
+#include "geometry/drawn/plant_mesh.h"
 #include "timeline/files/inline_data.h"
 #include "timeline/meshes/chosen_parameters.h"
-#include "timeline/meshes/plant_mesh.h"
 #include "timeline/meshes/symbol_numbers.h"
 
 #include <atomic>
@@ -18,6 +18,9 @@
 #include <vector>
 
 namespace espalier::timeline {
+
+using geometry::Owner;
+using geometry::Owners;
 
 /// Arrays with a value for each run of owners, written anew for every frame over those of the frame before.
 class OwnerArrays {

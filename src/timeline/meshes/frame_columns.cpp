@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 namespace espalier::timeline {
 namespace {
@@ -52,6 +53,28 @@ Column<Value> column_of(const RewrittenColumn<Number>& numbers) {
     return values;
 }
 
+/// The queries whose modules are `wanted`, as vertices in string order.
+template <class Wanted>
+void add_queries(PlantMesh& mesh, const Interpretation& interpretation, const Wanted& wanted, std::uint32_t plant) {
+    const auto add = [&](std::uint32_t module, const glm::dvec3& position, double width) {
+        if (!wanted(module)) return;
+        const Owner owner{plant, module, 0, 0, Kind::query};
+        mesh.vertices.connectivity.add(mesh.add_point({position, {0, 0, 1}, {}}, width / 2, owner));
+        mesh.vertices.close(owner);
+    };
+    auto answer = interpretation.answers.begin();
+    const auto add_answers_before = [&](std::size_t module) {
+        for (; answer != interpretation.answers.end() && answer->module < module; ++answer) {
+            add(answer->module, answer->position, answer->width);
+        }
+    };
+    for (const Query& query : interpretation.queries) {
+        add_answers_before(query.module);
+        add(query.module, query.pose.position, query.width);
+    }
+    add_answers_before(std::numeric_limits<std::size_t>::max());
+}
+
 FrameCells cells_of(const Cells& cells, std::size_t first) {
     FrameCells result;
     result.offsets.insert(result.offsets.end(), cells.offsets.values().begin(), cells.offsets.values().end());
@@ -76,6 +99,12 @@ bool FrameColumns::shows_queries() const {
     return std::any_of(chosen_.begin(), chosen_.end(), [](const ChosenParameter& one) { return one.of_query(); });
 }
 
+MeshSize FrameColumns::foreseen(const Interpretation& interpretation) const {
+    const std::size_t queries =
+        shows_queries() ? interpretation.queries.size() + interpretation.answers.size() : std::size_t{0};
+    return mesh_size(interpretation.geometry, surface_sizes_, queries);
+}
+
 void FrameColumns::fill(const Frame& frame) {
     mesh_.begin(is_in_pixels(frame));
     cell_owners_.begin();
@@ -89,13 +118,8 @@ void FrameColumns::fill_mesh(const Frame& frame) {
     mesh_.reserve(points_foreseen(frame));
     for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
         const PlantFrame& plant = frame.plants[i];
-        const PlantGeometry& geometry = plant.interpretation->geometry;
         add_asked_queries(plant, i);
-        add_axes(mesh_, geometry, i);
-        add_polygons(mesh_, geometry, i);
-        add_organs(mesh_, geometry, organs_, i, plant.palette);
-        add_pieces(mesh_, geometry, i);
-        add_labels(mesh_, geometry, i);
+        add_drawn(mesh_, plant.interpretation->geometry, organs_, i, plant.palette);
     }
     mesh_.end();
     for (const Cells* cells : {&mesh_.vertices, &mesh_.lines, &mesh_.polygons}) cell_owners_.add(cells->owners);

@@ -4,9 +4,10 @@
 #include "espalier/geometry/frame_geometry.h"
 #include "espalier/timeline/frame.h"
 
+#include "geometry/drawn/mesh_size.h"
+#include "geometry/drawn/plant_mesh.h"
 #include "timeline/meshes/attribute_arrays.h"
 #include "timeline/meshes/chosen_parameters.h"
-#include "timeline/meshes/plant_mesh.h"
 #include "timeline/meshes/symbol_numbers.h"
 
 #include <filesystem>
@@ -17,6 +18,12 @@
 namespace espalier::timeline {
 
 class VtkFile;
+
+using geometry::Cells;
+using geometry::MeshSize;
+using geometry::OrganSource;
+using geometry::PlantMesh;
+using geometry::SurfaceSizes;
 
 /// Written anew for every frame, over the frame before.
 class FrameColumns {
@@ -35,7 +42,8 @@ public:
     /// Frees the memory of the frame.
     void release();
 
-    bool shows_queries() const;
+    /// How large a plant's part of the mesh will be. Thread safe.
+    MeshSize foreseen(const Interpretation& interpretation) const;
     const std::vector<ChosenParameter>& chosen() const { return chosen_; }
     /// Those of all frames so far, the first "".
     const std::vector<std::string>& texture_files() const { return texture_files_; }
@@ -45,11 +53,13 @@ public:
 private:
     void fill_mesh(const Frame& frame);
     void fill_arrays(const Frame& frame);
+    bool shows_queries() const;
     void add_asked_queries(const PlantFrame& plant, std::uint32_t index);
 
     std::optional<std::filesystem::path> folder_;
     std::vector<ChosenParameter> chosen_;
     OrganSource organs_;
+    mutable SurfaceSizes surface_sizes_;
     SymbolNumbers symbols_;
     std::vector<std::string> texture_files_;
 

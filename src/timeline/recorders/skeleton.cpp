@@ -15,7 +15,6 @@
 #include "timeline/files/collection_file.h"
 #include "timeline/files/vtk_file.h"
 #include "timeline/meshes/frame_columns.h"
-#include "timeline/meshes/mesh_size.h"
 
 #include <fmt/format.h>
 
@@ -64,8 +63,8 @@ public:
 
     RecordedMemory memory(int, const ModuleString& string, const Interpretation& interpretation) const override {
         const std::size_t chosen = columns_.chosen().size();
-        const MeshSize size = mesh_size(interpretation, columns_.shows_queries(), surface_sizes_);
-        return {bytes_to_write(size, chosen) + (chosen == 0 ? 0 : sizeof(std::size_t) * string.size())};
+        return {bytes_to_write(columns_.foreseen(interpretation), chosen) +
+                (chosen == 0 ? 0 : sizeof(std::size_t) * string.size())};
     }
 
     void save(std::ostream& out) const override {
@@ -114,8 +113,7 @@ private:
 
     std::filesystem::path folder_;
     CollectionFile collection_;
-    FrameColumns columns_;  ///< what the last file shows
-    mutable SurfaceSizes surface_sizes_;
+    FrameColumns columns_;                   ///< what the last file shows
     std::optional<std::uint64_t> restored_;  ///< what a checkpoint holds of the last file
     std::string written_;                    ///< the last file, relative to the folder; empty before the first
     VtkFile file_;

@@ -1,8 +1,8 @@
-#include "geometry/drawn_faces.h"
+#include "geometry/drawn/faces.h"
 
 #include "espalier/base/math.h"
 
-#include "geometry/organ_mesh.h"
+#include "geometry/drawn/organ_mesh.h"
 #include "geometry/vectors.h"
 
 #include <glm/geometric.hpp>

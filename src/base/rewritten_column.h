@@ -10,7 +10,7 @@
 #include <span>
 #include <type_traits>
 
-namespace espalier::timeline {
+namespace espalier {
 
 /// True also of the same numbers that are none.
 template <class T>
@@ -74,4 +74,4 @@ private:
     bool changed_ = false;
 };
 
-}  // namespace espalier::timeline
+}  // namespace espalier

@@ -3,20 +3,20 @@
 
 #include "espalier/base/column.h"
 #include "espalier/geometry/kind.h"
-#include "espalier/timeline/frame.h"
+#include "espalier/geometry/palette.h"
+#include "espalier/geometry/plant_geometry.h"
 
-#include "geometry/organ_mesh.h"
-#include "timeline/frames/rewritten_column.h"
+#include "base/rewritten_column.h"
+#include "geometry/drawn/organ_mesh.h"
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-namespace espalier::timeline {
+namespace espalier::geometry {
 
 /// Whom a point or a cell belongs to. `plant` indexes the frame's plants.
 struct Owner {
@@ -144,7 +144,9 @@ private:
 /// An axis's cell belongs to its first internode; a point to the internode that ends there, the first to the one that
 /// begins there.
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+/// Polygons that viewers would fill otherwise are cut into triangles.
 void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
+void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner);
 /// `palette`: what colour indices look like, null if unknown. Patches have colours of their own where it has no
 /// materials.
 void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant,
@@ -152,8 +154,8 @@ void add_organs(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& sou
 /// Generalized cylinders and patches. A ring between two pieces belongs to the first.
 void add_pieces(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
 void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant);
-/// The queries whose modules are `wanted`, as vertices in string order.
-void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
-                 const std::function<bool(std::uint32_t module)>& wanted, std::uint32_t plant);
+/// All of these, in this order.
+void add_drawn(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant,
+               const Palette* palette = nullptr);
 
-}  // namespace espalier::timeline
+}  // namespace espalier::geometry

@@ -1,4 +1,4 @@
-#include "geometry/organ_mesh.h"
+#include "geometry/drawn/organ_mesh.h"
 
 #include "espalier/base/math.h"
 

@@ -1,5 +1,5 @@
 // Columns that every frame writes anew.
-#include "timeline/frames/rewritten_column.h"
+#include "base/rewritten_column.h"
 
 #include "catch.h"
 
@@ -10,9 +10,8 @@
 #include <vector>
 
 using namespace espalier;
-using namespace espalier::timeline;
 
-TEST_CASE("a column written anew knows whether it holds what it held before", "[timeline]") {
+TEST_CASE("a column written anew knows whether it holds what it held before", "[base]") {
     std::mt19937 random(3);
     RewrittenColumn<float> column;
     std::vector<float> before, now;

@@ -1,14 +1,14 @@
 // How large a plant's mesh will be, computed before it is made.
 #pragma once
 
-#include "espalier/turtle/interpretation.h"
+#include "espalier/geometry/plant_geometry.h"
 
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
 
-namespace espalier::timeline {
+namespace espalier::geometry {
 
 /// The size of a PlantMesh or a part of it, or a little more: polygons count as if all were cut into triangles.
 struct MeshSize {
@@ -31,7 +31,7 @@ private:
     std::map<std::shared_ptr<const Shapes>, std::map<std::uint32_t, MeshSize>> known_;
 };
 
-/// Queries show only if they are asked for.
-MeshSize mesh_size(const Interpretation& interpretation, bool with_queries, SurfaceSizes& surfaces);
+/// With so many `vertices` besides what is drawn.
+MeshSize mesh_size(const PlantGeometry& geometry, SurfaceSizes& surfaces, std::size_t vertices = 0);
 
-}  // namespace espalier::timeline
+}  // namespace espalier::geometry

@@ -1,4 +1,4 @@
-#include "timeline/meshes/plant_mesh.h"
+#include "geometry/drawn/plant_mesh.h"
 
 #include "espalier/base/error.h"
 
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace espalier::timeline {
+namespace espalier::geometry {
 namespace {
 
 // The internodes' numbers, axis after axis, in the turtle's order within each.
@@ -173,8 +173,6 @@ void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t 
     }
 }
 
-namespace {
-
 void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner) {
     const auto vertex = [&shape](std::size_t i) -> const SurfaceVertex& { return shape.vertices[i]; };
     const std::int32_t origin = mesh.add_points(shape.vertices.size(), vertex, 0, owner);
@@ -182,9 +180,10 @@ void add_organ(PlantMesh& mesh, const OrganMesh& shape, const Owner& owner) {
     mesh.polygons.add(shape.faces, origin, owner);
 }
 
+namespace {
+
 Owner owner_of_patch(Owner owner, const BicubicPatch* patch, const Palette* palette) {
-    const geometry::SideColours colours =
-        geometry::colours_of_patch({owner.colour, owner.look.back_colour}, patch, palette);
+    const SideColours colours = colours_of_patch({owner.colour, owner.look.back_colour}, patch, palette);
     owner.colour = colours.front;
     owner.look.back_colour = colours.back;
     return owner;
@@ -195,7 +194,7 @@ void add_surface(PlantMesh& mesh, const SurfaceMeshes::Entry& entry, const Organ
     const SurfaceMesh& shape = entry.mesh;
     const auto origin = static_cast<std::int32_t>(mesh.size());
     for (std::size_t i = 0; i < shape.vertices.size(); ++i) {
-        SurfaceVertex vertex = geometry::placed(shape.vertices[i], organ);
+        SurfaceVertex vertex = placed(shape.vertices[i], organ);
         if (as_whole) vertex.uv = entry.whole[i];
         mesh.add_point(vertex, 0, owner_of_patch(owner, entry.patches[i], palette));
     }
@@ -249,25 +248,13 @@ void add_labels(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t pl
     }
 }
 
-void add_queries(PlantMesh& mesh, const Interpretation& interpretation,
-                 const std::function<bool(std::uint32_t module)>& wanted, std::uint32_t plant) {
-    const auto add = [&](std::uint32_t module, const glm::dvec3& position, double width) {
-        if (!wanted(module)) return;
-        const Owner owner{plant, module, 0, 0, Kind::query};
-        mesh.vertices.connectivity.add(mesh.add_point({position, {0, 0, 1}, {}}, width / 2, owner));
-        mesh.vertices.close(owner);
-    };
-    auto answer = interpretation.answers.begin();
-    const auto add_answers_before = [&](std::size_t module) {
-        for (; answer != interpretation.answers.end() && answer->module < module; ++answer) {
-            add(answer->module, answer->position, answer->width);
-        }
-    };
-    for (const Query& query : interpretation.queries) {
-        add_answers_before(query.module);
-        add(query.module, query.pose.position, query.width);
-    }
-    add_answers_before(std::numeric_limits<std::size_t>::max());
+void add_drawn(PlantMesh& mesh, const PlantGeometry& geometry, OrganSource& source, std::uint32_t plant,
+               const Palette* palette) {
+    add_axes(mesh, geometry, plant);
+    add_polygons(mesh, geometry, plant);
+    add_organs(mesh, geometry, source, plant, palette);
+    add_pieces(mesh, geometry, plant);
+    add_labels(mesh, geometry, plant);
 }
 
-}  // namespace espalier::timeline
+}  // namespace espalier::geometry

@@ -1,4 +1,4 @@
-#include "geometry/drawn_bounds.h"
+#include "geometry/drawn/bounds.h"
 
 #include <cmath>
 

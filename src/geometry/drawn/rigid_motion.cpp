@@ -1,4 +1,4 @@
-#include "geometry/rigid_motion.h"
+#include "geometry/drawn/rigid_motion.h"
 
 #include "espalier/base/math.h"
 

@@ -1,13 +1,13 @@
-#include "timeline/meshes/mesh_size.h"
+#include "geometry/drawn/mesh_size.h"
 
-#include "geometry/organ_mesh.h"
+#include "geometry/drawn/organ_mesh.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 
-namespace espalier::timeline {
+namespace espalier::geometry {
 namespace {
 
 MeshSize size_of(const OrganMesh& mesh) {
@@ -99,20 +99,17 @@ const std::map<std::uint32_t, MeshSize>& SurfaceSizes::of(const std::shared_ptr<
     return known->second;
 }
 
-MeshSize mesh_size(const Interpretation& interpretation, bool with_queries, SurfaceSizes& surfaces) {
-    const PlantGeometry& geometry = interpretation.geometry;
+MeshSize mesh_size(const PlantGeometry& geometry, SurfaceSizes& surfaces, std::size_t vertices) {
     const std::size_t internodes = geometry.internodes.size(), polygons = geometry.polygons.size(),
-                      vertices = geometry.vertices.size(), pieces = geometry.mesh.pieces.size(),
+                      corners = geometry.vertices.size(), pieces = geometry.mesh.pieces.size(),
                       triangles = geometry.mesh.triangles.size() / 3;
     const std::size_t axes = std::min<std::size_t>(geometry.axes, internodes);
     MeshSize size{internodes + axes, internodes + axes, axes, internodes, axes};
-    size.add({vertices, 3 * vertices, vertices, polygons, polygons});
+    size.add({corners, 3 * corners, corners, polygons, polygons});
     size.add({geometry.mesh.vertices.size(), 3 * triangles, triangles, pieces, pieces});
-    std::size_t single = geometry.labels.size();
-    if (with_queries) single += interpretation.queries.size() + interpretation.answers.size();
-    size.add({1, 1, 1, 1, 1}, single);
+    size.add({1, 1, 1, 1, 1}, geometry.labels.size() + vertices);
     size.add(size_of_organs(geometry.organs, geometry.shapes ? &surfaces.of(geometry.shapes) : nullptr));
     return size;
 }
 
-}  // namespace espalier::timeline
+}  // namespace espalier::geometry

@@ -1,6 +1,6 @@
 #include "espalier/geometry/plant_geometry.h"
 
-#include "geometry/drawn_columns.h"
+#include "geometry/drawn/columns.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // What light meets of a drawn plant: areas, owners and both sides of its faces.
-#include "geometry/drawn_faces.h"
+#include "geometry/drawn/faces.h"
 
 #include "catch.h"
 
