@@ -1,5 +1,5 @@
 // The form of a component: every key of the schema is shown, and an edit changes its line of the text and no other.
-#include "studio/graph_text.h"
+#include "studio/document/graph_text.h"
 
 #include "espalier/base/error.h"
 

@@ -1,8 +1,8 @@
 // What a stranger's link may not do: write files of any name, read what is not its own, or keep the studio from its
 // owner. Each attack is refused with a sentence.
 #include "session_fixture.h"
-#include "studio/plain_name.h"
-#include "studio/sharing.h"
+#include "studio/document/plain_name.h"
+#include "studio/document/sharing.h"
 
 #include <sys/stat.h>
 

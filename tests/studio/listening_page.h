@@ -3,7 +3,7 @@
 
 #include "espalier/simulation/object.h"
 
-#include "studio/session.h"
+#include "studio/session/session.h"
 
 #include <chrono>
 #include <condition_variable>
