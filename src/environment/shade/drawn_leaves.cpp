@@ -12,18 +12,20 @@ namespace espalier::environment {
 
 void DrawnLeaves::collect(const PlantGeometry& geometry) {
     modules_.clear();
+    colours_.clear();
     corners_.clear();
     ends_.assign(1, 0);
     for (const Polygon& polygon : geometry.polygons) {
-        add(polygon.module, {&geometry.vertices[polygon.first], polygon.count});
+        add(polygon.module, polygon.colour, {&geometry.vertices[polygon.first], polygon.count});
     }
     add_patches(geometry.mesh);
     add_organs(geometry);
 }
 
-void DrawnLeaves::add(std::uint32_t module, std::span<const glm::dvec3> corners) {
+void DrawnLeaves::add(std::uint32_t module, std::uint16_t colour, std::span<const glm::dvec3> corners) {
     if (corners.empty()) return;
     modules_.push_back(module);
+    colours_.push_back(colour);
     corners_.insert(corners_.end(), corners.begin(), corners.end());
     ends_.push_back(corners_.size());
 }
@@ -35,7 +37,7 @@ void DrawnLeaves::add_patches(const DrawnMesh& mesh) {
             const glm::dvec3 corners[] = {mesh.vertices[mesh.triangles[i]].position,
                                           mesh.vertices[mesh.triangles[i + 1]].position,
                                           mesh.vertices[mesh.triangles[i + 2]].position};
-            add(piece.module, corners);
+            add(piece.module, piece.colour, corners);
         }
     }
 }
@@ -63,7 +65,7 @@ void DrawnLeaves::add_surface(const Organ& organ, const SurfaceMesh& mesh) {
             const glm::dvec3 scaled = organ.size * mesh.vertices[mesh.indices[next++]].position;
             corners.push_back(pose.position + scaled.x * pose.left + scaled.y * pose.heading + scaled.z * pose.up);
         }
-        add(organ.module, corners);
+        add(organ.module, organ.colour, corners);
     }
 }
 
@@ -71,7 +73,7 @@ void DrawnLeaves::add_disc(const Organ& organ) {
     const double half = organ.size.x / 4 * std::sqrt(std::numbers::pi);
     const glm::dvec3 along = half * organ.pose.heading, across = half * organ.pose.left, at = organ.pose.position;
     const glm::dvec3 corners[] = {at - along - across, at + along - across, at + along + across, at - along + across};
-    add(organ.module, corners);
+    add(organ.module, organ.colour, corners);
 }
 
 glm::dvec3 area_vector(std::span<const glm::dvec3> corners) {

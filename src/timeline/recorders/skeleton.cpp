@@ -6,12 +6,13 @@
 // Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
 // (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
 // cell arrays besides: texture (index into texture_files) and back_colour; point arrays besides: Normals, TCoords,
-// radius, the chosen parameters, and pixels where a view file gives widths in pixels. Field data: the texts of the
-// labels, in the order of their vertices.
+// radius, the chosen parameters and quantities of organs, and pixels where a view file gives widths in pixels. Field
+// data: the texts of the labels, in the order of their vertices; organ_units.
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
 #include "base/folder.h"
+#include "base/text.h"
 #include "timeline/files/collection_file.h"
 #include "timeline/files/vtk_file.h"
 #include "timeline/meshes/attribute_arrays.h"
@@ -20,6 +21,7 @@
 #include "timeline/meshes/plant_mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -35,6 +37,7 @@ struct PlantData {
     OwnerArrays of_points, of_cells;
     std::vector<std::string> texture_files;  ///< files of the run so far, the first ""
     std::vector<std::string> symbol_names;
+    std::vector<std::string> organ_units;
 
     bool texts_changed = false;  ///< one of these two has changed
 
@@ -103,10 +106,13 @@ public:
           scene_folder_(std::filesystem::path(settings.place().file).parent_path()),
           collection_(context.folder / "plants.pvd"),
           chosen_(read_chosen_parameters(settings.table("parameters"))),
+          organ_names_(settings.texts_or("organs", {})),
+          organ_place_(settings.place("organs")),
           shows_queries_(std::any_of(chosen_.begin(), chosen_.end(), [](const auto& one) { return one.of_query(); })) {}
 
     void record(const Frame& frame) override {
         if (written_.empty()) require_known(chosen_, frame.plants);
+        find_organs(frame);
         data_.begin(is_in_pixels(frame));
         fill_mesh(frame);
         fill_arrays(frame);
@@ -121,7 +127,8 @@ public:
     }
 
     RecordedMemory memory(int, const ModuleString& string, const Interpretation& interpretation) const override {
-        return {bytes_to_write(mesh_size(interpretation, shows_queries_, surface_sizes_), chosen_.size()) +
+        return {bytes_to_write(mesh_size(interpretation, shows_queries_, surface_sizes_),
+                               chosen_.size() + organ_names_.size()) +
                 (chosen_.empty() ? 0 : sizeof(std::size_t) * string.size())};
     }
 
@@ -176,6 +183,29 @@ private:
         data_.cell_owners.end();
     }
 
+    /// What the environment calls the organs' quantities that the scene asks for.
+    void find_organs(const Frame& frame) {
+        if (organ_names_.size() == organs_known_.size()) return;
+        const std::vector<OrganQuantity> known =
+            frame.environment ? frame.environment->organ_quantities() : std::vector<OrganQuantity>();
+        std::vector<std::string> names;
+        for (const OrganQuantity& quantity : known) names.push_back(quantity.name);
+        for (const std::string& name : organ_names_) {
+            const auto found = std::find(names.begin(), names.end(), name);
+            if (found == names.end()) {
+                throw UserError(
+                    organ_place_,
+                    fmt::format("no process of the scene knows '{}' of organs{}; {}", name, did_you_mean(name, names),
+                                names.empty() ? "canopy-light and ray-light know what organs absorb"
+                                              : fmt::format("there are: {}", fmt::join(names, ", "))));
+            }
+            organs_known_.push_back(known[static_cast<std::size_t>(found - names.begin())]);
+        }
+        for (const OrganQuantity& quantity : organs_known_) {
+            data_.organ_units.push_back(quantity.name + ": " + (quantity.unit.empty() ? "1" : quantity.unit));
+        }
+    }
+
     void add_asked_queries(const PlantFrame& plant, std::uint32_t index) {
         std::vector<ParameterSlots> slots;
         for (const ChosenParameter& parameter : chosen_) {
@@ -194,6 +224,7 @@ private:
         arrays.add_attributes(data_.of_points, of_points);
         arrays.add_colours(data_.of_points, of_points);
         arrays.add_parameters(data_.of_points, of_points);
+        if (!organs_known_.empty()) arrays.add_organs(data_.of_points, of_points, *frame.environment, organs_known_);
         arrays.add_attributes(data_.of_cells, data_.cell_owners);
         arrays.add_looks(data_.of_cells, data_.cell_owners, scene_folder_, texture_files_);
         arrays.add_colours(data_.of_cells, data_.cell_owners);
@@ -220,6 +251,7 @@ private:
         file.add_texts("label_texts", mesh.labels);
         file.add_time(time, step);
         file.add_texts("symbol_names", data.symbol_names);
+        if (!data.organ_units.empty()) file.add_texts("organ_units", data.organ_units);
         file.close();
         const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size(); };
         file.open("Piece",
@@ -244,6 +276,9 @@ private:
     std::filesystem::path folder_, scene_folder_;
     CollectionFile collection_;
     std::vector<ChosenParameter> chosen_;
+    std::vector<std::string> organ_names_;
+    Place organ_place_;
+    std::vector<OrganQuantity> organs_known_;
     bool shows_queries_;
     mutable SurfaceSizes surface_sizes_;
     SymbolNumbers symbols_;
@@ -259,7 +294,10 @@ const Registered<RecorderType> entry{
     {"skeleton", "plants.pvd and plants/NNNN.vtp: a line per axis, organs and surfaces, with identities",
      "skeleton (true or false, true): write them\n"
      "parameters (table, none): arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }:\n"
-     "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points",
+     "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points\n"
+     "organs (list, none): arrays of what a process knows of each organ, as in [\"light.absorbed\", "
+     "\"light.sunlit\"];\n"
+     "    the help of the process names them, organ_units in the files has their units",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          auto recorder = std::make_unique<Skeleton>(settings, context);
          if (!settings.flag_or("skeleton", true)) return nullptr;
