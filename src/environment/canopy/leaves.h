@@ -3,9 +3,9 @@
 
 #include "espalier/geometry/plant_geometry.h"
 
-#include "base/parallel.h"
 #include "environment/canopy/leaf_angles.h"
 #include "environment/canopy/medium.h"
+#include "environment/canopy/worth_sharing.h"
 #include "environment/optics/optics.h"
 #include "environment/shade/drawn_leaves.h"
 
@@ -42,10 +42,11 @@ template <class AmountOf>
 std::vector<float> per_volume(const CanopyVoxels& voxels, const SortedPieces& sorted, const AmountOf& amount_of) {
     std::vector<float> values(voxels.count(), 0.0f);
     const double volume = voxels.edge * voxels.edge * voxels.edge;
-    for_in_parallel(std::size_t{1}, std::max<std::size_t>(1, sorted.starts.size()), [&](std::size_t k) {
+    const std::size_t occupied = sorted.starts.empty() ? 0 : sorted.starts.size() - 1;
+    for_each_if_worth(occupied, sorted.size(), [&](std::size_t k) {
         double sum = 0;
-        for (std::size_t i = sorted.starts[k - 1]; i < sorted.starts[k]; ++i) sum += amount_of(i);
-        values[sorted.pieces[sorted.starts[k - 1]].voxel] = static_cast<float>(sum / volume);
+        for (std::size_t i = sorted.starts[k]; i < sorted.starts[k + 1]; ++i) sum += amount_of(i);
+        values[sorted.pieces[sorted.starts[k]].voxel] = static_cast<float>(sum / volume);
     });
     return values;
 }

@@ -2,7 +2,7 @@
 
 #include "espalier/base/math.h"
 
-#include "base/parallel.h"
+#include "environment/canopy/worth_sharing.h"
 
 #include <glm/common.hpp>
 
@@ -90,7 +90,8 @@ public:
             std::size_t end = first + 1;
             while (end < way.size() && way[end].z == way[first].z) ++end;
             const std::span<const Stretch> part(&way[first], end - first);
-            for_in_parallel(0, voxels_.size.z, [&](int row) { follow_row(row, part, across); });
+            for_each_if_worth(std::size_t(voxels_.size.z), part.size() * flux_.size(),
+                              [&](std::size_t row) { follow_row(int(row), part, across); });
             first = end;
         }
         result_.entered += across * (entering + std::accumulate(entered_.begin(), entered_.end(), 0.0));
@@ -178,7 +179,7 @@ std::vector<char> clear_lines(const CanopyVoxels& voxels, const ParallelLight& l
         const auto part = values.empty() ? values : values.subspan(line * length, length);
         return std::all_of(part.begin(), part.end(), [](float value) { return value == 0; });
     };
-    for_in_parallel(std::size_t{0}, lines, [&](std::size_t line) {
+    for_each_if_worth(lines, voxels.count(), [&](std::size_t line) {
         clear[line] = is_nothing(light.depth, line) && is_nothing(light.added, line) ? 1 : 0;
     });
     return clear;

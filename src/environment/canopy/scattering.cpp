@@ -1,6 +1,6 @@
 #include "environment/canopy/scattering.h"
 
-#include "base/parallel.h"
+#include "environment/canopy/worth_sharing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ CanopyScattering::CanopyScattering(const CanopyVoxels& voxels, const SortedPiece
     ordinates_ = whole_sphere(options.rings, options.around);
     for (const SkyPart& part : ordinates_) seen_.emplace_back(part.towards, angles_, options_.clumping);
     whole_.assign(pieces.size(), 0);
-    for_in_parallel(std::size_t{0}, pieces.size(), [&](std::size_t i) {
+    for_each_if_worth(pieces.size(), pieces.size() * seen_.size(), [&](std::size_t i) {
         for (std::size_t k = 0; k < seen_.size(); ++k) {
             whole_[i] += ordinates_[k].solid_angle * seen_[k](pieces_.pieces[i]).front;
         }
@@ -77,7 +77,7 @@ std::vector<float> CanopyScattering::depths(const LeavesSeen& seen) const {
 
 BeamLight CanopyScattering::send(const ParallelLight& light, int beams, const LeavesSeen& seen, CanopyFlux& sum) const {
     const BeamLight sent = send_beams(voxels_, light, beams);
-    for_in_parallel(std::size_t{0}, pieces_.size(), [&](std::size_t i) {
+    for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
         const LeafPiece& piece = pieces_.pieces[i];
         if (!is_solid_.empty() && is_solid_[piece.voxel]) return;
         const LeavesSeen::Sides sides = seen(piece);
@@ -89,7 +89,7 @@ BeamLight CanopyScattering::send(const ParallelLight& light, int beams, const Le
         if (is_solid_[v]) sum.solids += volume * double(light.depth[v]) * sent.flux[v];
     }
     const double projection = seen.projection();
-    for_in_parallel(std::size_t{0}, sent.flux.size(), [&](std::size_t v) {
+    for_each_if_worth(sent.flux.size(), sent.flux.size(), [&](std::size_t v) {
         sum.fluence[v] += static_cast<float>(sent.flux[v]);
         sum.isotropic[v] += static_cast<float>(sent.flux[v] * projection);
     });
@@ -102,7 +102,7 @@ BeamLight CanopyScattering::send(const ParallelLight& light, int beams, const Le
 /// Keeps what tells where the light of a beam falls.
 void CanopyScattering::look(const LightBeam& beam, const LeavesSeen& seen, const BeamLight& sent,
                             CanopyFlux& sum) const {
-    for_in_parallel(std::size_t{0}, pieces_.size(), [&](std::size_t i) {
+    for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
         const double area = seen(pieces_.pieces[i]).both(), met = area * sent.flux[pieces_.pieces[i].voxel];
         sum.towards[i] += met * beam.towards;
         if (!beam.is_sun) return;
@@ -135,7 +135,7 @@ CanopyScattering::Emission CanopyScattering::scattered(const CanopyFlux& flux, s
     Emission emission;
     emission.front.resize(pieces_.size());
     emission.back.resize(pieces_.size());
-    for_in_parallel(std::size_t{0}, pieces_.size(), [&](std::size_t i) {
+    for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
         const auto& [front, back] = optics_.of(pieces_.pieces[i].material, band);
         emission.front[i] = front.reflectance * flux.front[i] + back.transmittance * flux.back[i];
         emission.back[i] = back.reflectance * flux.back[i] + front.transmittance * flux.front[i];

@@ -22,8 +22,8 @@ const std::string cosine_file = [] {
     return file;
 }();
 
-/// What level leaves of 5 cm absorb (umol m-2 s-1) below lamps, at places.
-std::vector<double> light_below(const std::string& lamps, const std::vector<glm::dvec3>& places) {
+/// What small level leaves absorb (umol m-2 s-1) below lamps, at places.
+std::vector<double> light_below(const std::string& lamps, const std::vector<glm::dvec3>& places, double side = 0.05) {
     Environment light = light_process("ray-light",
                                       "paths = 600000\nresidual = 0.01\n"
                                       "bands.par = { leaf = [0, 0], soil = 0 }\n" +
@@ -36,7 +36,7 @@ std::vector<double> light_below(const std::string& lamps, const std::vector<glm:
     AskingPlants plants;
     plants.add(asked);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        draw_square(plants.interpretation(0).geometry, std::uint32_t(2 * i + 1), places[i], {1, 0, 0}, {0, 0, 1}, 0.05);
+        draw_square(plants.interpretation(0).geometry, std::uint32_t(2 * i + 1), places[i], {1, 0, 0}, {0, 0, 1}, side);
     }
     plants.exchange(light);
     std::vector<double> rates;
@@ -47,10 +47,10 @@ std::vector<double> light_below(const std::string& lamps, const std::vector<glm:
 }  // namespace
 
 TEST_CASE("below a point lamp light falls with the square of the distance and the cosine", "[ray-light]") {
-    const auto rates = light_below("lamps = [{ at = [0, 2, 0], photons = 400 }]\n", {{0, 1, 0}, {1.5, 0.5, 0}});
+    const auto rates = light_below("lamps = [{ at = [0, 2, 0], photons = 400 }]\n", {{0, 1, 0}, {1.5, 0.5, 0}}, 0.2);
     CHECK(rates[0] == Approx(400 / (4 * pi)).epsilon(0.03));
     const double square = 1.5 * 1.5 * 2;
-    CHECK(rates[1] == Approx(400 / (4 * pi * square) * std::sqrt(0.5)).epsilon(0.06));
+    CHECK(rates[1] == Approx(400 / (4 * pi * square) * std::sqrt(0.5)).epsilon(0.1));
 }
 
 TEST_CASE("a spot lights its cone evenly per angle, and nothing else", "[ray-light]") {
