@@ -102,7 +102,9 @@ void read_parameters(FrameGeometry& geometry, const VtkXmlFile& file, const XmlE
         const std::string& name = array.attribute("Name");
         const std::string& type = array.attribute("type");
         const bool known = std::find(std::begin(known_arrays), std::end(known_arrays), name) != std::end(known_arrays);
-        if (known || !type.starts_with("Float")) continue;
+        const std::string& components = array.attribute("NumberOfComponents");
+        const bool is_number = components.empty() || components == "1";  // else a direction
+        if (known || !is_number || !type.starts_with("Float")) continue;
         geometry.parameters[name] = file.values<double>(array, geometry.points.size());
     }
 }

@@ -33,6 +33,7 @@ struct Frame {
     std::vector<PlantFrame> plants;
     const Fields* fields = nullptr;  ///< as they are until the next step
     bool is_last = false;            ///< no step follows in this run
+    const Environment* environment = nullptr;  ///< knows what organs have met, until the next step; null: nothing
 };
 
 }  // namespace espalier::timeline

@@ -15,7 +15,8 @@ class FrameColumns;
 /// named by their whole paths.
 class LastFrame final : public Recorder {
 public:
-    /// `timeline` chooses parameters, as it does for the recorder 'skeleton'. Throws UserError as that does.
+    /// `timeline` chooses parameters and quantities of organs, as it does for the recorder 'skeleton'. Throws UserError
+    /// as that does.
     explicit LastFrame(const Settings& timeline = {});
     ~LastFrame() override;
 

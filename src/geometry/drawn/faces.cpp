@@ -87,10 +87,12 @@ void DrawnFaces::add_organs(std::uint32_t plant, const PlantGeometry& geometry, 
         if (!surface) continue;
         for (std::size_t face = 0, next = 0; face < surface->mesh.faces.size(); ++face) {
             FaceOwner owner = owner_of(plant, organ);
-            const SideColours colours =
-                colours_of_patch({owner.colour, owner.back_colour}, surface->patch(face), palette);
-            owner.colour = colours.front;
-            owner.back_colour = colours.back;
+            if (palette) {
+                const SideColours colours =
+                    colours_of_patch({owner.colour, owner.back_colour}, surface->patch(face), palette);
+                owner.colour = colours.front;
+                owner.back_colour = colours.back;
+            }
             corners.clear();
             for (std::uint32_t i = 0; i < surface->mesh.faces[face]; ++i) {
                 corners.push_back(placed_point(organ, surface->mesh.vertices[surface->mesh.indices[next++]].position));

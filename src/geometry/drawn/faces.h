@@ -44,7 +44,8 @@ class DrawnFaces {
 public:
     void clear();
     /// Adds all that a plant has drawn flat, in this order: its polygons, the triangles of its patches, the faces of
-    /// its surfaces, and its discs as squares of their area. `palette`: see `colours_of_patch`.
+    /// its surfaces, and its discs as squares of their area. Where the
+    /// palette is known, patches have the colours that `colours_of_patch` gives them, else those of their organs.
     void add_leaves(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette = nullptr);
     /// Adds each internode as an open prism of twelve triangles with the surface of the cone; those without length or
     /// radius have none.

@@ -11,25 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace espalier::geometry {
 namespace {
-
-// The internodes' numbers, axis after axis, in the turtle's order within each.
-std::vector<std::uint32_t> by_axis(std::span<const Internode> internodes) {
-    std::uint32_t axes = 0;
-    for (const Internode& internode : internodes) axes = std::max(axes, internode.axis + 1);
-    std::vector<std::uint32_t> next(std::size_t{axes} + 1, 0);
-    for (const Internode& internode : internodes) ++next[std::size_t{internode.axis} + 1];
-    for (std::size_t axis = 1; axis < next.size(); ++axis) next[axis] += next[axis - 1];
-    std::vector<std::uint32_t> sorted(internodes.size());
-    for (std::uint32_t i = 0; i < internodes.size(); ++i) sorted[next[internodes[i].axis]++] = i;
-    return sorted;
-}
-
-bool continues(const Internode& before, const Internode& after) {
-    return before.axis == after.axis && before.tip == after.base;
-}
 
 /// A vector across a line, carried from segment to segment so that it turns no more than it must.
 class AcrossLine {
@@ -130,29 +115,37 @@ SurfaceMeshes* OrganSource::surfaces(const std::shared_ptr<const Shapes>& shapes
     return &surfaces_.try_emplace(shapes, shapes).first->second;
 }
 
+std::vector<std::uint32_t> by_axis(std::span<const Internode> internodes) {
+    std::uint32_t axes = 0;
+    for (const Internode& internode : internodes) axes = std::max(axes, internode.axis + 1);
+    std::vector<std::uint32_t> next(std::size_t{axes} + 1, 0);
+    for (const Internode& internode : internodes) ++next[std::size_t{internode.axis} + 1];
+    for (std::size_t axis = 1; axis < next.size(); ++axis) next[axis] += next[axis - 1];
+    std::vector<std::uint32_t> sorted(internodes.size());
+    for (std::uint32_t i = 0; i < internodes.size(); ++i) sorted[next[internodes[i].axis]++] = i;
+    return sorted;
+}
+
 void add_axes(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant) {
-    const Internode* last = nullptr;
-    Owner first{};
+    std::optional<Owner> line;
     AcrossLine across;
-    for (const std::uint32_t i : by_axis(geometry.internodes)) {
+    for_lines(geometry.internodes, [&](std::uint32_t i, bool begins) {
         const Internode& internode = geometry.internodes[i];
         const std::uint16_t texture = i < geometry.textures.size() ? geometry.textures[i] : std::uint16_t{0};
         const Owner owner{plant,      internode.module,           internode.order, internode.colour,
                           Kind::axis, {internode.colour, texture}};
-        const bool begins = !last || !continues(*last, internode);
         if (begins) across.begin();
         const glm::dvec3 normal = across.after(internode.tip - internode.base);
         if (begins) {
-            if (last) mesh.lines.close(first);
-            first = owner;
+            if (line) mesh.lines.close(*line);
+            line = owner;
             mesh.lines.connectivity.add(
                 mesh.add_point({internode.base, normal, {}}, internode.base_radius, owner, internode.pixels));
         }
         mesh.lines.connectivity.add(
             mesh.add_point({internode.tip, normal, {}}, internode.tip_radius, owner, internode.pixels));
-        last = &internode;
-    }
-    if (last) mesh.lines.close(first);
+    });
+    if (line) mesh.lines.close(*line);
 }
 
 void add_polygons(PlantMesh& mesh, const PlantGeometry& geometry, std::uint32_t plant) {

@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -139,6 +140,21 @@ public:
 private:
     std::map<std::shared_ptr<const Shapes>, SurfaceMeshes> surfaces_;
 };
+
+/// The internodes' numbers, axis after axis, in the turtle's order within each.
+std::vector<std::uint32_t> by_axis(std::span<const Internode> internodes);
+
+/// Calls visit(number, begins) for each internode, by axis; `begins` says that it is the first of a line, because its
+/// axis begins or because it does not begin where the one before has ended.
+template <class Visit>
+void for_lines(std::span<const Internode> internodes, const Visit& visit) {
+    const Internode* last = nullptr;
+    for (const std::uint32_t number : by_axis(internodes)) {
+        const Internode& internode = internodes[number];
+        visit(number, !last || last->axis != internode.axis || last->tip != internode.base);
+        last = &internode;
+    }
+}
 
 /// One line per axis, broken where the next internode does not begin where the last ended.
 /// An axis's cell belongs to its first internode; a point to the internode that ends there, the first to the one that

@@ -23,31 +23,28 @@ void KeptAxes::for_columns(Self& self, const Visit& visit) {
 }
 
 KeptAxes::KeptAxes(const timeline::Frame& frame, const Look& look) {
-    geometry::PlantMesh mesh;
-    mesh.begin();
-    for (std::uint32_t i = 0; i < frame.plants.size(); ++i) {
-        add_axes(mesh, frame.plants[i].interpretation->geometry, i);
-    }
-    mesh.end();
-    const std::span<const float> places = mesh.points.values(), radii = mesh.radii.values();
-    for (std::size_t i = 0; i < mesh.size(); ++i) {
-        points_.emplace_back(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
-    }
-    radii_.assign(radii.begin(), radii.end());
     const std::vector<std::uint32_t> firsts = first_modules(frame);
-    const std::span<const std::uint32_t> ends = mesh.owners.ends.values();
-    for (std::size_t run = 0; run < ends.size(); ++run) {
-        const geometry::Owner& owner = mesh.owners.values[run];
-        modules_.resize(ends[run], firsts[owner.plant] + owner.module);
-        orders_.resize(ends[run], owner.order);
-        rgb_.resize(ends[run], look.colour(owner.plant, owner.colour));
-    }
-    ends_.assign(mesh.lines.offsets.values().begin(), mesh.lines.offsets.values().end());
-    const std::span<const std::uint32_t> line_ends = mesh.lines.owners.ends.values();
-    for (std::size_t run = 0; run < line_ends.size(); ++run) {
-        const geometry::Owner& owner = mesh.lines.owners.values[run];
-        plants_.resize(line_ends[run], owner.plant);
-        textures_.resize(line_ends[run], static_cast<std::uint16_t>(look.texture(owner.plant, owner.look.texture)));
+    for (std::uint32_t plant = 0; plant < frame.plants.size(); ++plant) {
+        const PlantGeometry& drawn = frame.plants[plant].interpretation->geometry;
+        geometry::for_lines(drawn.internodes, [&](std::uint32_t i, bool begins) {
+            const Internode& internode = drawn.internodes[i];
+            const auto add = [&](const glm::dvec3& point, double radius) {
+                points_.emplace_back(point);
+                radii_.push_back(static_cast<float>(radius));
+                modules_.push_back(firsts[plant] + internode.module);
+                orders_.push_back(internode.order);
+                rgb_.push_back(look.colour(plant, internode.colour));
+            };
+            if (begins) {
+                const std::uint16_t texture = i < drawn.textures.size() ? drawn.textures[i] : std::uint16_t{0};
+                plants_.push_back(plant);
+                textures_.push_back(static_cast<std::uint16_t>(look.texture(plant, texture)));
+                ends_.push_back(0);
+                add(internode.base, internode.base_radius);
+            }
+            add(internode.tip, internode.tip_radius);
+            ends_.back() = static_cast<std::int32_t>(points_.size());
+        });
     }
 }
 

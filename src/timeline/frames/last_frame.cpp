@@ -6,13 +6,12 @@
 
 namespace espalier::timeline {
 
-LastFrame::LastFrame(const Settings& timeline)
-    : columns_(std::make_unique<FrameColumns>(std::nullopt, read_chosen_parameters(timeline.table("parameters")))) {}
+LastFrame::LastFrame(const Settings& timeline) : columns_(std::make_unique<FrameColumns>(std::nullopt, timeline)) {}
 
 LastFrame::~LastFrame() = default;
 
 void LastFrame::record(const Frame& frame) {
-    if (frame.step == 0) require_known(columns_->chosen(), frame.plants);
+    if (frame.step == 0) columns_->require_known(frame);
     if (!frame.is_last) return;
     step_ = frame.step;
     time_ = frame.time;
@@ -29,7 +28,7 @@ RecordedMemory LastFrame::memory(int /*step*/, const ModuleString& /*string*/,
                                  const Interpretation& interpretation) const {
     constexpr std::size_t places = 36, attributes = 36, of_run = 64;
     const MeshSize size = columns_->foreseen(interpretation);
-    const std::size_t parameters = columns_->chosen().size() * sizeof(double);
+    const std::size_t parameters = columns_->chosen() * sizeof(double);
     return {size.points * (2 * places + attributes + parameters) + 8 * size.corners + size.cells * (8 + attributes) +
             (size.point_runs + size.cell_runs) * (of_run + parameters)};
 }

@@ -167,4 +167,22 @@ void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) 
     }
 }
 
+void AttributeArrays::add_organs(OwnerArrays& arrays, const Owners& owners, const Environment& environment,
+                                 std::span<const OrganQuantity> quantities) const {
+    for (const OrganQuantity& quantity : quantities) {
+        const auto components = static_cast<std::size_t>(quantity.components);
+        std::vector<std::shared_ptr<const std::vector<float>>> known;
+        for (const Plant& plant : plants_) known.push_back(environment.organ_values(quantity.name, plant.frame->plant));
+        const auto values = arrays.append<float>(quantity.name, owners, quantity.components);
+        for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
+            const std::vector<float>* const of_plant = known[owner.plant].get();
+            for (std::size_t k = 0; k < components; ++k) {
+                const std::size_t at = components * owner.module + k;
+                const bool has_value = of_plant && at < of_plant->size();
+                values.put(components * i + k, has_value ? (*of_plant)[at] : std::numeric_limits<float>::quiet_NaN());
+            }
+        });
+    }
+}
+
 }  // namespace espalier::timeline

@@ -92,8 +92,10 @@ FrameAttributes attributes_of(const OwnerArrays& arrays) {
 
 }  // namespace
 
-FrameColumns::FrameColumns(std::optional<std::filesystem::path> folder, std::vector<ChosenParameter> chosen)
-    : folder_(std::move(folder)), chosen_(std::move(chosen)) {}
+FrameColumns::FrameColumns(std::optional<std::filesystem::path> folder, const Settings& timeline)
+    : folder_(std::move(folder)),
+      chosen_(read_chosen_parameters(timeline.table("parameters"))),
+      organ_quantities_(timeline) {}
 
 bool FrameColumns::shows_queries() const {
     return std::any_of(chosen_.begin(), chosen_.end(), [](const ChosenParameter& one) { return one.of_query(); });
@@ -106,6 +108,7 @@ MeshSize FrameColumns::foreseen(const Interpretation& interpretation) const {
 }
 
 void FrameColumns::fill(const Frame& frame) {
+    organ_quantities_.find(frame);
     mesh_.begin(is_in_pixels(frame));
     cell_owners_.begin();
     of_points_.begin();
@@ -143,6 +146,9 @@ void FrameColumns::fill_arrays(const Frame& frame) {
     arrays.add_attributes(of_points_, mesh_.owners);
     arrays.add_colours(of_points_, mesh_.owners);
     arrays.add_parameters(of_points_, mesh_.owners);
+    if (organ_quantities_.size() > 0) {
+        arrays.add_organs(of_points_, mesh_.owners, *frame.environment, organ_quantities_.known());
+    }
     arrays.add_attributes(of_cells_, cell_owners_);
     arrays.add_looks(of_cells_, cell_owners_, folder_, texture_files_);
     arrays.add_colours(of_cells_, cell_owners_);
@@ -168,6 +174,7 @@ void FrameColumns::put_into(VtkFile& file, double time, int step) const {
     file.add_texts("label_texts", mesh_.labels);
     file.add_time(time, step);
     file.add_texts("symbol_names", symbols_.names());
+    if (organ_quantities_.size() > 0) file.add_texts("organ_units", organ_quantities_.units());
     file.close();
     const auto cells = [](const Cells& of_kind) { return of_kind.offsets.size(); };
     file.open("Piece", fmt::format(R"(NumberOfPoints="{}" NumberOfVerts="{}" NumberOfLines="{}" NumberOfPolys="{}")",
@@ -203,6 +210,12 @@ FrameGeometry FrameColumns::geometry() const {
     of_cells_.copy("texture", geometry.textures);
     of_cells_.copy("back_colour", geometry.back_colours);
     for (const ChosenParameter& one : chosen_) of_points_.copy(one.name, geometry.parameters[one.name]);
+    for (const OrganQuantity& one : organ_quantities_.known()) {
+        if (one.components > 1) continue;  // a direction is no number
+        Column<float> values;
+        of_points_.copy(one.name, values);
+        geometry.parameters[one.name].assign(values.begin(), values.end());
+    }
     geometry.symbol_names = symbols_.names();
     geometry.texture_files = texture_files_;
     geometry.label_texts = mesh_.labels;

@@ -8,6 +8,7 @@
 #include "geometry/drawn/plant_mesh.h"
 #include "timeline/meshes/attribute_arrays.h"
 #include "timeline/meshes/chosen_parameters.h"
+#include "timeline/meshes/organ_quantities.h"
 #include "timeline/meshes/symbol_numbers.h"
 
 #include <filesystem>
@@ -30,8 +31,12 @@ class FrameColumns {
 public:
     /// Files of textures are named from `folder`, or by their whole paths if there is none. Queries are shown where one
     /// of their parameters is chosen.
-    explicit FrameColumns(std::optional<std::filesystem::path> folder, std::vector<ChosenParameter> chosen = {});
+    /// `timeline` chooses parameters and quantities of organs.
+    FrameColumns(std::optional<std::filesystem::path> folder, const Settings& timeline);
 
+    /// Throws UserError for parameters that no model has.
+    void require_known(const Frame& frame) const { timeline::require_known(chosen_, frame.plants); }
+    /// Throws UserError for quantities of organs that no process knows.
     void fill(const Frame& frame);
     /// Adds all but the time to a file that has begun.
     void put_into(VtkFile& file, double time, int step) const;
@@ -44,7 +49,12 @@ public:
 
     /// How large a plant's part of the mesh will be. Thread safe.
     MeshSize foreseen(const Interpretation& interpretation) const;
-    const std::vector<ChosenParameter>& chosen() const { return chosen_; }
+    /// How many numbers of each module are chosen.
+    std::size_t chosen() const { return chosen_.size() + organ_quantities_.size(); }
+    /// What it takes to find the parameters of a string.
+    std::size_t bytes_of_offsets(const ModuleString& string) const {
+        return chosen_.empty() ? 0 : sizeof(std::size_t) * string.size();
+    }
     /// Those of all frames so far, the first "".
     const std::vector<std::string>& texture_files() const { return texture_files_; }
     /// The files come first, as after the frames that had them.
@@ -58,6 +68,7 @@ private:
 
     std::optional<std::filesystem::path> folder_;
     std::vector<ChosenParameter> chosen_;
+    OrganQuantities organ_quantities_;
     OrganSource organs_;
     mutable SurfaceSizes surface_sizes_;
     SymbolNumbers symbols_;

@@ -6,8 +6,8 @@
 // Cell and point arrays: identity, parent, plant, symbol (index into symbol_names), birth, order, colour, kind
 // (0 query, 1 axis, 2 polygon, 3 organ, 4 generalized cylinder, 5 patch, 6 label), and rgb where a plant has a palette;
 // cell arrays besides: texture (index into texture_files) and back_colour; point arrays besides: Normals, TCoords,
-// radius, the chosen parameters, and pixels where a view file gives widths in pixels. Field data: the texts of the
-// labels, in the order of their vertices.
+// radius, the chosen parameters and quantities of organs, and pixels where a view file gives widths in pixels. Field
+// data: the texts of the labels, in the order of their vertices; organ_units.
 #include "espalier/timeline/recorder.h"
 
 #include "base/bytes.h"
@@ -45,11 +45,10 @@ public:
     Skeleton(const Settings& settings, const RecorderContext& context)
         : folder_(context.folder),
           collection_(context.folder / "plants.pvd"),
-          columns_(std::filesystem::path(settings.place().file).parent_path(),
-                   read_chosen_parameters(settings.table("parameters"))) {}
+          columns_(std::filesystem::path(settings.place().file).parent_path(), settings) {}
 
     void record(const Frame& frame) override {
-        if (written_.empty()) require_known(columns_.chosen(), frame.plants);
+        if (written_.empty()) columns_.require_known(frame);
         columns_.fill(frame);
         if (!is_written()) write(frame);
         collection_.add(frame.time, 0, "plants", written_);
@@ -62,9 +61,8 @@ public:
     }
 
     RecordedMemory memory(int, const ModuleString& string, const Interpretation& interpretation) const override {
-        const std::size_t chosen = columns_.chosen().size();
-        return {bytes_to_write(columns_.foreseen(interpretation), chosen) +
-                (chosen == 0 ? 0 : sizeof(std::size_t) * string.size())};
+        return {bytes_to_write(columns_.foreseen(interpretation), columns_.chosen()) +
+                columns_.bytes_of_offsets(string)};
     }
 
     void save(std::ostream& out) const override {
@@ -123,7 +121,10 @@ const Registered<RecorderType> entry{
     {"skeleton", "plants.pvd and plants/NNNN.vtp: a line per axis, organs and surfaces, with identities",
      "skeleton (true or false, true): write them\n"
      "parameters (table, none): arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }:\n"
-     "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points",
+     "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points\n"
+     "organs (list, none): arrays of what a process knows of each organ, as in [\"light.absorbed\", "
+     "\"light.sunlit\"];\n"
+     "    the help of the process names them, organ_units in the files has their units",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          auto recorder = std::make_unique<Skeleton>(settings, context);
          if (!settings.flag_or("skeleton", true)) return nullptr;

@@ -98,8 +98,9 @@ TEST_CASE("a surface is a leaf as large as it was stretched, with the colours of
     CHECK(faces[0].owner.colour == 4);
     CHECK(faces[0].owner.back_colour == 5);
 
+    const Palette colour_map;
     faces.clear();
-    faces.add_leaves(0, square_leaf(11, 12));
+    faces.add_leaves(0, square_leaf(11, 12), &colour_map);
     CHECK(faces[0].owner.colour == 11);
     CHECK(faces[0].owner.back_colour == 12);
 
