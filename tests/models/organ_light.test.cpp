@@ -103,7 +103,7 @@ TEST_CASE("organs of five grown plants absorb what rays against all triangles co
         plant.grow(steps);
         const PlainLight plain(plant.interpretation.geometry, plant.string.size(), towards);
         const double all = sum(plain.absorbed());
-        const std::vector<double> rays = absorbed_by("ray-light", "paths = 524288\n", plant);
+        const std::vector<double> rays = absorbed_by("ray-light", "paths = 524288\nground = -10\n", plant);
         CAPTURE(file, plain.triangles());
         CHECK(sum(rays) == Approx(all).epsilon(0.015));
         double apart = 0;
