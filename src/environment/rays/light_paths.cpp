@@ -156,7 +156,8 @@ LightPaths::Path LightPaths::first_of(const std::array<double, 4>& sample) const
 
 void LightPaths::follow(std::uint32_t number, std::uint32_t seed) {
     const auto sample = [&](std::uint32_t bounce) {
-        return scrambled_sobol(number, static_cast<std::uint32_t>(mix(seed, bounce)));
+        const auto own = static_cast<std::uint32_t>(mix(seed, bounce));
+        return options_.evenly ? scrambled_sobol(number, own) : independent_numbers(number, own);
     };
     Path path = first_of(sample(0));
     add(brought_, 0, path);

@@ -22,6 +22,7 @@ public:
         double ground = 0;          ///< height of the soil
         std::optional<Box> period;  ///< of a stand without an edge
         double residual = 0.001;    ///< where less of a path's light is left, that is absorbed where it is
+        bool evenly = true;         ///< by Sobol's sequence, or by independent random numbers
     };
 
     /// `optics` is kept by reference.

@@ -198,3 +198,28 @@ TEST_CASE("organs know the light of either side, their sunlit share and where it
         CHECK(values("brightest")[4] > 0.6f);
     }
 }
+
+TEST_CASE("errors of even paths fall at least as Monte Carlo's, and are less from the beginning", "[ray-light]") {
+    const Optics optics(Settings::parse_toml("bands.par = { leaf = [0, 0], soil = 0 }\n", "scene.toml"));
+    PlantGeometry geometry;
+    draw_at_random(geometry, 0, 2000, 0.04, 3);
+    LitTriangles triangles;
+    triangles.add(geometry, 0, 0, optics);
+    Daylight light;
+    light.beams.push_back({glm::normalize(glm::dvec3(0.3, 1, 0.1)), 1});
+    const auto spread = [&](bool evenly, std::uint32_t paths) {
+        LightPaths traced(optics, {}, {.ground = 0, .period = Box{{0, 0, 0}, {2, 3, 2}}, .evenly = evenly});
+        traced.set(triangles, 1, light, {}, 0, std::array{1.0});
+        double sum = 0, squares = 0;
+        constexpr int trials = 16;
+        for (std::uint32_t seed = 0; seed < trials; ++seed) {
+            traced.trace(paths, 1000 + seed);
+            sum += traced.absorbed(0, 0);
+            squares += traced.absorbed(0, 0) * traced.absorbed(0, 0);
+        }
+        return std::sqrt((squares - sum * sum / trials) / (trials - 1));
+    };
+    const double few = spread(true, 1 << 9), many = spread(true, 1 << 15), random = spread(false, 1 << 15);
+    CHECK(many < few / 8);
+    CHECK(many < random / 2);  // at 2^18 paths 2.8 times less
+}
