@@ -84,6 +84,20 @@ TEST_CASE("the last frame in memory is the one in the timeline, column by column
     }
 }
 
+TEST_CASE("what a process knows of organs is in both, but for directions", "[reading]") {
+    const GrownTwice grown(
+        "[environment.light]\nprocess = \"ray-light\"\npaths = 256\n"
+        "[timeline]\norgans = [\"light.absorbed\", \"light.brightest\"]\n");
+    const RecordedRun recorded(grown.folder.path() / "run");
+    const FrameGeometry file = recorded.geometry(recorded.frames().back());
+    REQUIRE(file.parameters.size() == 1);
+    const Column<double>&absorbed = file.parameters.at("light.absorbed"),
+          &ours = grown.last.geometry()->parameters.at("light.absorbed");
+    const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
+    CHECK(std::equal(absorbed.begin(), absorbed.end(), ours.begin(), ours.end(), same));
+    CHECK(std::any_of(absorbed.begin(), absorbed.end(), [](double value) { return value > 0; }));
+}
+
 TEST_CASE("a run in memory says what its run.json says", "[reading]") {
     const GrownTwice grown("");
     const RecordedRun recorded(grown.folder.path() / "run");
