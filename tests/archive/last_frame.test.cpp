@@ -98,6 +98,25 @@ TEST_CASE("what a process knows of organs is in both, but for directions", "[rea
     CHECK(std::any_of(absorbed.begin(), absorbed.end(), [](double value) { return value > 0; }));
 }
 
+TEST_CASE("organs of a frame are those of its step, though the world has gone on when it is written", "[reading]") {
+    const TemporaryFolder folder;
+    folder.write("tree.l", model);
+    folder.write("scene.toml",
+                 "[[plant]]\nmodel = \"tree.l\"\n[environment.light]\nprocess = \"ray-light\"\npaths = 64\n"
+                 "[timeline]\norgans = [\"light.front\"]\n");
+    run(read_scene(folder.path() / "scene.toml"), {.output = folder.path() / "run"});
+    const RecordedRun recorded(folder.path() / "run");
+    for (int steps = 1; steps <= 3; ++steps) {
+        const Scene scene = read_scene(folder.path() / "scene.toml", {{}, steps, {}});
+        LastFrame last(scene.timeline);
+        run(scene, {.recorder = &last});
+        const Column<double> file = recorded.geometry(recorded.frame(steps)).parameters.at("light.front"),
+                             memory = last.geometry()->parameters.at("light.front");
+        const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
+        CHECK(std::equal(file.begin(), file.end(), memory.begin(), memory.end(), same));
+    }
+}
+
 TEST_CASE("a run in memory says what its run.json says", "[reading]") {
     const GrownTwice grown("");
     const RecordedRun recorded(grown.folder.path() / "run");

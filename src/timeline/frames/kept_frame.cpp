@@ -20,11 +20,15 @@ std::size_t bytes_of(const PlantGeometry& geometry) {
 
 }  // namespace
 
-void KeptFrame::take(const Frame& frame, std::span<const std::string> fields) {
+void KeptFrame::take(const Frame& frame, std::span<const std::string> fields, std::span<const std::string> organs) {
     frame_ = frame;
     frame_.fields = &fields_;
     fields_ = {};
     if (frame.fields) take_fields(*frame.fields, fields);
+    if (!frame.environment) return;
+    for (PlantFrame& plant : frame_.plants) {
+        for (const std::string& name : organs) plant.organs[name] = frame.environment->organ_values(name, plant.plant);
+    }
 }
 
 void KeptFrame::take_fields(const Fields& all, std::span<const std::string> wanted) {

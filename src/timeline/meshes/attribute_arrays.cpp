@@ -26,6 +26,14 @@ void for_each_owner(const Owners& owners, const Visit& visit) {
     }
 }
 
+/// Of a frame that is not kept the environment knows them still.
+std::shared_ptr<const std::vector<float>> organ_values(const PlantFrame& plant, const std::string& name,
+                                                       const Environment* environment) {
+    const auto kept = plant.organs.find(name);
+    if (kept != plant.organs.end()) return kept->second;
+    return environment ? environment->organ_values(name, plant.plant) : nullptr;
+}
+
 /// How a file is reached from a folder; both are relative to the current one, or absolute. Without a folder the whole
 /// path.
 std::string name_from(const std::optional<std::filesystem::path>& folder, const std::filesystem::path& file) {
@@ -167,12 +175,12 @@ void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) 
     }
 }
 
-void AttributeArrays::add_organs(OwnerArrays& arrays, const Owners& owners, const Environment& environment,
+void AttributeArrays::add_organs(OwnerArrays& arrays, const Owners& owners, const Environment* environment,
                                  std::span<const OrganQuantity> quantities) const {
     for (const OrganQuantity& quantity : quantities) {
         const auto components = static_cast<std::size_t>(quantity.components);
         std::vector<std::shared_ptr<const std::vector<float>>> known;
-        for (const Plant& plant : plants_) known.push_back(environment.organ_values(quantity.name, plant.frame->plant));
+        for (const Plant& plant : plants_) known.push_back(organ_values(*plant.frame, quantity.name, environment));
         const auto values = arrays.append<float>(quantity.name, owners, quantity.components);
         for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
             const std::vector<float>* const of_plant = known[owner.plant].get();

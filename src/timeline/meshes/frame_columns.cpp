@@ -147,7 +147,7 @@ void FrameColumns::fill_arrays(const Frame& frame) {
     arrays.add_colours(of_points_, mesh_.owners);
     arrays.add_parameters(of_points_, mesh_.owners);
     if (organ_quantities_.size() > 0) {
-        arrays.add_organs(of_points_, mesh_.owners, *frame.environment, organ_quantities_.known());
+        arrays.add_organs(of_points_, mesh_.owners, frame.environment, organ_quantities_.known());
     }
     arrays.add_attributes(of_cells_, cell_owners_);
     arrays.add_looks(of_cells_, cell_owners_, folder_, texture_files_);

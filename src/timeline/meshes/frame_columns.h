@@ -51,6 +51,7 @@ public:
     MeshSize foreseen(const Interpretation& interpretation) const;
     /// How many numbers of each module are chosen.
     std::size_t chosen() const { return chosen_.size() + organ_quantities_.size(); }
+    const std::vector<std::string>& organs() const { return organ_quantities_.names(); }
     /// What it takes to find the parameters of a string.
     std::size_t bytes_of_offsets(const ModuleString& string) const {
         return chosen_.empty() ? 0 : sizeof(std::size_t) * string.size();

@@ -15,6 +15,7 @@ public:
     /// Reads the key `organs` of [timeline].
     explicit OrganQuantities(const Settings& timeline);
 
+    const std::vector<std::string>& names() const { return names_; }
     std::size_t size() const { return names_.size(); }
     /// Looks them up, once, among those of the frame's environment. Throws UserError naming the nearest.
     void find(const Frame& frame);

@@ -47,6 +47,8 @@ public:
           collection_(context.folder / "plants.pvd"),
           columns_(std::filesystem::path(settings.place().file).parent_path(), settings) {}
 
+    std::vector<std::string> organs() const override { return columns_.organs(); }
+
     void record(const Frame& frame) override {
         if (written_.empty()) columns_.require_known(frame);
         columns_.fill(frame);
