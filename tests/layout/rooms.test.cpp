@@ -1,4 +1,4 @@
-// Rooms of the studio: document and packets -> growth -> session -> server.
+// Rooms of the studio: protocol, document and packets -> growth -> session -> server.
 #include "catch.h"
 #include "sources.h"
 
@@ -10,11 +10,12 @@ using namespace layout;
 
 /// The rooms that files of a room may include, besides their own.
 const std::map<std::string, std::vector<std::string>> rooms{
-    {"document", {}},
+    {"protocol", {}},
+    {"document", {"protocol"}},
     {"packets", {}},
-    {"growth", {"document", "packets"}},
-    {"session", {"document", "packets", "growth"}},
-    {"server", {"document", "packets", "growth", "session"}},
+    {"growth", {"protocol", "document", "packets"}},
+    {"session", {"protocol", "document", "packets", "growth"}},
+    {"server", {"protocol", "session"}},
 };
 
 /// "growth" of "studio/growth/spool.h"; "" of what lies elsewhere.

@@ -212,8 +212,9 @@ endlsystem
 TEST_CASE("a folder that came by a link is limited until its mark is removed", "[studio]") {
     const TemporaryFolder folder, library;
     const Json link = link_of({{"x/a.l", stalk}}, "x/a.l");
-    const fs::path main =
-        espalier::studio::write_shared(espalier::studio::read_shared(link, library.path()), folder.path());
+    const fs::path main = espalier::studio::write_shared(
+        espalier::studio::read_shared(espalier::studio::from_json<espalier::studio::SharedModel>(link), library.path()),
+        folder.path());
     CHECK(main == folder.path() / "shared/a/x/a.l");
     const auto permission = espalier::studio::permission_of(main, library.path());
     REQUIRE(permission);

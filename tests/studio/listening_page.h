@@ -15,7 +15,7 @@
 
 namespace studio_test {
 
-using Json = espalier::studio::Session::Json;
+using espalier::studio::Json;
 
 class ListeningPage final : public espalier::studio::Page {
 public:

@@ -302,10 +302,11 @@ diffuse       after Erbs et al. 1982, from the clearness
 
 With series, the light is what was measured, and the sun goes its way:
 series        a CSV file. Its header names columns and units: "time (h)" since the midnight at which the run begins,
-                             or "date" as 2025 - 06 - 21 13 : 30 in civil time;
-    "global (W m-2)", "par (umol m-2 s-1)" or both, on level ground;
-    "diffuse (W m-2)" or "direct (W m-2)" if measured, else after Erbs et al.1982. Light changes evenly from row to row,
-        and each step gets the integral over its time sample 0.5 hours : how often the sun is looked at repeat false; true begins the series anew where it ends
+              or "date" as 2025-06-21 13:30 in civil time; "global (W m-2)", "par (umol m-2 s-1)" or both, on level
+              ground; "diffuse (W m-2)" or "direct (W m-2)" if measured, else after Erbs et al. 1982. Light changes
+              evenly from row to row, and each step gets the integral over its time
+sample        0.5 hours: how often the sun is looked at
+repeat        false; true begins the series anew where it ends
 )help";
     return text;
 }

@@ -120,7 +120,7 @@ private:
     }
 
     void write_checkpoint() {
-        const StopRequest::Scope nobody(nullptr);
+        const StopRequest::Scope no_request(nullptr);
         const double begin = seconds();
         std::ostringstream timeline;
         timeline_->save(timeline);

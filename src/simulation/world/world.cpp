@@ -212,7 +212,7 @@ void World::record() {
     state_->times.record = 0;
     if (state_->recorders.empty()) return;
     const Stopwatch stopwatch(state_->times.record);
-    const StopRequest::Scope nobody(nullptr);  // a frame is recorded whole
+    const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
     const Frame now = frame();
     for (Recorder* recorder : state_->recorders) recorder->record(now);
 }

@@ -5,18 +5,17 @@
 #include "language/pgraph/schema.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace espalier::studio {
 namespace {
 
 namespace pgraph = language::pgraph;
-using Json = nlohmann::ordered_json;
 using pgraph::Component;
 using pgraph::Graph;
 using pgraph::KeyValue;
@@ -46,8 +45,8 @@ std::string name_of(pgraph::KeyKind kind) {
     }
 }
 
-Json bound(double value) {
-    return std::isfinite(value) ? Json(value) : Json();
+Nullable<double> bound(double value) {
+    return std::isfinite(value) ? Nullable<double>(value) : Nullable<double>();
 }
 
 /// A text as lines that keep their numbers while lines are changed, added behind or taken out.
@@ -83,22 +82,22 @@ std::size_t end_of_words(const std::string& line) {
 }
 
 /// One edit of a graph and its text.
-class GraphEdit {
+class EditedGraph {
 public:
-    GraphEdit(const std::filesystem::path& file, const std::string& text)
+    EditedGraph(const std::filesystem::path& file, const std::string& text)
         : file_(file.string()), graph_(pgraph::parse(text, file_)), lines_(text) {}
 
-    void set(const std::string& name, const std::string& key, const Json& value) {
+    void set(const std::string& name, const std::string& key, const Nullable<std::string>& value) {
         const Component& component = here(name);
         const pgraph::Key* known = pgraph::find_type(component.type)->find(key);
         if (!known) throw UserError(fmt::format("{} has no key '{}'", component.type, key));
         const auto found = std::find_if(component.keys.begin(), component.keys.end(),
                                         [&](const KeyValue& each) { return each.key == key; });
-        if (value.is_null()) {
+        if (!value) {
             if (found != component.keys.end()) lines_.at(found->place.line).clear();
             return;
         }
-        const std::string text = value.get<std::string>();
+        const std::string& text = *value;
         pgraph::Value read;
         if (text.find_first_of("\r\n") != std::string::npos || !pgraph::read_value(text, known->kind, read)) {
             throw UserError(fmt::format("'{}' is no value of {}", text, key));
@@ -211,68 +210,61 @@ std::string written(const KeyValue& key, const std::vector<std::string>& lines) 
 
 }  // namespace
 
-Json graph_json(const std::filesystem::path& file, const std::string& text) {
+std::optional<ComponentGraph> read_graph(const std::filesystem::path& file, const std::string& text) {
     Graph graph;
     try {
         graph = pgraph::parse(text, file.string());
     } catch (const UserError&) {
-        return nullptr;
+        return std::nullopt;
     }
     std::vector<std::string> lines;
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) lines.push_back(line);
-    Json components = Json::array(), links = Json::array();
+    ComponentGraph shown{file.string(), {}, {}};
     for (const Component& component : graph.components) {
-        const bool is_here = component.place.file == file.string();
-        Json values = Json::object();
-        for (const KeyValue& key : component.keys) {
-            if (is_here) values[key.key] = written(key, lines);
-        }
-        components.push_back({{"name", component.name},
-                              {"type", component.type},
-                              {"line", is_here ? Json(component.place.line) : Json()},
-                              {"values", values}});
+        GraphComponent& one = shown.components.emplace_back();
+        one.name = component.name;
+        one.component_type = component.type;
+        if (component.place.file != file.string()) continue;
+        one.line = component.place.line;
+        for (const KeyValue& key : component.keys) one.values[key.key] = written(key, lines);
     }
-    for (const Link& link : graph.links) {
-        links.push_back({{"from", link.from}, {"to", link.to}, {"kind", name_of(link.kind)}});
-    }
-    return {{"path", file.string()}, {"components", components}, {"links", links}};
+    for (const Link& link : graph.links) shown.links.push_back({link.from, link.to, name_of(link.kind)});
+    return shown;
 }
 
-Json component_types_json() {
-    Json types = Json::array();
+std::vector<ComponentForm> component_forms() {
+    std::vector<ComponentForm> forms;
     for (const pgraph::ComponentType& type : pgraph::component_types()) {
-        Json keys = Json::array();
+        ComponentForm& form = forms.emplace_back();
+        form.name = type.name;
+        form.summary = type.summary;
         for (const pgraph::Key& key : type.keys) {
-            keys.push_back({{"name", key.name},
-                            {"summary", key.summary},
-                            {"unit", key.unit},
-                            {"lowest", bound(key.lowest)},
-                            {"highest", bound(key.highest)},
-                            {"standard", key.standard},
-                            {"kind", name_of(key.kind)}});
+            form.keys.push_back({key.name, key.summary, key.unit, key.standard, name_of(key.kind), bound(key.lowest),
+                                 bound(key.highest)});
         }
-        types.push_back({{"name", type.name}, {"summary", type.summary}, {"keys", keys}});
     }
-    return types;
+    return forms;
 }
 
-std::string edited_graph(const std::filesystem::path& file, const std::string& text, const Json& edit) {
-    GraphEdit graph(file, text);
-    const auto word = [&](const char* key) { return edit.at(key).get<std::string>(); };
-    const std::string what = word("edit");
-    if (what == "set") {
-        graph.set(word("component"), word("key"), edit.at("text"));
-    } else if (what == "add") {
-        graph.add(word("type"), word("name"), word("from"));
-    } else if (what == "remove") {
-        graph.remove(word("component"));
-    } else if (what == "link") {
-        graph.link(word("from"), word("to"), word("kind"));
-    } else if (what == "unlink") {
-        graph.unlink(word("from"), word("to"), word("kind"));
+std::string edited_graph(const std::filesystem::path& file, const std::string& text, const GraphEdit& edit) {
+    EditedGraph graph(file, text);
+    const auto part = [&](const auto& value, const char* name) {
+        if (!value) throw UserError(fmt::format("the edit '{}' needs '{}'", edit.edit, name));
+        return *value;
+    };
+    if (edit.edit == "set") {
+        graph.set(part(edit.component, "component"), part(edit.key, "key"), part(edit.text, "text"));
+    } else if (edit.edit == "add") {
+        graph.add(part(edit.component_type, "type"), part(edit.name, "name"), part(edit.from, "from"));
+    } else if (edit.edit == "remove") {
+        graph.remove(part(edit.component, "component"));
+    } else if (edit.edit == "link") {
+        graph.link(part(edit.from, "from"), part(edit.to, "to"), part(edit.kind, "kind"));
+    } else if (edit.edit == "unlink") {
+        graph.unlink(part(edit.from, "from"), part(edit.to, "to"), part(edit.kind, "kind"));
     } else {
-        throw UserError(fmt::format("'{}' is no edit of a graph", what));
+        throw UserError(fmt::format("'{}' is no edit of a graph", edit.edit));
     }
     return graph.text();
 }

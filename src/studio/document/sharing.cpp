@@ -9,7 +9,6 @@
 #include "studio/document/plain_name.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,7 +20,6 @@ namespace espalier::studio {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_files = 200;
 constexpr int most_of_one_name = 1000;
@@ -52,17 +50,19 @@ std::string digest_text(const std::string& bytes) {
     return fmt::format("{:016x}", digest(bytes));
 }
 
-Json file_json(const fs::path& file, const std::string& bytes, const fs::path& root, const fs::path& library) {
-    Json json = {{"path", file.lexically_relative(root).generic_string()}};
+SharedFile shared_file(const fs::path& file, const std::string& bytes, const fs::path& root, const fs::path& library) {
+    SharedFile shared;
+    shared.path = file.lexically_relative(root).generic_string();
     const fs::path known = library.empty() ? fs::path() : file.lexically_relative(library);
     if (is_of_library(known) && text_on_disk(file) == bytes) {
-        json.update({{"library", known.generic_string()}, {"digest", digest_text(bytes)}});
+        shared.library = known.generic_string();
+        shared.digest = digest_text(bytes);
     } else if (is_palette(file) || is_text(bytes)) {
-        json["content"] = content_of(file, bytes);
+        shared.content = content_of(file, bytes);
     } else {
         throw UserError(fmt::format("{} is no text: a link cannot carry it", file.string()));
     }
-    return json;
+    return shared;
 }
 
 // What a link says is written nowhere before its name has been looked at.
@@ -88,14 +88,15 @@ std::string bytes_of_library(const fs::path& known, const std::string& wanted, c
     return *bytes;
 }
 
-void read_file(const Json& file, const fs::path& library, SharedDocument& shared) {
-    const fs::path path = checked(file.at("path").get<std::string>());
-    if (file.contains("content")) {
-        shared.files[path] = bytes_of_content(path, file["content"].get_ref<const std::string&>());
+void read_file(const SharedFile& file, const fs::path& library, SharedDocument& shared) {
+    const fs::path path = checked(file.path);
+    if (file.content) {
+        shared.files[path] = bytes_of_content(path, *file.content);
         return;
     }
-    const fs::path known = checked(file.at("library").get<std::string>());
-    shared.files[path] = bytes_of_library(known, file.at("digest").get<std::string>(), library);
+    if (!file.library || !file.digest) throw UserError(fmt::format("the link does not hold {}", path.string()));
+    const fs::path known = checked(*file.library);
+    shared.files[path] = bytes_of_library(known, *file.digest, library);
     shared.of_library[path] = known;
 }
 
@@ -112,20 +113,19 @@ fs::path common_folder(const fs::path& main, const std::map<fs::path, std::strin
     return folder;
 }
 
-Json shared_files(const fs::path& main, const std::map<fs::path, std::string>& files, const fs::path& library) {
+SharedModel shared_files(const fs::path& main, const std::map<fs::path, std::string>& files, const fs::path& library) {
     const fs::path root = common_folder(main, files);
-    Json list = Json::array();
-    for (const auto& [file, bytes] : files) list.push_back(file_json(file, bytes, root, library));
-    return {{"main", main.lexically_relative(root).generic_string()}, {"files", list}};
+    SharedModel shared;
+    shared.main = main.lexically_relative(root).generic_string();
+    for (const auto& [file, bytes] : files) shared.files.push_back(shared_file(file, bytes, root, library));
+    return shared;
 }
 
-SharedDocument read_shared(const Json& shared, const fs::path& library) {
-    if (!shared.contains("main") || !shared.contains("files")) throw UserError("the link holds no model");
+SharedDocument read_shared(const SharedModel& shared, const fs::path& library) {
     SharedDocument document;
-    document.main = checked(shared["main"].get<std::string>());
-    const Json& files = shared["files"];
-    if (!files.is_array() || files.empty() || files.size() > most_files) throw UserError("the link holds no model");
-    for (const Json& file : files) read_file(file, library, document);
+    document.main = checked(shared.main);
+    if (shared.files.empty() || shared.files.size() > most_files) throw UserError("the link holds no model");
+    for (const SharedFile& file : shared.files) read_file(file, library, document);
     if (!document.files.contains(document.main)) throw UserError("the link holds no model");
     return document;
 }

@@ -4,7 +4,7 @@
 
 #include "espalier/base/read_log.h"
 
-#include <nlohmann/json_fwd.hpp>
+#include "studio/protocol/shared_model.h"
 
 #include <filesystem>
 #include <map>
@@ -19,11 +19,10 @@ std::filesystem::path common_folder(const std::filesystem::path& main,
                                     const std::map<std::filesystem::path, std::string>& files);
 
 /// `files`: what the document reads, by absolute paths, as it is now. `library`: the folder of the models that come
-/// with the program; may be empty. The part of `open-text` in docs/studio-protocol.md that tells the files.
+/// with the program; may be empty. Seed and steps are left to the caller.
 /// Throws UserError for files that a link cannot carry.
-nlohmann::ordered_json shared_files(const std::filesystem::path& main,
-                                    const std::map<std::filesystem::path, std::string>& files,
-                                    const std::filesystem::path& library);
+SharedModel shared_files(const std::filesystem::path& main, const std::map<std::filesystem::path, std::string>& files,
+                         const std::filesystem::path& library);
 
 /// What came by a link, read and checked.
 struct SharedDocument {
@@ -34,7 +33,7 @@ struct SharedDocument {
 
 /// Throws UserError for what `shared_files` did not tell, for names that the studio does not write (plain_name.h), and
 /// for files that this library does not have.
-SharedDocument read_shared(const nlohmann::ordered_json& shared, const std::filesystem::path& library);
+SharedDocument read_shared(const SharedModel& shared, const std::filesystem::path& library);
 
 /// Where `write_shared` will write: `shared/NAME` below the folder, which is not there yet.
 std::filesystem::path place_of_shared(const SharedDocument& shared, const std::filesystem::path& folder);

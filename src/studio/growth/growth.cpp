@@ -7,7 +7,6 @@
 #include "studio/growth/reuse_plan.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <iterator>
@@ -149,7 +148,7 @@ std::string Growth::column(int step, const std::string& name) const {
     return studio::column(*scene(), *steps_, number(), step, name);
 }
 
-nlohmann::ordered_json Growth::module_info(int step, std::uint32_t module) const {
+Picked Growth::module_info(int step, std::uint32_t module) const {
     return studio::module_info(*scene(), *steps_, step, module);
 }
 

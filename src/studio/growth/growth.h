@@ -11,6 +11,7 @@
 #include "studio/growth/plant_source.h"
 #include "studio/growth/printed_text.h"
 #include "studio/growth/workers.h"
+#include "studio/protocol/shared_model.h"
 
 #include <atomic>
 #include <chrono>
@@ -27,8 +28,6 @@
 #include <vector>
 
 namespace espalier::studio {
-
-constexpr int most_steps = 100000000;  ///< most steps of a growth: more than can be looked at
 
 struct GrowthOrder {
     std::uint32_t number = 0;   ///< names the growth
@@ -71,7 +70,7 @@ public:
     std::vector<BrowserTexture> textures() const override { return steps_->textures(); }
     std::vector<std::string> column_names() const override;
     std::string column(int step, const std::string& name) const override;
-    nlohmann::ordered_json module_info(int step, std::uint32_t module) const override;
+    Picked module_info(int step, std::uint32_t module) const override;
     std::string field(int step, const std::string& name) const override { return fields_.message(step, name); }
 
     void cancel() override;

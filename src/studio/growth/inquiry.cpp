@@ -7,7 +7,6 @@
 #include "timeline/meshes/chosen_parameters.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -16,8 +15,6 @@
 
 namespace espalier::studio {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
@@ -83,24 +80,25 @@ public:
         module_ = module - first_;
     }
 
-    Json answer() const {
+    Picked answer() const {
         const PlantString now = at(step_);
         const LetterId letter = now.string.letters[module_];
-        Json json = {{"plant", scene_.plants[plant_].name},
-                     {"symbol", now.model.alphabet.name(letter)},
-                     {"text", now.text(module_)},
-                     {"names", parameter_names(now.model, letter)},
-                     {"parameters", numbers(now.parameters(module_))}};
-        if (!now.string.has_lineage()) return json;
+        Picked picked;
+        picked.plant = scene_.plants[plant_].name;
+        picked.symbol = now.model.alphabet.name(letter);
+        picked.text = now.text(module_);
+        picked.names = parameter_names(now.model, letter);
+        picked.parameters = numbers(now.parameters(module_));
+        if (!now.string.has_lineage()) return picked;
         const Identity identity = now.string.identity(module_);
-        json["identity"] = name(identity);
-        json["born"] = now.string.step_of_birth(module_);
-        json["parent"] = parent(now);
-        json["children"] = children(now, identity);
-        json["siblings"] = siblings(now);
-        json["history"] = history(now, identity);
-        json["places"] = places(now, identity);
-        return json;
+        picked.identity = name(identity);
+        picked.born = now.string.step_of_birth(module_);
+        picked.parent = parent(now);
+        picked.children = children(now, identity);
+        picked.siblings = siblings(now);
+        picked.history = history(now, identity);
+        picked.places = places(now, identity);
+        return picked;
     }
 
 private:
@@ -108,22 +106,25 @@ private:
 
     static std::string name(Identity identity) { return fmt::format("{:016x}", identity); }
 
-    static Json numbers(std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); }
+    static std::vector<Nullable<double>> numbers(std::span<const double> values) {
+        return {values.begin(), values.end()};
+    }
 
-    Json parent(const PlantString& now) const {
+    Nullable<PickedParent> parent(const PlantString& now) const {
         const Identity identity = now.string.parent(module_);
-        if (identity == 0) return nullptr;
-        Json json = {{"identity", name(identity)}};
-        if (const std::optional<std::size_t> here = now.find(identity)) json["module"] = first_ + *here;
+        if (identity == 0) return {};
+        PickedParent parent;
+        parent.identity = name(identity);
+        if (const std::optional<std::size_t> here = now.find(identity)) parent.module = first_ + *here;
         const int before = static_cast<int>(now.string.step_of_birth(module_)) - 1;
-        if (before < 0 || !steps_.has(before)) return json;
+        if (before < 0 || !steps_.has(before)) return parent;
         const PlantString then = at(before);
         const std::optional<std::size_t> found = then.find(identity);
-        if (!found) return json;
-        json["symbol"] = then.model.alphabet.name(then.string.letters[*found]);
-        json["text"] = then.text(*found);
-        json["born"] = then.string.step_of_birth(*found);
-        return json;
+        if (!found) return parent;
+        parent.symbol = then.model.alphabet.name(then.string.letters[*found]);
+        parent.text = then.text(*found);
+        parent.born = then.string.step_of_birth(*found);
+        return parent;
     }
 
     static std::size_t children(const PlantString& now, Identity identity) {
@@ -132,8 +133,8 @@ private:
         return count;
     }
 
-    Json siblings(const PlantString& now) const {
-        Json modules = Json::array();
+    std::vector<std::size_t> siblings(const PlantString& now) const {
+        std::vector<std::size_t> modules;
         const std::uint32_t row = now.string.births[module_].siblings;
         for (std::size_t i = 0; i < now.string.size(); ++i) {
             if (i != module_ && now.string.births[i].siblings == row) modules.push_back(first_ + i);
@@ -142,24 +143,24 @@ private:
     }
 
     // At most a hundred steps since its birth, at even distances.
-    Json history(const PlantString& now, Identity identity) const {
+    PickedHistory history(const PlantString& now, Identity identity) const {
         const int born = static_cast<int>(now.string.step_of_birth(module_));
         const int stride = std::max(1, (step_ - born) / 100);
-        Json steps = Json::array(), parameters = Json::array();
+        PickedHistory history;
         for (int step = step_ - (step_ - born) / stride * stride; step <= step_; step += stride) {
             if (!steps_.has(step)) continue;
             const PlantString then = at(step);
             const std::optional<std::size_t> found = then.find(identity);
             if (!found) continue;
-            steps.push_back(step);
-            parameters.push_back(numbers(then.parameters(*found)));
+            history.steps.push_back(step);
+            history.parameters.push_back(numbers(then.parameters(*found)));
         }
-        return {{"steps", steps}, {"parameters", parameters}};
+        return history;
     }
 
     // Productions that replace what stood here one step ago, itself or its parent, by something with its letter.
-    Json places(const PlantString& now, Identity identity) const {
-        Json places = Json::array();
+    std::vector<PickedPlace> places(const PlantString& now, Identity identity) const {
+        std::vector<PickedPlace> places;
         if (step_ == 0 || !steps_.has(step_ - 1)) return places;
         const PlantString before = at(step_ - 1);
         std::optional<std::size_t> maker = before.find(identity);
@@ -176,7 +177,7 @@ private:
 
     // `predecessors`: any letter if empty.
     static void add_places(const std::vector<Production>& productions, const std::set<LetterId>& predecessors,
-                           LetterId letter, Json& places) {
+                           LetterId letter, std::vector<PickedPlace>& places) {
         for (const Production& production : productions) {
             const bool applies = predecessors.empty() ||
                                  std::any_of(production.strict.begin(), production.strict.end(),
@@ -184,9 +185,7 @@ private:
             const bool makes = std::any_of(production.successor.begin(), production.successor.end(),
                                            [&](const auto& module) { return module.letter == letter; });
             if (!applies || !makes) continue;
-            places.push_back({{"file", production.place.file},
-                              {"line", production.place.line},
-                              {"column", production.place.column}});
+            places.push_back({production.place.file, production.place.line, production.place.column});
         }
     }
 
@@ -265,7 +264,7 @@ int most_parameters(const Scene& scene) {
 
 }  // namespace
 
-Json module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module) {
+Picked module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module) {
     return Inquiry(scene, steps, step, module).answer();
 }
 

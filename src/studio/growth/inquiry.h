@@ -4,8 +4,7 @@
 #include "espalier/simulation/scene.h"
 
 #include "studio/growth/kept_steps.h"
-
-#include <nlohmann/json_fwd.hpp>
+#include "studio/protocol/picked.h"
 
 #include <cstdint>
 #include <string>
@@ -13,9 +12,9 @@
 
 namespace espalier::studio {
 
-/// The answer to `pick` of docs/studio-protocol.md. `module` is counted through all plants. Throws UserError if there
+/// The answer to `pick`. `module` is counted through all plants. Throws UserError if there
 /// is no such step or module.
-nlohmann::ordered_json module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module);
+Picked module_info(const Scene& scene, const KeptSteps& steps, int step, std::uint32_t module);
 
 /// What modules can be coloured by.
 std::vector<std::string> column_names(const Scene& scene);

@@ -8,8 +8,7 @@
 #include "studio/document/document.h"
 #include "studio/packets/limb_axes.h"
 #include "studio/packets/textures.h"
-
-#include <nlohmann/json_fwd.hpp>
+#include "studio/protocol/picked.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -87,7 +86,7 @@ public:
     virtual std::vector<BrowserTexture> textures() const = 0;
     virtual std::vector<std::string> column_names() const = 0;
     virtual std::string column(int step, const std::string& name) const = 0;
-    virtual nlohmann::ordered_json module_info(int step, std::uint32_t module) const = 0;
+    virtual Picked module_info(int step, std::uint32_t module) const = 0;
     /// Throws UserError if there is no such field at this step.
     virtual std::string field(int step, const std::string& name) const = 0;
 

@@ -81,9 +81,9 @@ std::string hexadecimal(std::uint64_t identity) {
     return fmt::format("{:016x}", identity);
 }
 
-Json siblings_of(const DrawnFrame& frame, std::uint32_t module) {
+std::vector<std::size_t> siblings_of(const DrawnFrame& frame, std::uint32_t module) {
     const RecordedModule& one = frame.modules()[module];
-    Json siblings = Json::array();
+    std::vector<std::size_t> siblings;
     for (std::size_t i = 0; i < frame.modules().size(); ++i) {
         const RecordedModule& other = frame.modules()[i];
         const bool is_sibling = other.organ.plant == one.organ.plant && other.parent == one.parent &&
@@ -93,17 +93,18 @@ Json siblings_of(const DrawnFrame& frame, std::uint32_t module) {
     return siblings;
 }
 
-Json parent_of(const DrawnFrame& frame, const RecordedModule& one) {
-    if (one.parent == 0) return nullptr;
-    Json json = {{"identity", hexadecimal(one.parent)}};
+Nullable<PickedParent> parent_of(const DrawnFrame& frame, const RecordedModule& one) {
+    if (one.parent == 0) return {};
+    PickedParent parent;
+    parent.identity = hexadecimal(one.parent);
     for (std::size_t i = 0; i < frame.modules().size(); ++i) {
         const RecordedModule& other = frame.modules()[i];
         if (other.organ != OrganKey{one.organ.plant, one.parent}) continue;
-        json["module"] = i;
-        json["symbol"] = frame.symbol_name(other.symbol);
-        json["born"] = other.birth;
+        parent.module = i;
+        parent.symbol = frame.symbol_name(other.symbol);
+        parent.born = other.birth;
     }
-    return json;
+    return parent;
 }
 
 }  // namespace
@@ -250,58 +251,55 @@ std::string Recording::field(int /*step*/, const std::string& name) const {
     throw UserError(fmt::format("there is no field '{}': those of recorded runs are not shown", name));
 }
 
-Json Recording::module_info(int step, std::uint32_t module) const {
+Picked Recording::module_info(int step, std::uint32_t module) const {
     const std::shared_ptr<const DrawnFrame> shown = frame(frame_at(step));
     if (module >= shown->modules().size()) throw UserError(fmt::format("step {} has no module {}", step, module));
     const RecordedModule& one = shown->modules()[module];
-    Json json = {{"symbol", shown->symbol_name(one.symbol)},
-                 {"text", shown->symbol_name(one.symbol)},
-                 {"identity", hexadecimal(one.organ.identity)},
-                 {"born", one.birth},
-                 {"order", one.order},
-                 {"parent", parent_of(*shown, one)},
-                 {"siblings", siblings_of(*shown, module)},
-                 {"places", Json::array()}};
+    Picked picked;
+    picked.symbol = picked.text = shown->symbol_name(one.symbol);
+    picked.identity = hexadecimal(one.organ.identity);
+    picked.born = one.birth;
+    picked.order = one.order;
+    picked.parent = parent_of(*shown, one);
+    picked.siblings = siblings_of(*shown, module);
+    picked.places.emplace();
     for (const RecordedPlant& plant : run_->plants()) {
-        if (plant.number == one.organ.plant) json["plant"] = plant.name;
+        if (plant.number == one.organ.plant) picked.plant = plant.name;
     }
-    json["children"] =
+    picked.children = static_cast<std::size_t>(
         std::count_if(shown->modules().begin(), shown->modules().end(), [&](const RecordedModule& other) {
             return other.organ.plant == one.organ.plant && other.parent == one.organ.identity;
-        });
-    std::vector<std::string> names;
-    std::vector<double> values;
+        }));
     for (const auto& [name, value] : shown->parameters(one)) {
-        names.push_back(name);
-        values.push_back(value);
+        picked.names.push_back(name);
+        picked.parameters.push_back(value);
     }
-    json["names"] = names;
-    json["parameters"] = values;
-    json["history"] = history(one.organ, step, names);
-    return json;
+    picked.history = history(one.organ, step, picked.names);
+    return picked;
 }
 
 // As far as it can be read while a page waits.
-Json Recording::history(const OrganKey& organ, int step, const std::vector<std::string>& names) const {
-    Json steps = Json::array(), parameters = Json::array();
+PickedHistory Recording::history(const OrganKey& organ, int step, const std::vector<std::string>& names) const {
+    PickedHistory found;
     const auto end = std::chrono::steady_clock::now() + longest_history;
     const auto in_time = [end](const OrganHistory&, std::size_t, std::size_t) {
         return std::chrono::steady_clock::now() < end;
     };
     const auto known = histories_.history(*run_, organ, run_->frames()[frame_at(step)].step, in_time);
-    if (!known) return {{"steps", steps}, {"parameters", parameters}};
+    if (!known) return found;
     for (const OrganMoment& moment : known->moments) {
         if (moment.step > step) break;
-        Json row = Json::array();
+        std::vector<Nullable<double>> row;
         for (const std::string& name : names) {
             const auto at = std::find(known->parameters.begin(), known->parameters.end(), name);
             const auto number = static_cast<std::size_t>(at - known->parameters.begin());
-            row.push_back(number < moment.parameters.size() ? Json(moment.parameters[number]) : Json());
+            row.push_back(number < moment.parameters.size() ? Nullable<double>(moment.parameters[number])
+                                                            : Nullable<double>());
         }
-        steps.push_back(moment.step);
-        parameters.push_back(std::move(row));
+        found.steps.push_back(moment.step);
+        found.parameters.push_back(std::move(row));
     }
-    return {{"steps", steps}, {"parameters", parameters}};
+    return found;
 }
 
 }  // namespace espalier::studio

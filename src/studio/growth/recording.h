@@ -47,7 +47,7 @@ public:
     std::vector<BrowserTexture> textures() const override { return {}; }
     std::vector<std::string> column_names() const override { return columns_; }
     std::string column(int step, const std::string& name) const override;
-    nlohmann::ordered_json module_info(int step, std::uint32_t module) const override;
+    Picked module_info(int step, std::uint32_t module) const override;
     std::string field(int step, const std::string& name) const override;
 
     void cancel() override;
@@ -60,7 +60,7 @@ private:
     /// The number of the frame that a step shows. Throws UserError for a step before the first or behind the last.
     std::size_t frame_at(int step) const;
     std::shared_ptr<const DrawnFrame> frame(std::size_t number) const;
-    nlohmann::ordered_json history(const OrganKey& organ, int step, const std::vector<std::string>& names) const;
+    PickedHistory history(const OrganKey& organ, int step, const std::vector<std::string>& names) const;
 
     const GrowthOrder order_;
     GrowthListener& listener_;

@@ -4,9 +4,9 @@
 #include "espalier/studio/studio.h"
 
 #include "base/number.h"
+#include "studio/protocol/json.h"
 #include "studio/server/access.h"
 #include "studio/server/page_files.h"
-#include "studio/session/request_text.h"
 #include "studio/session/session.h"
 
 #include <fmt/format.h>
@@ -147,7 +147,7 @@ private:
 
     // The first message holds the token.
     bool greets(const std::string& text) const {
-        const nlohmann::ordered_json request = read_request(text);
+        const Json request = read_request(text);
         const std::string token = request.value("token", "");
         return request.value("do", "") == "hello" && is_token(token, state_.token);
     }

@@ -15,16 +15,12 @@
 namespace espalier::studio {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Entries = std::vector<HelpEntry>;
 
-Json entry(const std::string& name, const std::string& summary, const std::string& help = "") {
-    return {{"name", name}, {"summary", summary}, {"help", help}};
-}
-
-Json keywords() {
-    Json list = Json::array();
+Entries keywords() {
+    Entries list;
     for (const auto& names : {language::header_keywords(), language::section_keywords()}) {
-        for (const std::string& name : names) list.push_back(entry(name, ""));
+        for (const std::string& name : names) list.push_back({name, "", ""});
     }
     return list;
 }
@@ -37,18 +33,18 @@ std::string limits_of(const language::weber_penn::Parameter& parameter, double s
     return parameter.unit.empty() ? text : fmt::format("{} ({})", text, parameter.unit);
 }
 
-Json species() {
-    Json list = Json::array();
+Entries species() {
+    Entries list;
     for (const language::weber_penn::Parameter& parameter : language::weber_penn::parameters()) {
         if (!parameter.has_levels()) {
-            list.push_back(entry(parameter.name, parameter.summary, limits_of(parameter, parameter.standard.front())));
+            list.push_back({parameter.name, parameter.summary, limits_of(parameter, parameter.standard.front())});
             continue;
         }
         for (std::size_t i = 0; i < parameter.standard.size(); ++i) {
             const int level = parameter.first_level + static_cast<int>(i);
-            list.push_back(entry(language::weber_penn::written_name(parameter, level),
-                                 fmt::format("level {}: {}", level, parameter.summary),
-                                 limits_of(parameter, parameter.standard[i])));
+            list.push_back({language::weber_penn::written_name(parameter, level),
+                            fmt::format("level {}: {}", level, parameter.summary),
+                            limits_of(parameter, parameter.standard[i])});
         }
     }
     return list;
@@ -61,21 +57,21 @@ std::string phrase_of(const std::string& word, const std::string& help, char end
     return help.substr(begin, help.find_first_of(std::string("\n") + end, begin) - begin);
 }
 
-Json skeletons() {
-    Json list = Json::array();
+Entries skeletons() {
+    Entries list;
     const std::string& help = registered<NotationType>().at("sdl")->help;
     for (const char* block : {"define", "rules", "fibres", "generations"}) {
-        list.push_back(entry(block, phrase_of(block, help, '\n')));
+        list.push_back({block, phrase_of(block, help, '\n'), ""});
     }
     for (const std::string& name : language::sdl::fibre_settings()) {
-        list.push_back(entry(name, phrase_of(name, help.substr(help.find("flat;")), ';')));
+        list.push_back({name, phrase_of(name, help.substr(help.find("flat;")), ';'), ""});
     }
     return list;
 }
 
 }  // namespace
 
-Json words_json() {
+std::map<std::string, std::vector<HelpEntry>> words_of_languages() {
     return {{"cpfg", keywords()}, {"sdl", skeletons()}, {"species", species()}};
 }
 

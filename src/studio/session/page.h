@@ -1,14 +1,26 @@
-// A page as its session knows it.
+// A page in a browser, as its session sees it.
 #pragma once
 
-#include "studio/session/session.h"
-
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <set>
+#include <string>
 
 namespace espalier::studio {
 
-struct Session::Viewer {
+/// A page in a browser.
+class Page {
+public:
+    virtual ~Page() = default;
+    virtual void send_text(std::string text) = 0;
+    virtual void send_bytes(std::string bytes) = 0;
+    /// True while it has not yet taken what was sent: packets that only pass by are then left out.
+    virtual bool is_behind() const = 0;
+};
+
+/// What a session knows of a page.
+struct Viewer {
     explicit Viewer(Page& its_page) : page(its_page) {}
 
     Page& page;
