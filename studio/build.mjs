@@ -59,7 +59,7 @@ function licences(names) {
     const { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
     parts.push(`${"-".repeat(80)}\n${name} ${version} (${license})\n`);
-    if (file) parts.push(readFileSync(join(folder, file), "utf8").trimEnd() + "\n");
+    if (file) parts.push(`${readFileSync(join(folder, file), "utf8").trimEnd()}\n`);
   }
   return parts.join("\n");
 }

@@ -41,17 +41,17 @@ struct Place {
 
 }  // namespace
 
-std::vector<BranchTree> branch_trees(std::span<const RecordedInternode> internodes,
+std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes,
                                      std::span<const std::uint32_t> plants) {
     std::unordered_map<std::uint32_t, std::size_t> tree_of;
     for (const std::uint32_t plant : plants) tree_of.emplace(plant, tree_of.size());
     std::vector<BranchTree> trees(tree_of.size());
     std::vector<Place> places(internodes.size());
     for (std::size_t i = 0; i < internodes.size(); ++i) {
-        const RecordedInternode& internode = internodes[i];
+        const FrameInternode& internode = internodes[i];
         const auto known = tree_of.find(internode.plant);
         if (known == tree_of.end()) continue;
-        if (internode.bearer != RecordedInternode::none) {
+        if (internode.bearer != FrameInternode::none) {
             const auto bearer = static_cast<std::size_t>(internode.bearer);
             // An axis that begins where its bearer begins stands beside it.
             const bool beside = internode.base == internodes[bearer].base && internode.base != internodes[bearer].tip;

@@ -42,8 +42,7 @@ struct Children {
 
 /// One tree per plant, in the order of `plants`; internodes of others are left out. So are internodes without length
 /// (scars, buds that have not grown yet): what they bear stands on what they stand on.
-std::vector<BranchTree> branch_trees(std::span<const RecordedInternode> internodes,
-                                     std::span<const std::uint32_t> plants);
+std::vector<BranchTree> branch_trees(std::span<const FrameInternode> internodes, std::span<const std::uint32_t> plants);
 
 /// Sums over the internodes: their lengths, and surfaces and volumes of the truncated cones they are.
 double total_length(const BranchTree& tree);

@@ -12,7 +12,7 @@ namespace {
 /// Facets that follow each other in the file and belong to one module are one leaf.
 class LeafBuilder {
 public:
-    void add(std::uint64_t identity, const RecordedGeometry& geometry, std::span<const std::int32_t> facet) {
+    void add(std::uint64_t identity, const FrameGeometry& geometry, std::span<const std::int32_t> facet) {
         if (identity != identity_ || identity == 0) end();
         identity_ = identity;
         const auto corner = [&](std::size_t i) {
@@ -44,7 +44,7 @@ private:
 
 }  // namespace
 
-std::vector<Leaves> leaves_of(const RecordedGeometry& geometry, std::span<const std::uint32_t> plants,
+std::vector<Leaves> leaves_of(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
                               const std::set<std::string>& symbols) {
     std::unordered_map<std::uint32_t, std::size_t> place;
     for (const std::uint32_t plant : plants) place.emplace(plant, place.size());
@@ -53,7 +53,7 @@ std::vector<Leaves> leaves_of(const RecordedGeometry& geometry, std::span<const 
         if (symbols.contains(geometry.symbol_names[i])) wanted[i] = true;
     }
     std::vector<LeafBuilder> builders(place.size());
-    const RecordedAttributes& of = geometry.of_cells;
+    const FrameAttributes& of = geometry.of_cells;
     for (std::size_t i = 0; i < geometry.polygons.size(); ++i) {
         const std::size_t cell = geometry.polygons.first + i;
         const Kind kind = of.kinds[cell];

@@ -26,7 +26,7 @@ struct Leaves {
 
 /// The leaves of each of `plants`, in their order: polygons, organs and patches of the modules with these symbols, of
 /// all modules if none is named.
-std::vector<Leaves> leaves_of(const RecordedGeometry& geometry, std::span<const std::uint32_t> plants,
+std::vector<Leaves> leaves_of(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
                               const std::set<std::string>& symbols = {});
 
 double total_area(const Leaves& leaves);

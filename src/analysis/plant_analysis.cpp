@@ -40,7 +40,7 @@ PlantAnalysis analyse(std::uint32_t plant, const BranchTree& tree, const Leaves&
     return result;
 }
 
-std::vector<PlantAnalysis> analyse(const RecordedGeometry& geometry, std::span<const std::uint32_t> plants,
+std::vector<PlantAnalysis> analyse(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
                                    const AnalysisOptions& options) {
     const std::vector<BranchTree> trees = branch_trees(internodes_of(geometry), plants);
     const std::vector<Leaves> leaves = leaves_of(geometry, plants, options.leaf_symbols);

@@ -42,7 +42,7 @@ PlantAnalysis analyse(std::uint32_t plant, const BranchTree& tree, const Leaves&
                       const AnalysisOptions& options = {});
 
 /// Analyses each of `plants`, in their order.
-std::vector<PlantAnalysis> analyse(const RecordedGeometry& geometry, std::span<const std::uint32_t> plants,
+std::vector<PlantAnalysis> analyse(const FrameGeometry& geometry, std::span<const std::uint32_t> plants,
                                    const AnalysisOptions& options = {});
 
 /// One figure of a plant: a column of analysis.csv.

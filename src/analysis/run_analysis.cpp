@@ -43,7 +43,7 @@ RunAnalysis::RunAnalysis(const RecordedRun& run, std::span<const RecordedFrame* 
         if (std::find(plants.begin(), plants.end(), plant.number) != plants.end()) plants_.push_back(plant);
     }
     tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-        RecordedGeometry geometry = run.geometry(*frames[i]);
+        FrameGeometry geometry = run.geometry(*frames[i]);
         frames_[i] = {frames[i]->step, frames[i]->time, analyse(geometry, plants, options),
                       std::move(geometry.symbol_names)};
     });

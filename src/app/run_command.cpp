@@ -161,7 +161,8 @@ bool InterruptibleRun::interrupted() {
     return interrupt.is_asked();
 }
 
-RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output) {
+RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs, const fs::path& output,
+               Recorder* recorder) {
     platform::give_back_large_blocks();
     std::optional<tbb::global_control> threads;
     if (arguments.threads > 0) {
@@ -169,6 +170,7 @@ RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog&
     }
     RunOptions options;
     options.output = output;
+    options.recorder = recorder;
     options.overwrite = arguments.overwrite;
     options.checkpoint_every = arguments.checkpoint_every;
     options.resume = arguments.resume;

@@ -68,9 +68,10 @@ private:
     platform::EndSignals signals_;
 };
 
-/// Grows the scene and records it in a folder; progress and warnings go to standard error. `inputs` is what was read.
+/// Grows the scene and records it in a folder, if one is named; progress and warnings go to standard error. `inputs` is
+/// what was read. `recorder`, which may be null, sees every frame.
 RunResult grow(const RunArguments& arguments, const Scene& scene, const ReadLog& inputs,
-               const std::filesystem::path& output);
+               const std::filesystem::path& output, Recorder* recorder = nullptr);
 
 /// Runs it as `espalier run` does. Returns the exit code; throws UserError and RunError.
 int run_command(const RunArguments& arguments);

@@ -45,9 +45,9 @@ Column<glm::vec3> read_points(const VtkXmlFile& file, std::size_t count) {
     return points;
 }
 
-RecordedCells read_cells(const VtkXmlFile& file, std::string_view section_name, std::size_t count, std::size_t points) {
+FrameCells read_cells(const VtkXmlFile& file, std::string_view section_name, std::size_t count, std::size_t points) {
     const XmlElement& section = file.child(file.piece(), section_name);
-    RecordedCells cells;
+    FrameCells cells;
     const Column<std::int64_t> ends = file.values<std::int64_t>(section, "offsets", count);
     std::int64_t last = 0;
     for (const std::int64_t end : ends) {
@@ -73,33 +73,38 @@ Column<std::array<std::uint8_t, 3>> read_rgb(const VtkXmlFile& file, const XmlEl
     return rgb;
 }
 
-RecordedAttributes read_attributes(const VtkXmlFile& file, const XmlElement& section, std::size_t count,
-                                   std::size_t symbols) {
-    RecordedAttributes result;
-    result.identities = file.values<std::uint64_t>(section, "identity", count);
-    result.parents = file.values<std::uint64_t>(section, "parent", count);
-    result.plants = file.values<std::uint32_t>(section, "plant", count);
-    result.symbols = file.values<std::uint16_t>(section, "symbol", count);
-    result.births = file.values<std::int32_t>(section, "birth", count);
-    result.orders = file.values<std::uint16_t>(section, "order", count);
-    result.colours = file.values<std::uint16_t>(section, "colour", count);
-    result.rgb = read_rgb(file, section, count);
-    const Column<std::uint8_t> kinds = file.values<std::uint8_t>(section, "kind", count);
-    for (const std::uint8_t kind : kinds) {
+template <class T>
+void read_column(const VtkXmlFile& file, const XmlElement& section, const char* name, std::size_t count,
+                 Column<T>& column) {
+    column = file.values<T>(section, name, count);
+}
+
+void read_column(const VtkXmlFile& file, const XmlElement& section, const char* name, std::size_t count,
+                 Column<Kind>& column) {
+    for (const std::uint8_t kind : file.values<std::uint8_t>(section, name, count)) {
         if (kind > static_cast<std::uint8_t>(Kind::label)) file.fail("a kind is none of those that there are");
-        result.kinds.push_back(static_cast<Kind>(kind));
+        column.push_back(static_cast<Kind>(kind));
     }
+}
+
+FrameAttributes read_attributes(const VtkXmlFile& file, const XmlElement& section, std::size_t count,
+                                std::size_t symbols) {
+    FrameAttributes result;
+    result.for_columns([&](const char* name, auto& column) { read_column(file, section, name, count, column); });
+    result.rgb = read_rgb(file, section, count);
     const bool known = std::all_of(result.symbols.begin(), result.symbols.end(), [&](auto s) { return s < symbols; });
     if (!known) file.fail("a symbol has no name");
     return result;
 }
 
-void read_parameters(RecordedGeometry& geometry, const VtkXmlFile& file, const XmlElement& section) {
+void read_parameters(FrameGeometry& geometry, const VtkXmlFile& file, const XmlElement& section) {
     for (const XmlElement& array : section.children) {
         const std::string& name = array.attribute("Name");
         const std::string& type = array.attribute("type");
         const bool known = std::find(std::begin(known_arrays), std::end(known_arrays), name) != std::end(known_arrays);
-        if (known || !type.starts_with("Float")) continue;
+        const std::string& components = array.attribute("NumberOfComponents");
+        const bool is_number = components.empty() || components == "1";  // else a direction
+        if (known || !is_number || !type.starts_with("Float")) continue;
         geometry.parameters[name] = file.values<double>(array, geometry.points.size());
     }
 }
@@ -112,7 +117,7 @@ Column<std::uint16_t> read_looks(const VtkXmlFile& file, const XmlElement& secti
 
 }  // namespace
 
-RecordedGeometry read_geometry(const std::filesystem::path& path) {
+FrameGeometry read_geometry(const std::filesystem::path& path) {
     const VtkXmlFile file(path, "PolyData");
     const XmlElement& piece = file.piece();
     const std::size_t points = file.count(piece, "NumberOfPoints");
@@ -122,7 +127,7 @@ RecordedGeometry read_geometry(const std::filesystem::path& path) {
     const XmlElement& of_points = file.child(piece, "PointData");
     const XmlElement& of_cells = file.child(piece, "CellData");
 
-    RecordedGeometry geometry;
+    FrameGeometry geometry;
     geometry.symbol_names = file.texts("symbol_names");
     geometry.texture_files = file.texts("texture_files");
     geometry.label_texts = file.texts("label_texts");

@@ -6,7 +6,7 @@
 namespace espalier::archive {
 
 /// Throw UserError naming the file.
-RecordedGeometry read_geometry(const std::filesystem::path& path);
+FrameGeometry read_geometry(const std::filesystem::path& path);
 RecordedLives read_lives(const std::filesystem::path& path);
 RecordedBackground read_background(const std::filesystem::path& path);
 

@@ -13,10 +13,10 @@ namespace {
 /// A piece of an organ: an internode, a polygon, or a point.
 class Pieces {
 public:
-    explicit Pieces(const RecordedGeometry& geometry) : geometry_(geometry) {}
+    explicit Pieces(const FrameGeometry& geometry) : geometry_(geometry) {}
 
     void add_lines() {
-        const RecordedGeometry& g = geometry_;
+        const FrameGeometry& g = geometry_;
         for (std::size_t line = 0; line < g.lines.size(); ++line) {
             if (g.of_cells.kinds[g.lines.first + line] != Kind::axis) continue;
             const auto points = g.lines[line];
@@ -24,7 +24,7 @@ public:
         }
     }
 
-    void add_cells(const RecordedCells& cells) {
+    void add_cells(const FrameCells& cells) {
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
             const auto corners = cells[cell];
             if (!corners.empty()) add_surface(cells.first + cell, corners);
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    OrganRow row_of(const RecordedAttributes& of, std::size_t row, glm::vec3 base, glm::vec3 tip,
+    OrganRow row_of(const FrameAttributes& of, std::size_t row, glm::vec3 base, glm::vec3 tip,
                     std::int32_t point) const {
         return {{of.plants[row], of.identities[row]},
                 of.parents[row],
@@ -110,18 +110,18 @@ private:
         }
     }
 
-    const RecordedGeometry& geometry_;
+    const FrameGeometry& geometry_;
     std::vector<OrganRow> rows_;
 };
 
 }  // namespace
 
-OrganTable::OrganTable(const RecordedGeometry& geometry) : symbol_names_(geometry.symbol_names) {
+OrganTable::OrganTable(const FrameGeometry& geometry) : symbol_names_(geometry.symbol_names) {
     gather(geometry);
     keep_parameters(geometry);
 }
 
-void OrganTable::gather(const RecordedGeometry& geometry) {
+void OrganTable::gather(const FrameGeometry& geometry) {
     Pieces pieces(geometry);
     pieces.add_lines();  // first: what has an internode is one
     pieces.add_cells(geometry.polygons);
@@ -129,7 +129,7 @@ void OrganTable::gather(const RecordedGeometry& geometry) {
     rows_ = pieces.merged();
 }
 
-void OrganTable::keep_parameters(const RecordedGeometry& geometry) {
+void OrganTable::keep_parameters(const FrameGeometry& geometry) {
     for (const auto& [name, values] : geometry.parameters) parameter_names_.push_back(name);
     parameters_.reserve(rows_.size() * parameter_names_.size());
     for (const OrganRow& row : rows_) {

@@ -20,7 +20,7 @@ struct OrganRow {
 
 class OrganTable {
 public:
-    explicit OrganTable(const RecordedGeometry& geometry);
+    explicit OrganTable(const FrameGeometry& geometry);
 
     /// Null if the frame has no such organ.
     const OrganRow* find(const OrganKey& key) const;
@@ -31,8 +31,8 @@ public:
     std::size_t bytes() const;
 
 private:
-    void gather(const RecordedGeometry& geometry);
-    void keep_parameters(const RecordedGeometry& geometry);
+    void gather(const FrameGeometry& geometry);
+    void keep_parameters(const FrameGeometry& geometry);
 
     std::vector<OrganRow> rows_;  ///< by key
     std::vector<std::string> symbol_names_, parameter_names_;

@@ -105,21 +105,25 @@ std::vector<RecordedFrame> read_frames(const fs::path& folder, double dt) {
     return sorted;
 }
 
-Json read_run_json(const fs::path& folder) {
+std::string read_record(const fs::path& folder) {
     const fs::path file = folder / "run.json";
     std::error_code error;
     if (!fs::exists(file, error)) {
         throw UserError(fmt::format("{} holds no run: there is no run.json in it", folder.string()));
     }
-    Json run = Json::parse(read_text(file), nullptr, false);
+    return read_text(file);
+}
+
+Json parse_record(const fs::path& folder, const std::string& record) {
+    Json run = Json::parse(record, nullptr, false);
     if (!run.is_object() || !run.contains("exit")) {
-        throw UserError(fmt::format("{} is not what a run writes", file.string()));
+        throw UserError(fmt::format("{} is not what a run writes", (folder / "run.json").string()));
     }
     return run;
 }
 
 std::string written_exit(const fs::path& folder) {
-    const Json run = read_run_json(folder);
+    const Json run = parse_record(folder, read_record(folder));
     if (!run["exit"].is_string()) {
         throw UserError(fmt::format("{} is not what a run writes", (folder / "run.json").string()));
     }
@@ -202,8 +206,20 @@ fs::path folder_of_run(const fs::path& path) {
 }
 
 RecordedRun::RecordedRun(const fs::path& path) : folder_(folder_of_run(path)) {
-    const Json run = read_run_json(folder_);
+    take(read_record(folder_));
+    exit_ = exit_of_run(folder_);
+    frames_ = read_frames(folder_, dt_);
+}
+
+RecordedRun::RecordedRun(const std::string& record, std::vector<RecordedFrame> frames) : frames_(std::move(frames)) {
+    take(record);
+}
+
+void RecordedRun::take(const std::string& record) {
+    const fs::path file = folder_ / "run.json";
+    const Json run = parse_record(folder_, record);
     try {
+        exit_ = run.at("exit").get<std::string>();
         scene_ = run.at("scene").at("name").get<std::string>();
         time_unit_ = run.at("time_unit").get<std::string>();
         dt_ = run.at("dt").get<double>();
@@ -213,14 +229,12 @@ RecordedRun::RecordedRun(const fs::path& path) : folder_(folder_of_run(path)) {
         }
         if (run.contains("units")) units_ = run["units"].get<std::map<std::string, std::string>>();
         ground_area_ = ground_area_of(run);
-        if (run.contains("view")) view_ = view_of(folder_ / "run.json", run["view"]);
-        if (run.contains("materials")) materials_ = materials_of(folder_ / "run.json", run["materials"]);
+        if (run.contains("view")) view_ = view_of(file, run["view"]);
+        if (run.contains("materials")) materials_ = materials_of(file, run["materials"]);
     } catch (const Json::exception& error) {
-        throw UserError(fmt::format("{} is not what a run writes: {}", (folder_ / "run.json").string(), error.what()));
+        throw UserError(fmt::format("{} is not what a run writes: {}", file.string(), error.what()));
     }
-    if (!(dt_ > 0) || !std::isfinite(dt_)) fail(folder_ / "run.json", fmt::format("a step cannot last {}", dt_));
-    exit_ = exit_of_run(folder_);
-    frames_ = read_frames(folder_, dt_);
+    if (!(dt_ > 0) || !std::isfinite(dt_)) fail(file, fmt::format("a step cannot last {}", dt_));
 }
 
 RecordedMaterial RecordedRun::material(const std::array<std::uint8_t, 3>& rgb) const {
@@ -267,13 +281,14 @@ std::vector<std::string> RecordedRun::field_names() const {
     return names;
 }
 
-RecordedGeometry RecordedRun::geometry(const RecordedFrame& frame) const {
+FrameGeometry RecordedRun::geometry(const RecordedFrame& frame) const {
+    if (frame.geometry) return *frame.geometry;
     if (frame.plants.empty()) {
         throw UserError(fmt::format("{} holds no plants of step {}: its recorder 'skeleton' was off", folder_.string(),
                                     frame.step));
     }
-    RecordedGeometry geometry = read_geometry(frame.plants);
-    for (const RecordedAttributes* attributes : {&geometry.of_points, &geometry.of_cells}) {
+    FrameGeometry geometry = read_geometry(frame.plants);
+    for (const FrameAttributes* attributes : {&geometry.of_points, &geometry.of_cells}) {
         for (const std::uint32_t plant : attributes->plants) {
             if (plant >= plants_.size()) fail(frame.plants, fmt::format("the run has no plant {}", plant));
         }

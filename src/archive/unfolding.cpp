@@ -54,9 +54,9 @@ glm::vec3 turned(const glm::vec3& from, const glm::vec3& to, float share) {
 /// Finds the tip nearest to a point; none among none.
 class NearestTip {
 public:
-    explicit NearestTip(const std::vector<RecordedInternode>& internodes) {
+    explicit NearestTip(const std::vector<FrameInternode>& internodes) {
         vtkNew<vtkPoints> tips;
-        for (const RecordedInternode& internode : internodes) {
+        for (const FrameInternode& internode : internodes) {
             tips->InsertNextPoint(internode.tip.x, internode.tip.y, internode.tip.z);
         }
         data_->SetPoints(tips);
@@ -66,7 +66,7 @@ public:
     }
 
     std::int32_t of(const glm::vec3& point) {
-        if (data_->GetNumberOfPoints() == 0) return RecordedInternode::none;
+        if (data_->GetNumberOfPoints() == 0) return FrameInternode::none;
         const double place[3] = {point.x, point.y, point.z};
         return static_cast<std::int32_t>(locator_->FindClosestPoint(place));
     }
@@ -78,9 +78,9 @@ private:
 
 /// Points that are no points of axes, module by module.
 std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<std::int32_t>> organ_points_of(
-    const RecordedGeometry& geometry, const std::vector<RecordedInternode>& internodes) {
+    const FrameGeometry& geometry, const std::vector<FrameInternode>& internodes) {
     std::vector<bool> of_axis(geometry.points.size());
-    for (const RecordedInternode& internode : internodes) {
+    for (const FrameInternode& internode : internodes) {
         of_axis[static_cast<std::size_t>(internode.base_point)] = true;
         of_axis[static_cast<std::size_t>(internode.tip_point)] = true;
     }
@@ -95,24 +95,24 @@ std::map<std::pair<std::uint32_t, std::uint64_t>, std::vector<std::int32_t>> org
 
 }  // namespace
 
-Unfolding::Unfolding(const RecordedGeometry& early, RecordedGeometry late) : late_(std::move(late)) {
-    const std::vector<RecordedInternode> before = internodes_of(early);
+Unfolding::Unfolding(const FrameGeometry& early, FrameGeometry late) : late_(std::move(late)) {
+    const std::vector<FrameInternode> before = internodes_of(early);
     match_internodes(before);
     match_organs(early, before);
 }
 
-void Unfolding::match_internodes(const std::vector<RecordedInternode>& before) {
-    std::unordered_map<DrawnPart, const RecordedInternode*, DrawnPartHash> known;
+void Unfolding::match_internodes(const std::vector<FrameInternode>& before) {
+    std::unordered_map<DrawnPart, const FrameInternode*, DrawnPartHash> known;
     PartNumbers numbers_before, numbers_after;
-    for (const RecordedInternode& internode : before) {
+    for (const FrameInternode& internode : before) {
         known.emplace(numbers_before.next(internode.plant, internode.identity), &internode);
     }
-    for (const RecordedInternode& late : internodes_of(late_)) {
+    for (const FrameInternode& late : internodes_of(late_)) {
         Growing& growing = internodes_.emplace_back(Growing{late});
         const auto found = known.find(numbers_after.next(late.plant, late.identity));
         growing.was_base = late.base;
         if (found == known.end()) continue;
-        const RecordedInternode& was = *found->second;
+        const FrameInternode& was = *found->second;
         growing.is_new = false;
         growing.was_base = was.base;
         growing.was = was.tip - was.base;
@@ -121,12 +121,12 @@ void Unfolding::match_internodes(const std::vector<RecordedInternode>& before) {
     }
 }
 
-void Unfolding::match_organs(const RecordedGeometry& early, const std::vector<RecordedInternode>& before) {
-    std::vector<RecordedInternode> after;
+void Unfolding::match_organs(const FrameGeometry& early, const std::vector<FrameInternode>& before) {
+    std::vector<FrameInternode> after;
     for (const Growing& growing : internodes_) after.push_back(growing.late);
     const auto were = organ_points_of(early, before);
     NearestTip tips_before(before), tips_after(after);
-    const auto place = [](const RecordedGeometry& geometry, std::int32_t point) {
+    const auto place = [](const FrameGeometry& geometry, std::int32_t point) {
         return geometry.points[static_cast<std::size_t>(point)];
     };
     for (const auto& [module, points] : organ_points_of(late_, after)) {
@@ -147,13 +147,13 @@ void Unfolding::match_organs(const RecordedGeometry& early, const std::vector<Re
     }
 }
 
-RecordedGeometry Unfolding::at(double share) const {
+FrameGeometry Unfolding::at(double share) const {
     const auto now = static_cast<float>(share);
-    RecordedGeometry geometry = late_;
+    FrameGeometry geometry = late_;
     std::vector<glm::vec3> tips(internodes_.size()), bases(internodes_.size());
     for (std::size_t i = 0; i < internodes_.size(); ++i) {
         const Growing& growing = internodes_[i];
-        const RecordedInternode& late = growing.late;
+        const FrameInternode& late = growing.late;
         if (late.bearer == none) {
             bases[i] = glm::mix(growing.was_base, late.base, now);
         } else {

@@ -14,17 +14,17 @@ namespace espalier::archive {
 /// lacks is gone at once: it was shed, or has become something else.
 class Unfolding {
 public:
-    Unfolding(const RecordedGeometry& early, RecordedGeometry late);
+    Unfolding(const FrameGeometry& early, FrameGeometry late);
 
     /// `share` of the time has passed, in (0, 1]; at 1 everything is where the later frame has it.
-    RecordedGeometry at(double share) const;
+    FrameGeometry at(double share) const;
 
 private:
-    static constexpr std::int32_t none = RecordedInternode::none;
+    static constexpr std::int32_t none = FrameInternode::none;
 
     /// An internode of the later frame, and what it was.
     struct Growing {
-        RecordedInternode late;
+        FrameInternode late;
         glm::vec3 was_base{0}, was{0};  ///< base, and from base to tip
         float was_base_radius = 0, was_tip_radius = 0;
         bool is_new = true;
@@ -36,10 +36,10 @@ private:
         glm::vec3 from, to;   ///< in the early and in the late frame
     };
 
-    void match_internodes(const std::vector<RecordedInternode>& before);
-    void match_organs(const RecordedGeometry& early, const std::vector<RecordedInternode>& before);
+    void match_internodes(const std::vector<FrameInternode>& before);
+    void match_organs(const FrameGeometry& early, const std::vector<FrameInternode>& before);
 
-    RecordedGeometry late_;
+    FrameGeometry late_;
     std::vector<Growing> internodes_;
     std::vector<OrganPoint> organ_points_;
 };

@@ -167,4 +167,22 @@ std::vector<Quantity> Environment::statistics(std::uint32_t plant) const {
     return all;
 }
 
+std::vector<OrganQuantity> Environment::organ_quantities() const {
+    std::vector<OrganQuantity> all;
+    for (std::size_t process = 0; process < processes_.size(); ++process) {
+        for (OrganQuantity& quantity : processes_[process]->organ_quantities()) {
+            quantity.name = names_[process] + "." + quantity.name;
+            all.push_back(std::move(quantity));
+        }
+    }
+    return all;
+}
+
+std::shared_ptr<const std::vector<float>> Environment::organ_values(const std::string& name,
+                                                                    std::uint32_t plant) const {
+    const auto process = find(name.substr(0, name.find('.')));
+    if (!process || name.find('.') == std::string::npos) return nullptr;
+    return processes_[*process]->organ_values(name.substr(name.find('.') + 1), plant);
+}
+
 }  // namespace espalier::environment

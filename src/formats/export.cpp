@@ -36,8 +36,8 @@ std::filesystem::path file_of(const ExportJob& job, std::string stem, const std:
 
 }  // namespace
 
-RecordedGeometry ExportJob::geometry(const RecordedFrame& frame) const {
-    RecordedGeometry geometry = run.geometry(frame);
+FrameGeometry ExportJob::geometry(const RecordedFrame& frame) const {
+    FrameGeometry geometry = run.geometry(frame);
     if (!bark.empty()) dress_axes(geometry, bark);
     return geometry;
 }

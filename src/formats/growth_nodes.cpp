@@ -106,7 +106,7 @@ GrowthNode& GrowthNodes::node(std::uint32_t plant, Kind kind, std::uint64_t iden
     return nodes_[at->second];
 }
 
-void GrowthNodes::add_internode(const RecordedGeometry& geometry, const RecordedInternode& internode, float thinnest) {
+void GrowthNodes::add_internode(const FrameGeometry& geometry, const FrameInternode& internode, float thinnest) {
     if (!geometry.pixels.empty())
         thinnest *= std::max(1.0f, geometry.pixels[static_cast<std::size_t>(internode.tip_point)]);
     const float length = glm::distance(internode.base, internode.tip);
@@ -150,23 +150,23 @@ void GrowthNodes::add_organ(const FrameMesh& mesh, const MeshPart& part) {
     append(here, frame_, *pose);
 }
 
-void GrowthNodes::add(const RecordedGeometry& geometry) {
+void GrowthNodes::add(const FrameGeometry& geometry) {
     seen_.clear();
     const float thinnest = thinnest_radius(geometry);
-    for (const RecordedInternode& internode : internodes_of(geometry)) {
+    for (const FrameInternode& internode : internodes_of(geometry)) {
         if (!options_.plant || internode.plant == *options_.plant) add_internode(geometry, internode, thinnest);
     }
     add_surfaces(geometry);
     ++frame_;
 }
 
-void GrowthNodes::add_organs(const RecordedGeometry& geometry) {
+void GrowthNodes::add_organs(const FrameGeometry& geometry) {
     seen_.clear();
     add_surfaces(geometry);
     ++frame_;
 }
 
-void GrowthNodes::add_surfaces(const RecordedGeometry& geometry) {
+void GrowthNodes::add_surfaces(const FrameGeometry& geometry) {
     const FrameMesh surfaces = surfaces_of(geometry, options_);
     for (const MeshPart& part : surfaces.parts) add_organ(surfaces, part);
 }

@@ -53,9 +53,9 @@ class GrowthNodes {
 public:
     explicit GrowthNodes(const MeshOptions& options) : options_(options) {}
 
-    void add(const RecordedGeometry& geometry);
+    void add(const FrameGeometry& geometry);
     /// A frame's organs alone.
-    void add_organs(const RecordedGeometry& geometry);
+    void add_organs(const FrameGeometry& geometry);
     /// In the order in which they appeared.
     const std::vector<GrowthNode>& all() const { return nodes_; }
 
@@ -64,8 +64,8 @@ private:
     using Key = std::tuple<std::uint32_t, Kind, std::uint64_t, std::uint32_t>;
 
     GrowthNode& node(std::uint32_t plant, Kind kind, std::uint64_t identity);
-    void add_internode(const RecordedGeometry& geometry, const RecordedInternode& internode, float thinnest);
-    void add_surfaces(const RecordedGeometry& geometry);
+    void add_internode(const FrameGeometry& geometry, const FrameInternode& internode, float thinnest);
+    void add_surfaces(const FrameGeometry& geometry);
     void add_organ(const FrameMesh& mesh, const MeshPart& part);
 
     MeshOptions options_;

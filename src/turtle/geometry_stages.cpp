@@ -1,7 +1,7 @@
 #include "espalier/turtle/geometry_stage.h"
 
 #include "base/registered_part.h"
-#include "geometry/drawn_bounds.h"
+#include "geometry/drawn/bounds.h"
 
 namespace espalier::turtle {
 

@@ -8,13 +8,13 @@
 namespace espalier::view {
 namespace {
 
-std::size_t bytes_of(const RecordedAttributes& attributes) {
+std::size_t bytes_of(const FrameAttributes& attributes) {
     return attributes.size() * (8 + 8 + 4 + 2 + 4 + 2 + 2 + 1) + attributes.rgb.size() * 3;
 }
 
-std::size_t bytes_of(const RecordedGeometry& geometry) {
+std::size_t bytes_of(const FrameGeometry& geometry) {
     std::size_t bytes = geometry.points.size() * (12 + 12 + 8 + 4 + 8 * geometry.parameters.size());
-    for (const RecordedCells* cells : {&geometry.vertices, &geometry.lines, &geometry.polygons}) {
+    for (const FrameCells* cells : {&geometry.vertices, &geometry.lines, &geometry.polygons}) {
         bytes += 4 * (cells->offsets.size() + cells->connectivity.size());
     }
     return bytes + bytes_of(geometry.of_points) + bytes_of(geometry.of_cells);
@@ -34,8 +34,8 @@ std::shared_ptr<const FrameData> read(const RecordedRun& run, const RecordedFram
 }  // namespace
 
 void count(FrameData& data) {
-    const RecordedGeometry& geometry = data.geometry;
-    const RecordedAttributes& of = geometry.of_cells;
+    const FrameGeometry& geometry = data.geometry;
+    const FrameAttributes& of = geometry.of_cells;
     data.plants = std::set<std::uint32_t>(of.plants.begin(), of.plants.end()).size();
     for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
         const std::size_t points = geometry.lines[line].size();

@@ -15,7 +15,7 @@
 namespace espalier::view {
 
 struct FrameData {
-    RecordedGeometry geometry;
+    FrameGeometry geometry;
     std::size_t plants = 0, internodes = 0, organs = 0;
     std::string error;  ///< why there is no geometry
 };

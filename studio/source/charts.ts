@@ -4,6 +4,7 @@ import { h, icon, remember, remembered } from "./elements.js";
 import { plotOverSteps, type Curve } from "./plot.js";
 import type { Statistics } from "./protocol.js";
 import type { Studio } from "./state.js";
+import { sameTexts } from "./tables.js";
 import type { Timeline } from "./timeline.js";
 
 const mostCharts = 6;
@@ -18,7 +19,7 @@ export class ChartsPanel {
   private pinned: Statistics | null = null;
   private plots: uPlot[] = [];
   private chosen = remembered<string[]>("charts", []);
-  private offered = "";
+  private offered: string[] = [];
   private stale = false;
 
   constructor(
@@ -62,8 +63,8 @@ export class ChartsPanel {
 
   private offer(): void {
     const columns = this.studio.statistics.columns.slice(1).filter((name) => name !== "plant" && name !== "name");
-    if (columns.join() === this.offered) return;
-    this.offered = columns.join();
+    if (sameTexts(columns, this.offered)) return;
+    this.offered = columns;
     const usual = ["height", "internodes", "length"].filter((name) => columns.includes(name));
     const known = this.chosen.filter((name) => columns.includes(name));
     this.chosen = known.length > 0 ? known : usual.length > 0 ? usual : columns.slice(0, 2);

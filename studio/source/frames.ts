@@ -17,6 +17,7 @@ export class Frames {
   private newest = 0;
   private readonly onTheWay = new Set<number>();
   private queue: number[] = [];
+  private readonly waiting = new Map<number, { resolve: (packet: Packet) => void; reject: (why: Error) => void }[]>();
   private looking = false;
   private lookAgain = false;
 
@@ -56,6 +57,7 @@ export class Frames {
     this.bytes = 0;
     this.onTheWay.clear();
     this.queue = [];
+    for (const step of [...this.waiting.keys()]) this.settle(step, new Error("Another growth has begun."));
   }
 
   arrived(packet: Packet): void {
@@ -64,6 +66,7 @@ export class Frames {
     if (packet.growth === this.growth) {
       this.newest = Math.max(this.newest, packet.step);
       this.keep(packet);
+      this.settle(packet.step, packet);
     }
     if (this.isAskedFor(packet)) this.show(packet);
     this.pump();
@@ -86,14 +89,24 @@ export class Frames {
   }
 
   /** The packet of a step of the present growth, fetched if need be. */
-  async fetch(step: number): Promise<Packet> {
-    for (let tries = 0; tries < 200; tries++) {
-      const packet = this.cache.get(step);
-      if (packet) return packet;
+  fetch(step: number): Promise<Packet> {
+    const packet = this.cache.get(step);
+    if (packet) return Promise.resolve(packet);
+    return new Promise((resolve, reject) => {
+      const waiting = this.waiting.get(step) ?? [];
+      this.waiting.set(step, [...waiting, { resolve, reject }]);
       if (!this.onTheWay.has(step)) this.ask(step);
-      await new Promise((done) => setTimeout(done, 25));
+    });
+  }
+
+  /** Whoever waits for a step gets it, or learns why it does not come. */
+  private settle(step: number, result: Packet | Error): void {
+    const waiting = this.waiting.get(step) ?? [];
+    this.waiting.delete(step);
+    for (const { resolve, reject } of waiting) {
+      if (result instanceof Error) reject(result);
+      else resolve(result);
     }
-    throw new Error(`Step ${step} did not arrive.`);
   }
 
   private isAskedFor(packet: Packet): boolean {
@@ -130,7 +143,10 @@ export class Frames {
 
   private ask(step: number): void {
     this.onTheWay.add(step);
-    this.studio.connection.request("frame", { growth: this.growth, step }).catch(() => this.onTheWay.delete(step));
+    this.studio.connection.request("frame", { growth: this.growth, step }).catch((error: unknown) => {
+      this.onTheWay.delete(step);
+      this.settle(step, error instanceof Error ? error : new Error(String(error)));
+    });
   }
 
   /** One `look` is under way at a time; the newest wish wins. */
@@ -143,7 +159,7 @@ export class Frames {
     const at = this.wanted === "last" ? this.lastStep : this.wanted;
     const held = this.cache.has(at) ? { held: this.growth } : {};
     this.studio.connection
-      .request("look", { step: this.wanted, ...held })
+      .request("look", { step: this.wanted === "last" ? null : this.wanted, ...held })
       .catch(() => undefined)
       .finally(() => {
         this.looking = false;

@@ -3,8 +3,11 @@ import type { Changes } from "./changes.js";
 import type { Editor } from "./editor/editor.js";
 import { fillSlider, h, iconButton, numberIn } from "./elements.js";
 import { graphPicture } from "./graph-picture.js";
-import type { ComponentGraph, ComponentKey, ComponentType, GraphComponent, GraphEdit, GraphLink } from "./protocol.js";
+import type { ComponentGraph, ComponentKey, ComponentType, GraphComponent, GraphLink, GraphRequest } from "./protocol.js";
 import type { Studio } from "./state.js";
+
+/** One change of a graph, whichever it is. */
+type GraphEdit = Omit<GraphRequest, "path" | "label" | "transient">;
 
 const linkKinds: GraphLink["kind"][] = ["child", "branch", "leaf"];
 
@@ -65,7 +68,7 @@ export class GraphPanel {
     this.chosen = name;
     const { graph } = this;
     const component = graph?.components.find((one) => one.name === name);
-    if (graph && component) this.editor.mark([{ file: graph.path, line: component.line }]);
+    if (graph && component && component.line !== null) this.editor.mark([{ file: graph.path, line: component.line }]);
     this.show();
   }
 

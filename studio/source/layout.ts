@@ -143,7 +143,7 @@ export class Tabs {
   private step(event: KeyboardEvent): void {
     const by = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
     if (by === 0) return;
-    const at = this.buttons.findIndex((button) => button === document.activeElement);
+    const at = this.buttons.indexOf(document.activeElement as HTMLButtonElement);
     const next = this.buttons[(at + by + this.buttons.length) % this.buttons.length];
     next.focus();
     next.click();

@@ -49,7 +49,7 @@ function agreed(contents: LinkContents): Promise<boolean> {
   });
 }
 
-/** True if the link's model is open now; false if there is none in it, or somebody thought better of it. */
+/** True if the link's model is open now; false if there is none in it, or the user thought better of it. */
 export async function openLink(studio: Studio, text: string): Promise<boolean> {
   try {
     const model = await modelOfLink(text);

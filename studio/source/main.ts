@@ -115,6 +115,9 @@ function start(): void {
       if (!opened && !studio.opened) void gallery.show();
     });
   });
+  studio.on("told", (growth) => {
+    document.body.dataset.told = String(growth ?? "");
+  });
   // Another address in the same tab.
   window.addEventListener("hashchange", () => {
     if (studio.connection.state === "open") void openAddress(studio).then((opened) => opened && gallery.hide());

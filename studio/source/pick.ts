@@ -113,7 +113,7 @@ export class PickPanel {
         {},
         ...picked.parameters.flatMap((value, index) => [
           h("dt", "", {}, picked.names[index] || `${index + 1}`),
-          h("dd", "", {}, short(value)),
+          h("dd", "", {}, value === null ? "unknown" : short(value)),
         ]),
       ),
     );

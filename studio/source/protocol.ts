@@ -1,307 +1,770 @@
-/** The text messages of the studio's protocol (docs/studio-protocol.md). */
+/** The text messages of the studio's protocol. `./dev protocol` makes this file from the declarations in
+ *  src/studio: do not edit it. */
 
-export interface TextFile {
-  path: string;
-  role: "main" | "model" | "view" | "side";
-  content: string;
-  changed: boolean;
-  /** Another program has written the file since it was changed here. */
-  disputed: boolean;
-  language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "view" | "map" | "materials" | "plain";
-}
+/** A cell of a table. */
+export type Cell = number | string | null;
 
-export interface Setting {
-  name: string;
-  label: string;
-  kind: "number" | "switch";
-  value: number;
-  text: string;
-  default: string;
-  lowest: number | null;
-  highest: number | null;
-  whole: boolean;
-  unit: string;
-  group: string;
-  changed: boolean;
-}
-
-export interface StudioDocument {
-  version: number;
-  path: string;
-  name: string;
-  kind: "model" | "scene" | "object" | "run";
-  folder: string;
-  texts: TextFile[];
-  settings: Setting[];
-  graphs?: ComponentGraph[];
-  seed: number;
-  steps: number;
-  undo: string | null;
-  redo: string | null;
-}
-
-export interface Problem {
-  severity: "error" | "warning" | "note";
-  file: string;
-  line: number;
-  column: number;
-  message: string;
-  source: string;
-}
-
-export interface Growth {
-  growth: number;
-  version: number;
-  state: "reading" | "growing" | "done" | "stopped" | "failed";
-  step: number;
-  last: number;
-  modules: number;
-  internodes: number;
-  seconds: number;
-  reason: string;
-  /** Their names. */
-  plants: string[];
-}
-
-export interface FieldName {
-  name: string;
-  unit: string;
-  meaning: string;
-}
-
-export interface LibraryEntry {
-  path: string;
-  /** The heading under which people find it. */
-  shelf: string;
-  name: string;
-  summary: string;
-  picture: number | null;
-}
-
-export interface Library {
-  library: LibraryEntry[];
-  files: LibraryEntry[];
-}
-
-export interface HelpEntry {
-  name: string;
-  summary: string;
-  help: string;
-}
-
-export interface Help {
-  symbols: HelpEntry[];
-  /** Of languages, by their names. */
-  words?: Record<string, HelpEntry[]>;
-  functions: HelpEntry[];
-  processes: HelpEntry[];
-  stages: HelpEntry[];
-  recorders?: HelpEntry[];
-  keys: HelpEntry[];
-  exporters: HelpEntry[];
-  components?: ComponentType[];
-  view?: ViewSetting[];
-}
-
-/** What stands behind a setting of a view file, or behind a letter of its line. */
-export interface ViewValue {
-  kind: "number" | "whole" | "switch" | "word" | "vector" | "colour" | "file" | "flag" | "letters" | "other";
-  help: string;
-  /** What holds without it. */
-  standard: string;
-  unit: string;
-  lowest: number | null;
-  highest: number | null;
-  words: string[];
-  letter: string;
-}
-
-export interface ViewSetting extends ViewValue {
-  /** With its colon. */
-  name: string;
-  /** What follows it, in words. */
-  values: string;
-  group: "growth" | "shape" | "picture" | "window";
-  letters: ViewValue[];
-}
-
-/** How the author of a model looked at it, as its view file says. */
-export interface AuthorView {
-  towards_eye: [number, number, number];
-  twist: number;
-  perspective: boolean;
-  angle: number;
-  towards_light?: [number, number, number];
-  background?: [number, number, number];
-}
-
-/** A value of a component of a graph. */
-export interface ComponentKey {
-  name: string;
-  summary: string;
-  unit: string;
-  lowest: number | null;
-  highest: number | null;
-  standard: string | number | null;
-  kind: "number" | "whole" | "list" | "word";
-}
-
-export interface ComponentType {
-  name: string;
-  summary: string;
-  keys: ComponentKey[];
-}
-
-export interface GraphComponent {
-  name: string;
-  type: string;
-  line: number;
-  values: Record<string, string>;
-}
-
-export interface GraphLink {
-  from: string;
-  to: string;
-  kind: "child" | "branch" | "leaf";
-}
-
-/** A graph of components: a text of the language pgraph that could be read. */
-export interface ComponentGraph {
-  path: string;
-  components: GraphComponent[];
-  links: GraphLink[];
-}
-
-export type GraphEdit =
-  | { edit: "set"; component: string; key: string; text: string | null }
-  | { edit: "add"; type: string; name: string; from: string }
-  | { edit: "remove"; component: string }
-  | ({ edit: "link" | "unlink" } & GraphLink);
-
-export type GraphRequest = GraphEdit & { path: string; label?: string; transient?: boolean };
-
-/** What is missing is not known any more. */
-export interface Parent {
-  identity: string;
-  symbol?: string;
-  text?: string;
-  born?: number;
-  module?: number;
-}
-
-export interface Place {
-  file: string;
-  line: number;
-  column: number;
-}
-
-/** What is missing is not recorded for this plant. */
-export interface Picked {
-  plant: string;
-  symbol: string;
-  text: string;
-  names: string[];
-  parameters: number[];
-  identity?: string;
-  born?: number;
-  parent?: Parent | null;
-  children?: number;
-  history?: { steps: number[]; parameters: number[][] };
-  places?: Place[];
-  siblings?: number[];
-}
-
+/** changes of the document that are made as one. */
 export interface ChangeRequest {
+  /** contents of texts, by paths. */
   texts?: Record<string, string>;
+  /** numbers as texts write them, by names; null: as the file on disk says. */
   settings?: Record<string, string | null>;
-  seed?: number;
-  steps?: number;
+  /** null: what the files say. */
+  seed?: number | null;
+  /** null: what the files say; 0 to 100000000. */
+  steps?: number | null;
+  /** what undo calls it. */
   label?: string;
+  /** the next change replaces it. */
   transient?: boolean;
 }
 
-/** A file is told by its content, or named if it is one of the library. */
-export interface SharedFile {
+/** the version of the document. */
+export interface NewVersion {
+  /** version of the document. */
+  version: number;
+}
+
+/** a column or a field of a step. */
+export interface NamedRequest {
+  /** number of the growth. */
+  growth: number;
+  /** a step that has grown; at least 0. */
+  step: number;
+  /** as `columns` or `fields` tells it. */
+  name: string;
+}
+
+/** a note. */
+export interface DismissRequest {
+  /** number of the note. */
+  message: number;
+}
+
+/** a format and what it is to hold. */
+export interface ExportRequest {
+  /** name of an exporter. */
+  format: string;
+  /** null: the last; at least 0. */
+  step?: number | null;
+  /** every step. */
+  film?: boolean;
+  /** limbs with one skin. */
+  smooth?: boolean;
+  /** organs that look alike are one shape. */
+  instances?: boolean;
+  /** at most so many; at least 1. */
+  triangles?: number;
+}
+
+/** a step of a growth. */
+export interface StepRequest {
+  /** number of the growth. */
+  growth: number;
+  /** a step that has grown; at least 0. */
+  step: number;
+}
+
+/** how far it has grown. */
+export interface NewestStep {
+  /** the last step that can be shown; -1: none; at least -1. */
+  step: number;
+}
+
+/** an edit of a graph of components. */
+export interface GraphRequest {
+  /** path of its text. */
   path: string;
+  /** `set` with `component`, `key`, `text`; `add` with `type`, `name`, `from`; `remove` with `component`; `link` and `unlink` with `from`, `to`, `kind`. */
+  edit: "set" | "add" | "remove" | "link" | "unlink";
+  /** name of a component. */
+  component?: string;
+  /** name of a key of its type. */
+  key?: string;
+  /** the value as the file writes it; null takes it out. */
+  text?: string | null;
+  /** type of the new component. */
+  type?: string;
+  /** name of the new component. */
+  name?: string;
+  /** component from which the link leads. */
+  from?: string;
+  /** component to which the link leads. */
+  to?: string;
+  /** kind of the link. */
+  kind?: "child" | "branch" | "leaf";
+  /** what undo calls it. */
+  label?: string;
+  /** the next change replaces it. */
+  transient?: boolean;
+}
+
+/** a step to grow to. */
+export interface GrowRequest {
+  /** a step; 0 to 100000000. */
+  to: number;
+}
+
+/** a page and its token. */
+export interface HelloRequest {
+  /** of the studio's address; another one ends the connection. */
+  token?: string;
+}
+
+/** who answers. */
+export interface Greeting {
+  /** of the program. */
+  version: string;
+  /** path of the document; empty: nothing is open. */
+  opened: string;
+}
+
+/** what the manual says of the parts of the program. */
+export interface Help {
+  /** symbols of the turtle. */
+  symbols: HelpEntry[];
+  /** functions of expressions. */
+  functions: HelpEntry[];
+  /** environment processes. */
+  processes: HelpEntry[];
+  /** geometry stages. */
+  stages: HelpEntry[];
+  /** recorders of runs. */
+  recorders: HelpEntry[];
+  /** notations of models. */
+  notations: HelpEntry[];
+  /** formats of exports. */
+  exporters: HelpEntry[];
+  /** the tables of a scene file. */
+  keys: HelpEntry[];
+  /** types of components of graphs. */
+  components: ComponentType[];
+  /** words of the languages `cpfg`, `sdl` and `species`, by name. */
+  words: Record<string, HelpEntry[]>;
+  /** settings of view files. */
+  view: ViewSetting[];
+}
+
+/** a name and what the manual says of it. */
+export interface HelpEntry {
+  /** as texts write it. */
+  name: string;
+  /** one phrase; may be empty. */
+  summary: string;
+  /** more; may be empty. */
+  help: string;
+}
+
+/** a type of components. */
+export interface ComponentType {
+  /** as files write it. */
+  name: string;
+  /** what it is. */
+  summary: string;
+  /** in the order of the manual. */
+  keys: ComponentKey[];
+}
+
+/** a value that components of a type have. */
+export interface ComponentKey {
+  /** as files write it. */
+  name: string;
+  /** what it is. */
+  summary: string;
+  /** empty for a pure number. */
+  unit: string;
+  /** null if there is no bound. */
+  lowest: number | null;
+  /** null if there is no bound. */
+  highest: number | null;
+  /** what holds without it, as a file would say it. */
+  standard: string;
+  /** `number` also stands for a range. */
+  kind: "number" | "whole" | "list" | "word";
+}
+
+/** a setting of view files. */
+export interface ViewSetting {
+  /** a vector has three numbers, a colour three from 0 to 1, a switch is on or off, a flag is a letter alone. */
+  kind: "number" | "whole" | "switch" | "word" | "vector" | "colour" | "file" | "flag" | "letters" | "other";
+  /** one phrase. */
+  help: string;
+  /** what holds without it; may be empty. */
+  standard: string;
+  /** empty for a pure number. */
+  unit: string;
+  /** null if there is no bound. */
+  lowest: number | null;
+  /** null if there is no bound. */
+  highest: number | null;
+  /** of kind `word`: what it can be. */
+  words: string[];
+  /** that stands before it; may be empty. */
+  letter: string;
+  /** with its colon. */
+  name: string;
+  /** what follows it, in words. */
+  values: string;
+  /** `window`: without meaning outside a window. */
+  group: "growth" | "shape" | "picture" | "window";
+  /** values of a line of letters. */
+  letters: ViewValue[];
+}
+
+/** what stands behind a setting, or behind a letter of its line. */
+export interface ViewValue {
+  /** a vector has three numbers, a colour three from 0 to 1, a switch is on or off, a flag is a letter alone. */
+  kind: "number" | "whole" | "switch" | "word" | "vector" | "colour" | "file" | "flag" | "letters" | "other";
+  /** one phrase. */
+  help: string;
+  /** what holds without it; may be empty. */
+  standard: string;
+  /** empty for a pure number. */
+  unit: string;
+  /** null if there is no bound. */
+  lowest: number | null;
+  /** null if there is no bound. */
+  highest: number | null;
+  /** of kind `word`: what it can be. */
+  words: string[];
+  /** that stands before it; may be empty. */
+  letter: string;
+}
+
+/** what can be opened. */
+export interface Library {
+  /** what comes with the program, in the order of the shelves. */
+  library: LibraryEntry[];
+  /** what lies in the opened folder. */
+  files: LibraryEntry[];
+}
+
+/** a model, a scene or a run that can be opened. */
+export interface LibraryEntry {
+  /** absolute path. */
+  path: string;
+  /** heading under which people find it. */
+  shelf: string;
+  /** for people. */
+  name: string;
+  /** first line of its text. */
+  summary: string;
+  /** number for `/file/`; null: none. */
+  picture: number | null;
+}
+
+/** limbs as pictures have them. */
+export interface LimbsRequest {
+  /** null stops what was asked for before. */
+  skin: "tubes" | "smooth" | null;
+  /** number of the growth. */
+  growth?: number;
+  /** a step that has been drawn; at least 0. */
+  step?: number;
+}
+
+/** a step that a page looks at. */
+export interface LookRequest {
+  /** null: the last; at least 0. */
+  step: number | null;
+  /** the growth whose packet of this step the page has. */
+  held?: number | null;
+}
+
+/** a side file. */
+export interface NewFileRequest {
+  /** of a model, a scene or a side file, without hidden parts. */
+  name: string;
+  /** its text, or its bytes in base64 if it is a colour map or materials. */
+  content: string;
+}
+
+/** where it stands. */
+export interface NewFile {
+  /** beside the document. */
+  path: string;
+}
+
+/** a document. */
+export interface OpenRequest {
+  /** of the library, or below the opened folder. */
+  path: string;
+}
+
+/** what a link holds. */
+export interface SharedModel {
+  /** path of the file to open. */
+  main: string;
+  /** the document and what it reads. */
+  files: SharedFile[];
+  /** instead of what the files say. */
+  seed?: number;
+  /** instead of what the files say; 0 to 100000000. */
+  steps?: number;
+}
+
+/** a file of a link, told by its content or named if the library has it. */
+export interface SharedFile {
+  /** below one folder. */
+  path: string;
+  /** its text, or its bytes in base64 if it is a colour map or materials. */
   content?: string;
+  /** its name in the library. */
   library?: string;
+  /** of the library's file, in hexadecimal. */
   digest?: string;
 }
 
-export interface SharedModel {
-  main: string;
-  files: SharedFile[];
+/** what a link has written. */
+export interface OpenedLink {
+  /** version of the document. */
+  version: number;
+  /** of the document. */
+  path: string;
+}
+
+/** a module of a step. */
+export interface PickRequest {
+  /** number of the growth. */
+  growth: number;
+  /** a step that has grown; at least 0. */
+  step: number;
+  /** counted through all plants. */
+  module: number;
+}
+
+/** what is known of a module; what is missing is not recorded. */
+export interface Picked {
+  /** name of its plant. */
+  plant: string;
+  /** its letter. */
+  symbol: string;
+  /** the module with its parameters. */
+  text: string;
+  /** names of its parameters. */
+  names: string[];
+  /** values of its parameters. */
+  parameters: (number | null)[];
+  /** 16 hexadecimal digits. */
+  identity?: string;
+  /** step of its birth. */
+  born?: number;
+  /** order of branching, of recorded runs. */
+  order?: number;
+  /** null for modules of the axiom. */
+  parent?: Parent | null;
+  /** modules of this step that were born of it. */
+  children?: number;
+  /** its parameters since its birth. */
+  history?: History;
+  /** the productions that may have made it. */
+  places?: Place[];
+  /** modules of this step that were born with it. */
+  siblings?: number[];
+}
+
+/** the module that a module was born of. */
+export interface Parent {
+  /** 16 hexadecimal digits. */
+  identity: string;
+  /** missing if it was born before the first step that is known. */
+  symbol?: string;
+  /** with its parameters, before the birth. */
+  text?: string;
+  /** step of its own birth. */
+  born?: number;
+  /** its number in this step, if it is still there. */
+  module?: number;
+}
+
+/** parameters of a module over time. */
+export interface History {
+  /** at most a hundred since its birth. */
+  steps: number[];
+  /** a row for each step; null if a value is not known. */
+  parameters: ((number | null)[])[];
+}
+
+/** a place in a text. */
+export interface Place {
+  /** path of the text. */
+  file: string;
+  /** from 1 on. */
+  line: number;
+  /** from 1 on. */
+  column: number;
+}
+
+/** what a link would write, and where. */
+export interface LinkContents {
+  /** a new one below the opened folder. */
+  folder: string;
+  /** pages show them and ask. */
+  files: LinkedFile[];
+}
+
+/** a file that a link would write. */
+export interface LinkedFile {
+  /** below the folder. */
+  path: string;
+  /** its size. */
+  bytes: number;
+  /** its name in the library; null if it is not of it. */
+  library: string | null;
+}
+
+/** where the document is to be saved. */
+export interface SaveRequest {
+  /** below the opened folder; without it, the files that have changed are written. */
+  path?: string;
+}
+
+/** what has been written. */
+export interface Saved {
+  /** version of the document. */
+  version: number;
+  /** of the document. */
+  path: string;
+  /** all that were written. */
+  files: string[];
+}
+
+/** which text of a disputed file stays. */
+export interface SettleRequest {
+  /** of a text that is `disputed`. */
+  path: string;
+  /** that on disk, or the unsaved one. */
+  take: "disk" | "mine";
+}
+
+/** what modules can be coloured by. */
+export interface Columns {
+  /** number of the growth. */
+  growth: number;
+  /** names for `column`. */
+  columns: string[];
+}
+
+/** what is open. */
+export interface StudioDocument {
+  /** grows with every change, undo and redo. */
+  version: number;
+  /** absolute path of what is open; empty: nothing is. */
+  path: string;
+  /** name of its file or folder. */
+  name: string;
+  /** below which files are written. */
+  folder: string;
+  /** label of what undo would take back. */
+  undo: string | null;
+  /** label of what redo would bring back. */
+  redo: string | null;
+  /** of a `run`, texts and settings are those that it grew from, and a change of them opens that instead. */
+  kind?: "model" | "scene" | "object" | "run";
+  /** none of a run that does not tell what it grew from. */
+  texts: TextFile[];
+  /** numbers and switches that the texts write. */
+  settings: Setting[];
+  /** texts in `pgraph` that can be read. */
+  graphs: ComponentGraph[];
+  /** that the plants grow with. */
   seed: number;
+  /** to which they grow. */
   steps: number;
 }
 
-/** What a link would write, and where. */
-export interface LinkContents {
-  folder: string;
-  files: { path: string; bytes: number; library: string | null }[];
+/** a text of the document. */
+export interface TextFile {
+  /** absolute path of the file. */
+  path: string;
+  /** what it is to the document. */
+  role: "main" | "model" | "view" | "side";
+  /** of `map` and `materials`, the content is the bytes of the file in base64. */
+  language: "cpfg" | "toml" | "pgraph" | "sdl" | "species" | "view" | "map" | "materials" | "plain";
+  /** with unsaved changes. */
+  content: string;
+  /** it has changes that are not saved. */
+  changed: boolean;
+  /** another program has written the file meanwhile: it is not saved before `settle`. */
+  disputed: boolean;
 }
 
-export interface ExportRequest {
-  format: string;
+/** a number or a switch that a text writes; to change it changes the text. */
+export interface Setting {
+  /** unique in the document. */
+  name: string;
+  /** what it is, for people. */
+  label: string;
+  /** a switch is `true` or `false`. */
+  kind: "number" | "switch";
+  /** the number. */
+  value: number;
+  /** as the text writes it. */
+  text: string;
+  /** as the file on disk writes it. */
+  default: string;
+  /** null if there is no bound. */
+  lowest: number | null;
+  /** null if there is no bound. */
+  highest: number | null;
+  /** it is a whole number. */
+  whole: boolean;
+  /** empty for a pure number. */
+  unit: string;
+  /** heading under which it stands. */
+  group: string;
+  /** it is not as on disk. */
+  changed: boolean;
+}
+
+/** a text of the language pgraph that can be read. */
+export interface ComponentGraph {
+  /** path of its text. */
+  path: string;
+  /** in the order of the text. */
+  components: GraphComponent[];
+  /** in the order of the text. */
+  links: GraphLink[];
+}
+
+/** a component of a graph. */
+export interface GraphComponent {
+  /** unique in the graph. */
+  name: string;
+  /** name of its type. */
+  type: string;
+  /** line of its text; null if another file defines it. */
+  line: number | null;
+  /** what its text says of its keys. */
+  values: Record<string, string>;
+}
+
+/** a link between components. */
+export interface GraphLink {
+  /** name of a component. */
+  from: string;
+  /** name of a component. */
+  to: string;
+  /** how it is attached. */
+  kind: "child" | "branch" | "leaf";
+}
+
+/** the files of an export. */
+export interface Exported {
+  /** the first names the others, such as materials and textures; none if it failed. */
+  files: HandedFile[];
+}
+
+/** a file that pages may fetch. */
+export interface HandedFile {
+  /** for `/file/`. */
+  number: number;
+  /** as it should be called. */
+  name: string;
+  /** its size. */
+  bytes: number;
+}
+
+/** the fields of a growth. */
+export interface Fields {
+  /** number of the growth. */
+  growth: number;
+  /** none of a recorded run. */
+  fields: FieldName[];
+}
+
+/** a field of a process. */
+export interface FieldName {
+  /** for `field`. */
+  name: string;
+  /** empty for a pure number. */
+  unit: string;
+  /** what its numbers are. */
+  meaning: string;
+}
+
+/** how far a growth has come. */
+export interface Growth {
+  /** its number: another number is another growth. */
+  growth: number;
+  /** version of the document that grows. */
+  version: number;
+  /** `stopped` by a request, `failed` with a reason. */
+  state: "growing" | "done" | "stopped" | "failed";
+  /** newest step; -1: none so far; at least -1. */
   step: number;
-  film: boolean;
-  smooth: boolean;
-  instances: boolean;
-  triangles?: number;
+  /** step to which it grows. */
+  last: number;
+  /** of the newest step. */
+  modules: number;
+  /** of the newest step. */
+  internodes: number;
+  /** steps that were derived for it; the others are those of an earlier growth. */
+  derived: number;
+  /** from its beginning to the newest step. */
+  seconds: number;
+  /** why it failed. */
+  reason: string;
+  /** names of its plants. */
+  plants: string[];
+}
+
+/** a note that stays until it is dismissed, or another of its number comes. */
+export interface Note {
+  /** of the note, to dismiss it. */
+  number: number;
+  /** how grave it is. */
+  severity: "error" | "warning" | "note";
+  /** what models print is a note, too. */
+  text: string;
+}
+
+/** what is wrong with a version of the document. */
+export interface Problems {
+  /** version of the document. */
+  version: number;
+  /** in the order in which they were found. */
+  problems: Problem[];
+}
+
+/** an error or a warning. */
+export interface Problem {
+  /** how grave it is. */
+  severity: "error" | "warning";
+  /** path of its text; may be empty. */
+  file: string;
+  /** from 1 on; 0: not known. */
+  line: number;
+  /** from 1 on; 0: not known. */
+  column: number;
+  /** what is wrong and what to do. */
+  message: string;
+  /** the line of the text. */
+  source: string;
+}
+
+/** how much of some work is done. */
+export interface Progress {
+  /** the work, for people. */
+  what: string;
+  /** 0 to 1; 0 to 1. */
+  done: number;
+}
+
+/** rows of a table over time. */
+export interface Statistics {
+  /** number of the growth. */
+  growth: number;
+  /** the first is `step`; `plants` names the plants. */
+  columns: string[];
+  /** rows to add; those of a step that is known replace it. */
+  rows: Cell[][];
+}
+
+/** pictures that plants wear. */
+export interface Textures {
+  /** number of the growth. */
+  growth: number;
+  /** numbers for `/file/` of the colours, PNG or JPEG; null: none. */
+  files: (number | null)[];
+  /** the same for their normals in tangent space. */
+  reliefs: (number | null)[];
+}
+
+/** a page knows all that there is. */
+export interface AllTold {
+  /** the growth that was told; null if nothing grows yet. */
+  growth: number | null;
+}
+
+/** how a growth was looked at. */
+export interface View {
+  /** number of the growth. */
+  growth: number;
+  /** of the first plant with a view file; null if there is none. */
+  view: AuthorView | null;
+}
+
+/** how the author of a model looked at it, as in run.json. */
+export interface AuthorView {
+  /** from the point that is looked at. */
+  towards_eye: [number, number, number];
+  /** turn about the line of sight, degrees. */
+  twist: number;
+  /** false: a parallel projection. */
+  perspective: boolean;
+  /** of the field of view, degrees. */
+  angle: number;
+  /** missing if the view file says nothing of light. */
+  towards_light?: [number, number, number];
+  /** red, green and blue, 0 to 1. */
+  background?: [number, number, number];
 }
 
 /** What each request sends and gets. */
 export interface Requests {
-  hello: { send: { token: string }; get: { version: string; opened: string } };
-  library: { send: object; get: Library };
-  help: { send: object; get: Help };
-  open: { send: { path: string }; get: object };
-  share: { send: object; get: SharedModel };
+  /** changes texts, numbers in them, seed or steps. */
+  "change": { send: ChangeRequest; get: NewVersion };
+  /** sends a number for each module. */
+  "column": { send: NamedRequest; get: object };
+  /** forgets a note. */
+  "dismiss": { send: DismissRequest; get: object };
+  /** writes what is open for another program: `progress` follows, then `exported`. */
+  "export": { send: ExportRequest; get: object };
+  /** sends a field after a step. */
+  "field": { send: NamedRequest; get: object };
+  /** sends the packet of a step, once it has been drawn. */
+  "frame": { send: StepRequest; get: NewestStep };
+  /** edits a graph of components; its text follows. */
+  "graph": { send: GraphRequest; get: NewVersion };
+  /** grows on to a step. */
+  "grow": { send: GrowRequest; get: NewVersion };
+  /** begins; then comes all that there is to tell, and `told` at its end. */
+  "hello": { send: HelloRequest; get: Greeting };
+  /** what the manual says. */
+  "help": { send: object; get: Help };
+  /** what can be opened. */
+  "library": { send: object; get: Library };
+  /** sends the limbs as pictures have them, after `progress`; what the page asked for before is stopped. */
+  "limbs": { send: LimbsRequest; get: object };
+  /** looks at a step: its packet follows, now unless the page holds it, and whenever it changes. */
+  "look": { send: LookRequest; get: NewestStep };
+  /** writes a side file beside the document, which grows anew. */
+  "new-file": { send: NewFileRequest; get: NewFile };
+  /** starts another document; the old one stays in the history. */
+  "open": { send: OpenRequest; get: NewVersion };
+  /** opens what a link holds: its files are written to `shared/NAME` below the opened folder, and read nothing but that and the library. */
+  "open-text": { send: SharedModel; get: OpenedLink };
+  /** what is known of a module. */
+  "pick": { send: PickRequest; get: Picked };
+  /** what `open-text` would write where. */
   "read-link": { send: SharedModel; get: LinkContents };
-  "open-text": { send: SharedModel; get: object };
-  change: { send: ChangeRequest; get: { version: number } };
-  graph: { send: GraphRequest; get: { version: number } };
-  undo: { send: object; get: { version: number } };
-  redo: { send: object; get: { version: number } };
-  grow: { send: { to: number }; get: object };
-  stop: { send: object; get: object };
-  look: { send: { step: number | "last"; held?: number }; get: { step: number } };
-  frame: { send: { growth: number; step: number }; get: object };
-  column: { send: { growth: number; step: number; name: string }; get: object };
-  pick: { send: { growth: number; step: number; module: number }; get: Picked };
-  field: { send: { growth: number; step: number; name: string }; get: object };
-  limbs: { send: { skin: null } | { growth: number; step: number; skin: "tubes" | "smooth" }; get: object };
-  "new-file": { send: { name: string; content: string }; get: { path: string } };
-  save: { send: { path?: string }; get: { path: string; files: string[] } };
-  settle: { send: { path: string; take: "disk" | "mine" }; get: { version: number } };
-  export: { send: ExportRequest; get: object };
-  dismiss: { send: { message: number }; get: object };
-}
-
-export type Cell = number | string | null;
-
-export interface Statistics {
-  growth: number;
-  columns: string[];
-  rows: Cell[][];
-}
-
-export interface HandedFile {
-  number: number;
-  name: string;
-  bytes: number;
+  /** brings back what was taken back. */
+  "redo": { send: object; get: NewVersion };
+  /** writes the document. Under another `path` the files that it reads come along, to the same places beside it; where those would lead out of the opened folder, it gets a folder of its own, named after it. */
+  "save": { send: SaveRequest; get: Saved };
+  /** settles which text stays: the unsaved one is dropped, or kept. */
+  "settle": { send: SettleRequest; get: NewVersion };
+  /** what a link holds: the files lie below one folder; one of the library that has not changed is only named. */
+  "share": { send: object; get: SharedModel };
+  /** ends the growth after the step at hand, which is dropped if it is not done within 0.4 s. */
+  "stop": { send: object; get: object };
+  /** takes back one lasting change. */
+  "undo": { send: object; get: NewVersion };
 }
 
 /** What the server says without being asked. */
 export type Said =
+  | ({ say: "columns" } & Columns)
   | ({ say: "document" } & StudioDocument)
-  | { say: "problems"; version: number; problems: Problem[] }
+  | ({ say: "exported" } & Exported)
+  | ({ say: "fields" } & Fields)
   | ({ say: "growth" } & Growth)
+  | ({ say: "message" } & Note)
+  | ({ say: "problems" } & Problems)
+  | ({ say: "progress" } & Progress)
   | ({ say: "statistics" } & Statistics)
-  | { say: "columns"; growth: number; columns: string[] }
-  | { say: "fields"; growth: number; fields: FieldName[] }
-  | { say: "message"; number: number; severity: Problem["severity"]; text: string }
-  | { say: "textures"; growth: number; files: (number | null)[]; reliefs: (number | null)[] }
-  | { say: "view"; growth: number; view: AuthorView | null }
-  | { say: "exported"; files: HandedFile[] }
-  | { say: "progress"; what: string; done: number };
+  | ({ say: "textures" } & Textures)
+  | ({ say: "told" } & AllTold)
+  | ({ say: "view" } & View);

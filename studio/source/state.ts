@@ -2,14 +2,16 @@
 import { Connection, RequestError, type ConnectionState } from "./connection.js";
 import { remember, remembered } from "./elements.js";
 import { Frames } from "./frames.js";
+import { sameTexts, withRows } from "./tables.js";
 import type {
   AuthorView,
-  Cell,
   FieldName,
   Growth,
   HandedFile,
   Help,
+  Note,
   Problem,
+  Progress,
   Requests,
   Said,
   Statistics,
@@ -17,12 +19,8 @@ import type {
 } from "./protocol.js";
 import type { BinaryMessage, Column, Field, Limbs, Packet, PictureSource, Shapes } from "./view/index.js";
 
-export interface Message {
-  /** Negative for messages of the page itself. */
-  number: number;
-  severity: Problem["severity"];
-  text: string;
-}
+/** A note of the server's, or one of the page itself, which has a negative number. */
+export type Message = Note;
 
 const noteTime = 8000; // milliseconds
 
@@ -35,7 +33,9 @@ interface Events {
   columns: string[];
   fields: FieldName[];
   messages: Message[];
-  progress: { what: string; done: number };
+  progress: Progress;
+  /** The server has told a page that has greeted all that there is; the growth that it told. */
+  told: number | null;
   packet: Packet;
   shapes: Shapes;
   pictures: PictureSource[];
@@ -113,7 +113,7 @@ export class Studio {
   }
 
   /** The number of the message, to dismiss it. */
-  tell(severity: Problem["severity"], text: string): number {
+  tell(severity: Note["severity"], text: string): number {
     const known = this.messages.find((message) => message.text === text);
     if (known) return known.number;
     const number = --this.ownMessages;
@@ -179,6 +179,8 @@ export class Studio {
         return this.emit("exported", message.files);
       case "progress":
         return this.emit("progress", message);
+      case "told":
+        return this.emit("told", message.growth);
     }
   }
 
@@ -197,7 +199,7 @@ export class Studio {
   }
 
   private hearStatistics(more: Statistics): void {
-    const same = more.growth === this.statistics.growth && more.columns.join() === this.statistics.columns.join();
+    const same = more.growth === this.statistics.growth && sameTexts(more.columns, this.statistics.columns);
     const rows = same ? withRows(this.statistics.rows, more.rows) : more.rows;
     this.statistics = { ...this.statistics, ...more, rows };
     this.emit("statistics", this.statistics);
@@ -230,13 +232,6 @@ export class Studio {
     this.shapeMessages = [...this.shapeMessages.slice(-20), shapes.message];
     this.emit("shapes", shapes);
   }
-}
-
-/** Rows of the same step replace earlier ones: a page that connects again hears all of them again. */
-function withRows(rows: Cell[][], more: Cell[][]): Cell[][] {
-  if (more.length === 0) return rows;
-  const first = Number(more[0][0]);
-  return [...rows.filter((row) => Number(row[0]) < first), ...more];
 }
 
 export function errorText(error: unknown): string {

@@ -5,7 +5,6 @@ import type { Studio } from "./state.js";
 import type { PlantScene } from "./view/index.js";
 
 const names: Record<Growth["state"], string> = {
-  reading: "reading",
   growing: "growing",
   done: "grown",
   stopped: "stopped",
@@ -49,7 +48,7 @@ export class StatusLine {
   private showGrowth(growth: Growth | null): void {
     if (!growth) return;
     const wrong = this.studio.problems.filter(({ severity }) => severity === "error").length;
-    const busy = growth.state === "growing" || growth.state === "reading";
+    const busy = growth.state === "growing";
     if (growth.growth !== this.began.growth) this.began = { growth: growth.growth, step: growth.step, at: performance.now() };
     const recorded = growth.state === "done" && this.studio.document?.kind === "run";
     const state =

@@ -144,6 +144,6 @@ export class Timeline {
     this.grown.style.setProperty("--grown", String(this.last / end));
     this.grown.style.setProperty("--at", String(Math.min(1, this.step / end)));
     this.label.textContent = `${this.step} / ${this.last}`;
-    this.stopButton.disabled = growth?.state !== "growing" && growth?.state !== "reading";
+    this.stopButton.disabled = growth?.state !== "growing";
   }
 }

@@ -35,6 +35,21 @@ export async function openPage(browser, address, options = {}) {
   return page;
 }
 
+/** Until the program has told a page that it opened all that there is. */
+export async function told(page) {
+  await page.waitForFunction(() => document.body.dataset.told !== undefined);
+}
+
+/** Until the picture is as it will stay: drawn in its finest, with the limbs that were asked for. */
+export async function rests(page) {
+  const frames = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+  await page.evaluate(frames);
+  await page.waitForFunction(() => {
+    const canvas = document.querySelector("canvas");
+    return !canvas.hasAttribute("data-draws") && !canvas.hasAttribute("data-waits");
+  });
+}
+
 export async function shot(page, name) {
   await page.screenshot({ path: join(shots, `${name}.png`) });
 }

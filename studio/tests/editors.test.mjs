@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { openBrowser, openPage, shot } from "./browser.mjs";
+import { openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 import { startProgram, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
@@ -65,9 +65,8 @@ describe("editors of side files", () => {
   const text = () => page.evaluate(() => document.querySelector(".cm-content").innerText);
   /** A digest of the picture once it rests and its limbs are drawn as they are to be. */
   const picture = async () => {
-    await page.waitForTimeout(300);
-    await page.waitForFunction(() => !document.querySelector(".viewport canvas").hasAttribute("data-waits"));
-    await page.waitForTimeout(900);
+    await page.waitForTimeout(300); // limbs that bark makes are asked for a moment after the packet has come
+    await rests(page);
     return createHash("sha1").update(await canvas().screenshot()).digest("hex");
   };
   const grown = () => page.waitForFunction(() => document.querySelector(".status").dataset.state === "done");
@@ -95,6 +94,7 @@ describe("editors of side files", () => {
     program = await startProgram(programPath, place);
     browser = await openBrowser();
     page = await openPage(browser, program.address);
+    await told(page);
     await page.waitForSelector(".viewport[data-step]");
     await page.getByRole("button", { name: "No more hints" }).click();
   });

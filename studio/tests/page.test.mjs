@@ -4,7 +4,7 @@ import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, shot } from "./browser.mjs";
+import { openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 import { startProgram, tree, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
@@ -35,6 +35,7 @@ before(async () => {
   program = await startProgram(programPath, place, [join(place.folder, "tree.l")]);
   browser = await openBrowser();
   page = await openPage(browser, program.address);
+  await told(page);
   await page.waitForSelector(".viewport[data-step]");
 });
 
@@ -57,7 +58,7 @@ test("wide and narrow pages show the plant", async () => {
     [1280, 720, 500],
   ]) {
     await page.setViewportSize({ width, height });
-    await page.waitForTimeout(600);
+    await rests(page);
     const box = await page.locator(".viewport canvas").boundingBox();
     assert.ok(box.width >= least && box.height >= 300, `${width}: ${box.width} x ${box.height}`);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width, `${width} wide`);
@@ -67,7 +68,7 @@ test("wide and narrow pages show the plant", async () => {
   await page.getByRole("button", { name: "Show or hide the settings" }).click();
   const picture = await page.locator(".viewport canvas").boundingBox();
   const panel = await page.getByRole("complementary", { name: "Settings and measurements" }).boundingBox();
-  await page.waitForTimeout(600);
+  await rests(page);
   assert.ok(panel.y >= picture.y + picture.height - 1 && picture.height > 250);
   await shot(page, "width-390-settings");
   await page.getByRole("button", { name: "Show or hide the settings" }).click();

@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
-import { openBrowser, openPage, shot } from "./browser.mjs";
+import { openBrowser, openPage, rests, shot, told } from "./browser.mjs";
 import { startProgram, tree, workFolder } from "./program.mjs";
 
 const programPath = resolve(process.argv[2] ?? "build/release/espalier");
@@ -16,7 +16,7 @@ let page;
 const canvas = () => page.locator(".viewport canvas");
 const viewport = (which = page) => which.locator(".viewport");
 const picture = async () => {
-  await page.waitForTimeout(700); // until the picture rests
+  await rests(page);
   return canvas().screenshot();
 };
 
@@ -37,6 +37,7 @@ before(async () => {
   program = await startProgram(programPath, place);
   browser = await openBrowser();
   page = await openPage(browser, program.address);
+  await told(page);
 });
 
 after(async () => {
@@ -185,7 +186,8 @@ test("charts follow the statistics, and a pinned growth stays beside a later one
   for (let i = 0; i < 20; i++) await page.keyboard.press("ArrowLeft");
   await grown();
   await page.getByRole("tab", { name: "Charts" }).click();
-  await page.waitForTimeout(500);
+  await page.waitForSelector(".chart");
+  await rests(page);
   await shot(page, "charts");
   assert.match(await page.locator(".chart").first().textContent(), /pinned/);
 });
@@ -210,14 +212,14 @@ test("the shared HTML shows the growth without a server", async () => {
   await file.saveAs(path);
   const alone = await openPage(browser, `file://${path}`, { offline: true });
   await alone.waitForFunction(() => document.body.dataset.step === "8");
-  await alone.waitForTimeout(800);
+  await rests(alone);
   const whole = await alone.locator("canvas").screenshot();
   await shot(alone, "shared");
   await alone.getByRole("button", { name: "Play" }).click();
   await alone.waitForFunction(() => Number(document.body.dataset.step) < 8); // which one depends on how busy the machine is
   await alone.waitForFunction(() => document.body.dataset.step === "8");
   await alone.locator("input[type=range]").fill("2");
-  await alone.waitForTimeout(800);
+  await rests(alone);
   assert.notDeepEqual(await alone.locator("canvas").screenshot(), whole);
   assert.deepEqual(alone.problems, []);
   await alone.context().close();
@@ -350,7 +352,7 @@ test("every control has a name, and the keys reach the picture", async () => {
   assert.notDeepEqual(await picture(), before);
   await page.keyboard.press("Home");
   await page.getByRole("button", { name: "Light or dark" }).click();
-  await page.waitForTimeout(600);
+  await rests(page);
   await shot(page, "dark");
   await page.getByRole("button", { name: "Light or dark" }).click();
 });

@@ -18,8 +18,8 @@ using namespace espalier::analysis;
 
 namespace {
 
-RecordedInternode internode(glm::vec3 base, glm::vec3 tip, std::int32_t bearer, std::uint32_t plant = 0) {
-    RecordedInternode result{};
+FrameInternode internode(glm::vec3 base, glm::vec3 tip, std::int32_t bearer, std::uint32_t plant = 0) {
+    FrameInternode result{};
     result.base = base;
     result.tip = tip;
     result.base_radius = result.tip_radius = 0.5F;
@@ -29,7 +29,7 @@ RecordedInternode internode(glm::vec3 base, glm::vec3 tip, std::int32_t bearer, 
 }
 
 /// A facet of a module: a triangle of area 0.5 at (x, 0, 0).
-void add_facet(RecordedGeometry& geometry, std::uint64_t identity, float x, Kind kind = Kind::organ,
+void add_facet(FrameGeometry& geometry, std::uint64_t identity, float x, Kind kind = Kind::organ,
                std::uint16_t symbol = 0) {
     const auto first = static_cast<std::int32_t>(geometry.points.size());
     for (const glm::vec3& corner : {glm::vec3(x, 0, 0), glm::vec3(x + 1, 0, 0), glm::vec3(x, 0, 1)}) {
@@ -58,7 +58,7 @@ std::vector<const RecordedFrame*> frames_of(const RecordedRun& run) {
 }  // namespace
 
 TEST_CASE("internodes without length vanish, and what they bear stands on what they stand on", "[analysis]") {
-    const std::vector<RecordedInternode> internodes{
+    const std::vector<FrameInternode> internodes{
         internode({0, 0, 0}, {0, 1, 0}, -1), internode({0, 1, 0}, {0, 1, 0}, 0), internode({0, 1, 0}, {0, 2, 0}, 1),
         internode({0, 1, 0}, {1, 1, 0}, 1), internode({5, 0, 0}, {5, 3, 0}, -1, 7)};
     const std::vector<std::uint32_t> plants{7, 0};
@@ -70,16 +70,16 @@ TEST_CASE("internodes without length vanish, and what they bear stands on what t
 }
 
 TEST_CASE("an axis that begins where its bearer begins stands beside it", "[analysis]") {
-    const std::vector<RecordedInternode> internodes{
-        internode({0, 0, 0}, {0, 1, 0}, -1), internode({0, 0, 0}, {1, 0, 0}, 0), internode({0, 1, 0}, {0, 2, 0}, 0),
-        internode({0, 1, 0}, {1, 2, 0}, 2)};
+    const std::vector<FrameInternode> internodes{internode({0, 0, 0}, {0, 1, 0}, -1),
+                                                 internode({0, 0, 0}, {1, 0, 0}, 0), internode({0, 1, 0}, {0, 2, 0}, 0),
+                                                 internode({0, 1, 0}, {1, 2, 0}, 2)};
     const std::vector<std::uint32_t> plants{0};
     const BranchTree tree = branch_trees(internodes, plants).front();
     CHECK(tree.parents == std::vector<std::int32_t>{-1, -1, 0, 0});
 }
 
 TEST_CASE("leaves: facets of one module are one leaf, cylinders are none, symbols choose", "[analysis]") {
-    RecordedGeometry geometry;
+    FrameGeometry geometry;
     geometry.symbol_names = {"L", "K"};
     add_facet(geometry, 1, 0);
     add_facet(geometry, 1, 10);

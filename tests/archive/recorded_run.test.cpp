@@ -35,7 +35,7 @@ TEST_CASE("a run read back has its frames, plants and settings", "[reading]") {
 TEST_CASE("the geometry read back is what was recorded", "[reading]") {
     const RecordedFolder recorded;
     const RecordedRun run(recorded.folder.path);
-    const RecordedGeometry geometry = run.geometry(run.frame(4));
+    const FrameGeometry geometry = run.geometry(run.frame(4));
     CHECK(geometry.vertices.size() == 2);
     CHECK(geometry.lines.size() == 4);
     REQUIRE(geometry.polygons.size() == 1);
@@ -52,10 +52,10 @@ TEST_CASE("the geometry read back is what was recorded", "[reading]") {
 TEST_CASE("internodes know module, radii and the internode they stand on", "[reading]") {
     const RecordedFolder recorded;
     const RecordedRun run(recorded.folder.path);
-    const RecordedGeometry geometry = run.geometry(run.frame(4));
-    const std::vector<RecordedInternode> internodes = internodes_of(geometry);
+    const FrameGeometry geometry = run.geometry(run.frame(4));
+    const std::vector<FrameInternode> internodes = internodes_of(geometry);
     REQUIRE(internodes.size() == 6);
-    const RecordedInternode& branch = internodes[2];
+    const FrameInternode& branch = internodes[2];
     CHECK(branch.identity == 2);
     CHECK(branch.parent == 1);
     CHECK(branch.order == 1);
@@ -66,10 +66,10 @@ TEST_CASE("internodes know module, radii and the internode they stand on", "[rea
     CHECK(branch.tip_radius == 0.05f);
     CHECK(geometry.parameters.at("vigour")[static_cast<std::size_t>(branch.tip_point)] == 0.25);
     // Both plants: stem, stem's second internode on it, and the branch on the first.
-    CHECK(internodes[0].bearer == RecordedInternode::none);
+    CHECK(internodes[0].bearer == FrameInternode::none);
     CHECK(internodes[1].bearer == 0);
     CHECK(branch.bearer == 0);
-    CHECK(internodes[3].bearer == RecordedInternode::none);
+    CHECK(internodes[3].bearer == FrameInternode::none);
     CHECK(internodes[3].plant == 1);
     CHECK(internodes[5].bearer == 3);
 }
@@ -181,8 +181,8 @@ TEST_CASE("files damaged anywhere are refused by name or read as something sound
             std::ofstream(folder / name, std::ios::binary) << text;
             try {
                 const RecordedRun run(folder);
-                const RecordedGeometry geometry = run.geometry(run.frame(4));
-                for (const RecordedInternode& internode : internodes_of(geometry)) CHECK(internode.axis < 1000);
+                const FrameGeometry geometry = run.geometry(run.frame(4));
+                for (const FrameInternode& internode : internodes_of(geometry)) CHECK(internode.axis < 1000);
                 run.field(run.frame(4), "light");
                 run.lifespans();
                 run.statistics();
@@ -226,7 +226,7 @@ TEST_CASE("how an author looked at a plant is read back", "[reading]") {
 }
 
 TEST_CASE("lines in pixels are as thick as the picture says", "[reading]") {
-    RecordedGeometry geometry;
+    FrameGeometry geometry;
     geometry.points = {{0, 0, 0}, {0, 1, 0}, {0, 2, 0}};
     geometry.radii = {0, 0, 0.5f};
     geometry.pixels = {3, 3, 0};

@@ -71,7 +71,7 @@ std::size_t triangles_of(const std::vector<PlannedTube>& tubes) {
 }  // namespace
 
 TEST_CASE("a trunk keeps its foot and its course however few triangles are left", "[archive]") {
-    espalier::RecordedAttributes of_points;
+    espalier::FrameAttributes of_points;
     of_points.colours.assign(1, 0);
     const std::vector<PlannedTube> whole = tree();
     for (const std::size_t wanted : {8000, 2000, 777, 300}) {
@@ -90,7 +90,7 @@ TEST_CASE("a trunk keeps its foot and its course however few triangles are left"
 }
 
 TEST_CASE("what bears others goes after them", "[archive]") {
-    espalier::RecordedAttributes of_points;
+    espalier::FrameAttributes of_points;
     of_points.colours.assign(1, 0);
     std::vector<PlannedTube> tubes = tree();
     espalier::archive::FrameMesh organs;

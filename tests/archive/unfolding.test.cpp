@@ -36,7 +36,7 @@ public:
         return *this;
     }
 
-    RecordedGeometry geometry;
+    FrameGeometry geometry;
 
 private:
     void point(std::uint64_t identity, const glm::vec3& place, float radius) {
@@ -44,14 +44,14 @@ private:
         geometry.radii.push_back(radius);
         add(geometry.of_points, identity, Kind::axis);
     }
-    void cell(RecordedCells& cells, std::size_t count, Kind kind) {
+    void cell(FrameCells& cells, std::size_t count, Kind kind) {
         for (std::size_t i = geometry.points.size() - count; i < geometry.points.size(); ++i) {
             cells.connectivity.push_back(static_cast<std::int32_t>(i));
         }
         cells.offsets.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
         add(geometry.of_cells, 0, kind);
     }
-    static void add(RecordedAttributes& of, std::uint64_t identity, Kind kind) {
+    static void add(FrameAttributes& of, std::uint64_t identity, Kind kind) {
         of.identities.push_back(identity);
         of.parents.push_back(0);
         of.plants.push_back(0);
@@ -64,14 +64,14 @@ private:
 };
 
 /// A shoot that grows and bends to the right, and its branch; in the late frame there is one internode more.
-RecordedGeometry early() {
+FrameGeometry early() {
     return HandDrawn()
         .axis({{1, {0, 0, 0}, 0.2F}, {1, {0, 1, 0}, 0.2F}, {2, {0, 2, 0}, 0.1F}})
         .axis({{3, {0, 1, 0}, 0.1F}, {3, {1, 1, 0}, 0.1F}})
         .organ(7, {{0, 2, 0}, {0.1F, 2, 0}, {0, 2.1F, 0}})
         .geometry;
 }
-RecordedGeometry late() {
+FrameGeometry late() {
     return HandDrawn()
         .axis({{1, {0, 0, 0}, 0.4F}, {1, {0, 2, 0}, 0.4F}, {2, {1, 2, 0}, 0.3F}, {4, {1.5F, 2, 0}, 0.1F}})
         .axis({{3, {0, 2, 0}, 0.1F}, {3, {3, 2, 0}, 0.1F}})
@@ -80,7 +80,7 @@ RecordedGeometry late() {
         .geometry;
 }
 
-float length_of(const RecordedInternode& internode) {
+float length_of(const FrameInternode& internode) {
     return glm::length(internode.tip - internode.base);
 }
 
@@ -93,7 +93,7 @@ void check_same(const glm::vec3& found, const glm::vec3& expected) {
 TEST_CASE("lengths and radii change linearly between two frames, and what is new begins at nothing", "[reading]") {
     const Unfolding unfolding(early(), late());
     for (const float share : {0.1F, 0.25F, 0.5F, 0.9F}) {
-        const std::vector<RecordedInternode> internodes = internodes_of(unfolding.at(share));
+        const std::vector<FrameInternode> internodes = internodes_of(unfolding.at(share));
         REQUIRE(internodes.size() == 4);
         CHECK(length_of(internodes[0]) == Approx(1 + share));
         CHECK(length_of(internodes[1]) == Approx(1));
@@ -105,7 +105,7 @@ TEST_CASE("lengths and radii change linearly between two frames, and what is new
 }
 
 TEST_CASE("axes stay whole and turn evenly between two frames", "[reading]") {
-    const std::vector<RecordedInternode> internodes = internodes_of(Unfolding(early(), late()).at(0.5));
+    const std::vector<FrameInternode> internodes = internodes_of(Unfolding(early(), late()).at(0.5));
     CHECK(internodes[1].base == internodes[0].tip);
     CHECK(internodes[3].base == internodes[0].tip);
     // From upright to a right angle: half a right angle.
@@ -113,8 +113,8 @@ TEST_CASE("axes stay whole and turn evenly between two frames", "[reading]") {
 }
 
 TEST_CASE("organs go with the internode they stand on, and new ones unfold from it", "[reading]") {
-    const RecordedGeometry half = Unfolding(early(), late()).at(0.5);
-    const std::vector<RecordedInternode> internodes = internodes_of(half);
+    const FrameGeometry half = Unfolding(early(), late()).at(0.5);
+    const std::vector<FrameInternode> internodes = internodes_of(half);
     const auto old_organ = half.polygons[0], new_organ = half.polygons[1];
     const auto place = [&](std::int32_t point) { return half.points[static_cast<std::size_t>(point)]; };
     check_same(place(old_organ[0]), internodes[2].tip);
@@ -124,7 +124,7 @@ TEST_CASE("organs go with the internode they stand on, and new ones unfold from 
 }
 
 TEST_CASE("at the end of the step everything is where the later frame has it", "[reading]") {
-    const RecordedGeometry met = Unfolding(early(), late()).at(1), expected = late();
+    const FrameGeometry met = Unfolding(early(), late()).at(1), expected = late();
     for (std::size_t i = 0; i < expected.points.size(); ++i) {
         check_same(met.points[i], expected.points[i]);
         CHECK(met.radii[i] == Approx(expected.radii[i]));

@@ -28,7 +28,7 @@ const std::vector<ModelSetting>& settings() {
 }
 
 /// The last frame of a tree, read back.
-RecordedGeometry grown(const Values& values, std::uint64_t seed = 1, std::size_t memory = 0) {
+FrameGeometry grown(const Values& values, std::uint64_t seed = 1, std::size_t memory = 0) {
     SceneOptions options;
     options.seed = seed;
     for (const auto& [name, value] : values) {
@@ -55,15 +55,15 @@ std::vector<double> other_values(const ModelSetting& setting, double value) {
     return others;
 }
 
-bool same(const RecordedGeometry& a, const RecordedGeometry& b) {
+bool same(const FrameGeometry& a, const FrameGeometry& b) {
     const MeshOptions options{.sides = 3};
     const FrameMesh first = mesh_of(a, options), second = mesh_of(b, options);
     return first.points == second.points && first.triangles == second.triangles && first.rgb == second.rgb;
 }
 
-std::set<std::array<float, 3>> nodes(const RecordedGeometry& geometry) {
+std::set<std::array<float, 3>> nodes(const FrameGeometry& geometry) {
     std::set<std::array<float, 3>> found;
-    for (const RecordedInternode& internode : internodes_of(geometry)) {
+    for (const FrameInternode& internode : internodes_of(geometry)) {
         found.insert({internode.tip.x, internode.tip.y, internode.tip.z});
     }
     return found;
@@ -128,7 +128,7 @@ void grow_at_random(int trees) {
         INFO("tree " << i);
         for (const auto& [name, value] : values) UNSCOPED_INFO(name << " = " << value);
         try {
-            const RecordedGeometry geometry = grown(values, static_cast<std::uint64_t>(i), std::size_t{16} << 20);
+            const FrameGeometry geometry = grown(values, static_cast<std::uint64_t>(i), std::size_t{16} << 20);
             const FrameMesh mesh = mesh_of(geometry, {.sides = 3});
             REQUIRE(is_finite(mesh));
             ++grown_trees;
@@ -146,7 +146,7 @@ void grow_at_random(int trees) {
 
 TEST_CASE("the tree has 37 settings, and each changes what is drawn", "[tree]") {
     CHECK(settings().size() == 37);
-    const RecordedGeometry before = grown(small);
+    const FrameGeometry before = grown(small);
     for (const ModelSetting& setting : settings()) {
         INFO(setting.name);
         const auto chosen = small.find(setting.name);

@@ -1,10 +1,11 @@
 // The form of a component: every key of the schema is shown, and an edit changes its line of the text and no other.
-#include "studio/graph_text.h"
+#include "studio/document/graph_text.h"
 
 #include "espalier/base/error.h"
 
 #include "catch.h"
 #include "language/pgraph/schema.h"
+#include "studio/protocol/json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,13 +29,13 @@ camera -> stem -> corolla -> petal
 )";
 
 std::string changed(const std::string& text, const Json& request) {
-    return studio::edited_graph("flower.pgraph", text, request);
+    return studio::edited_graph("flower.pgraph", text, studio::from_json<studio::GraphEdit>(request));
 }
 
 }  // namespace
 
 TEST_CASE("the form of a component shows every key of its type with unit, range and default", "[studio]") {
-    const Json types = studio::component_types_json();
+    const Json types = studio::json_of(studio::component_forms());
     REQUIRE(types.size() == language::pgraph::component_types().size());
     for (std::size_t i = 0; i < types.size(); ++i) {
         const auto& type = language::pgraph::component_types()[i];
@@ -48,14 +49,14 @@ TEST_CASE("the form of a component shows every key of its type with unit, range 
 }
 
 TEST_CASE("a graph is shown as its components with what they say, and its links", "[studio]") {
-    const Json graph = studio::graph_json("flower.pgraph", flower);
+    const Json graph = studio::json_of(studio::read_graph("flower.pgraph", flower).value());
     REQUIRE(graph["components"].size() == 3);
     CHECK(graph["components"][0]["type"] == "Horn");
     CHECK(graph["components"][0]["line"] == 3);
-    CHECK(graph["components"][0]["values"] == Json({{"length", "2"}, {"bend", "3 .. -3"}}));
+    CHECK(graph["components"][0]["values"] == Json({{"bend", "3 .. -3"}, {"length", "2"}}));
     CHECK(graph["links"].size() == 3);
     CHECK(graph["links"][2] == Json({{"from", "corolla"}, {"to", "petal"}, {"kind", "child"}}));
-    CHECK(studio::graph_json("flower.pgraph", "pgraph 1\nHorn\n").is_null());
+    CHECK_FALSE(studio::read_graph("flower.pgraph", "pgraph 1\nHorn\n"));
 }
 
 TEST_CASE("a value is changed, added and taken out on its own line, comments stay", "[studio]") {
@@ -84,14 +85,14 @@ TEST_CASE("a value is changed, added and taken out on its own line, comments sta
 TEST_CASE("components and links are added and taken away, also out of the middle of a chain", "[studio]") {
     std::string text =
         changed(flower, Json({{"edit", "add"}, {"type", "Leaf"}, {"name", "sepal"}, {"from", "corolla"}}));
-    CHECK(studio::graph_json("f", text)["components"].size() == 4);
+    CHECK(studio::read_graph("f", text)->components.size() == 4);
     text = changed(text, Json({{"edit", "unlink"}, {"from", "stem"}, {"to", "corolla"}, {"kind", "child"}}));
     CHECK(text.find("camera -> stem\ncorolla -> petal\n") != std::string::npos);
     text = changed(text, Json({{"edit", "link"}, {"from", "stem"}, {"to", "corolla"}, {"kind", "child"}}));
-    CHECK(studio::graph_json("f", text)["links"].size() == 4);
+    CHECK(studio::read_graph("f", text)->links.size() == 4);
     text = changed(text, Json({{"edit", "remove"}, {"component", "petal"}}));
     CHECK(text.find("petal") == std::string::npos);
-    CHECK(studio::graph_json("f", text)["links"].size() == 3);
+    CHECK(studio::read_graph("f", text)->links.size() == 3);
     CHECK_THROWS_AS(changed(flower, Json({{"edit", "link"}, {"from", "stem"}, {"to", "camera"}, {"kind", "child"}})),
                     UserError);
     CHECK_THROWS_AS(changed(flower, Json({{"edit", "link"}, {"from", "stem"}, {"to", "petal"}, {"kind", "branch"}})),

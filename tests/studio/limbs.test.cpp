@@ -1,6 +1,8 @@
 // What a step wears: bark, skin and labels.
 #include "session_fixture.h"
 
+#include <glm/common.hpp>
+
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -78,6 +80,34 @@ TEST_CASE("limbs are tubes as pictures have them, with the modules that drew the
     CHECK(limbs.volume() == Approx(3 * 0.1 * 0.1 * 3).epsilon(0.001));  // a regular polygon of 12 sides has 3 r^2
     CHECK(limbs.modules.front() == 1);
     CHECK(limbs.modules.back() == 2);
+}
+
+TEST_CASE("thin limbs of a large plant are where they were drawn, and as thick", "[studio]") {
+    OpenStudio studio(
+        "lsystem: 1\nderivation length: 1\n"
+        "axiom: !(9) F(1000) f(1.003) [ +(90) !(0.002) F(0.5) ] [ -(90) f(0.001) !(0.002) F(0.5) ]\nendlsystem\n");
+    studio.begin();
+    studio.wait_until_grown();
+    const Limbs limbs = limbs_of(studio, "tubes");
+    glm::vec3 lower(1e9F), upper(-1e9F);
+    for (const glm::vec3& position : limbs.positions) {
+        if (position.y < 1001) continue;
+        lower = glm::min(lower, position);
+        upper = glm::max(upper, position);
+    }
+    CHECK(lower.x == Approx(-0.5).margin(1e-6));
+    CHECK(upper.x == Approx(0.501).margin(1e-6));
+    CHECK(upper.y - lower.y == Approx(0.002).epsilon(0.1));
+}
+
+TEST_CASE("an axis that begins where another of its order ended is another", "[studio]") {
+    OpenStudio studio(
+        "lsystem: 1\nderivation length: 1\naxiom: !(0.1) [ +(30) F(1) ] [ +(30) f(1) +(120) F(1) ]\nendlsystem\n");
+    studio.begin();
+    studio.wait_until_grown();
+    const Limbs limbs = limbs_of(studio, "tubes");
+    // Two tubes with two caps each: vertices of an axis of two internodes would be fewer.
+    CHECK(limbs.indices.size() / 3 == 2 * (2 * 2 * 12));
 }
 
 TEST_CASE("a smooth skin is closed, and as large as the limbs below it", "[studio]") {

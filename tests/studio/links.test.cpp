@@ -1,8 +1,8 @@
 // What a stranger's link may not do: write files of any name, read what is not its own, or keep the studio from its
 // owner. Each attack is refused with a sentence.
 #include "session_fixture.h"
-#include "studio/plain_name.h"
-#include "studio/sharing.h"
+#include "studio/document/plain_name.h"
+#include "studio/document/sharing.h"
 
 #include <sys/stat.h>
 
@@ -212,8 +212,9 @@ endlsystem
 TEST_CASE("a folder that came by a link is limited until its mark is removed", "[studio]") {
     const TemporaryFolder folder, library;
     const Json link = link_of({{"x/a.l", stalk}}, "x/a.l");
-    const fs::path main =
-        espalier::studio::write_shared(espalier::studio::read_shared(link, library.path()), folder.path());
+    const fs::path main = espalier::studio::write_shared(
+        espalier::studio::read_shared(espalier::studio::from_json<espalier::studio::SharedModel>(link), library.path()),
+        folder.path());
     CHECK(main == folder.path() / "shared/a/x/a.l");
     const auto permission = espalier::studio::permission_of(main, library.path());
     REQUIRE(permission);

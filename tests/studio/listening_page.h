@@ -3,7 +3,7 @@
 
 #include "espalier/simulation/object.h"
 
-#include "studio/session.h"
+#include "studio/session/session.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -15,7 +15,7 @@
 
 namespace studio_test {
 
-using Json = espalier::studio::Session::Json;
+using espalier::studio::Json;
 
 class ListeningPage final : public espalier::studio::Page {
 public:

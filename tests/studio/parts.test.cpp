@@ -1,10 +1,10 @@
 #include "espalier/simulation/world.h"
 
 #include "catch.h"
-#include "studio/access.h"
-#include "studio/kept_steps.h"
-#include "studio/page_files.h"
-#include "studio/written_numbers.h"
+#include "studio/document/written_numbers.h"
+#include "studio/growth/kept_steps.h"
+#include "studio/server/access.h"
+#include "studio/server/page_files.h"
 #include "temporary_folder.h"
 
 using namespace espalier::studio;

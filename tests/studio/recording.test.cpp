@@ -8,7 +8,7 @@ namespace {
 const char* const tree = R"(#define LENGTH 2
 lsystem: 1
 derivation length: 4
-axiom: A(1)
+axiom: !(0.1) A(1)
 A(n) --> F(LENGTH) [ +(30) A(n+1) ] [ -(30) A(n+1) ] ;(3) { . f(1) . +(90) f(1) . }
 endlsystem
 )";
@@ -80,6 +80,26 @@ TEST_CASE("modules of a recorded run tell who they are, and colour the picture",
     CHECK(number_at<float>(column, 16) == 0);
     CHECK(number_at<float>(column, 20) == 3);
     CHECK(studio.ask({{"do", "column"}, {"growth", growth}, {"step", 4}, {"name", "colour"}}).contains("error"));
+}
+
+TEST_CASE("limbs of a recorded run are where those of its growth are", "[studio]") {
+    const auto positions = [](OpenStudio& studio) {
+        ListeningPage& page = studio.begin();
+        studio.wait_until_grown();
+        studio.ask({{"do", "look"}, {"step", 4}});
+        studio.wait([&] { return number_at<std::int32_t>(page.packets.back(), 8) == 4; });
+        const Json growth = page.last("growth")["growth"];
+        studio.ask({{"do", "limbs"}, {"growth", growth}, {"step", 4}, {"skin", "tubes"}});
+        studio.wait([&] { return page.packets.back().substr(0, 4) == "ESM1"; });
+        const std::string& limbs = page.packets.back();
+        CHECK(number_at<std::int32_t>(limbs, 8) == 4);
+        const std::size_t vertices = number_at<std::uint32_t>(limbs, 16), ranges = number_at<std::uint32_t>(limbs, 24);
+        CHECK(vertices > 15 * 12);
+        return limbs.substr(28 + 12 * ranges, 12 * vertices);
+    };
+    OpenRun recorded;
+    OpenStudio grown(tree);
+    CHECK(positions(recorded) == positions(grown));
 }
 
 TEST_CASE("to change a recorded run is to grow what it grew from, and undo goes back to it", "[studio]") {

@@ -3,8 +3,8 @@
 
 #include "catch.h"
 #include "listening_page.h"
-#include "studio/growth.h"
-#include "studio/written_numbers.h"
+#include "studio/document/written_numbers.h"
+#include "studio/growth/growth.h"
 #include "temporary_folder.h"
 
 #include <chrono>

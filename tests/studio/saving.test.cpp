@@ -1,6 +1,6 @@
 // What is saved keeps its meaning, and what other programs write is neither overlooked nor overwritten.
 #include "session_fixture.h"
-#include "studio/saved_places.h"
+#include "studio/document/saved_places.h"
 
 using namespace studio_test;
 

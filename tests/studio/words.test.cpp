@@ -3,8 +3,8 @@
 #include "espalier/environment/environment_process.h"
 
 #include "catch.h"
-#include "studio/scene_words.h"
-#include "studio/written_numbers.h"
+#include "studio/document/scene_words.h"
+#include "studio/document/written_numbers.h"
 
 #include <algorithm>
 #include <cmath>

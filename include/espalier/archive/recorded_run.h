@@ -1,8 +1,8 @@
-// A run as it lies on disk, read back as plain columns: for analysis, pictures and export, without growing it again.
+// A run as it lies on disk, or its frames in memory: for analysis, pictures and export, without growing it again.
 #pragma once
 
 #include "espalier/base/column.h"
-#include "espalier/geometry/kind.h"
+#include "espalier/geometry/frame_geometry.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -12,73 +12,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace espalier::archive {
-
-/// What is known of the modules behind points or cells: columns of one length.
-struct RecordedAttributes {
-    Column<std::uint64_t> identities, parents;
-    Column<std::uint32_t> plants;   ///< RecordedPlant::number
-    Column<std::uint16_t> symbols;  ///< into `symbol_names`
-    Column<std::int32_t> births;
-    Column<std::uint16_t> orders, colours;
-    Column<Kind> kinds;
-    Column<std::array<std::uint8_t, 3>> rgb;  ///< empty where no plant has a colour map
-
-    std::size_t size() const { return identities.size(); }
-};
-
-/// Cells of one kind: cell i has the points connectivity[offsets[i]] .. connectivity[offsets[i + 1] - 1] and row
-/// `first` + i of `of_cells`.
-struct RecordedCells {
-    Column<std::int32_t> offsets{0};
-    Column<std::int32_t> connectivity;
-    std::size_t first = 0;
-
-    std::size_t size() const { return offsets.size() - 1; }
-    std::span<const std::int32_t> operator[](std::size_t i) const {
-        return {connectivity.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
-    }
-};
-
-/// plants/NNNN.vtp: docs/timeline.md explains the arrays. All columns have their full length, all indices are in range.
-struct RecordedGeometry {
-    Column<glm::vec3> points, normals;
-    Column<glm::vec2> uvs;
-    Column<float> radii;
-    Column<float> pixels;  ///< widths of the lines without radius; empty where no view file gives such widths
-    RecordedCells vertices, lines, polygons;
-    RecordedAttributes of_points, of_cells;
-    Column<std::uint16_t> textures, back_colours;      ///< one a cell; textures index `texture_files`
-    std::map<std::string, Column<double>> parameters;  ///< the chosen ones, by point; NaN where a module has none
-    std::vector<std::string> symbol_names, texture_files;
-    std::vector<std::string> label_texts;  ///< texts of the vertices of Kind::label, in their order
-};
-
-/// An internode of a frame: the piece of an axis between two neighbouring points.
-struct RecordedInternode {
-    static constexpr std::int32_t none = -1;
-
-    glm::vec3 base, tip;
-    float base_radius, tip_radius;
-    std::uint64_t identity, parent;  ///< identities of its module and of that module's parent
-    std::uint32_t plant;
-    std::uint16_t symbol, order, colour;
-    std::int32_t birth;
-    std::uint32_t axis;   ///< the line it belongs to
-    std::int32_t bearer;  ///< the internode it stands on, always an earlier one of its plant; none: the plant's first
-    std::int32_t base_point;  ///< rows of `points` and of `of_points`
-    std::int32_t tip_point;   ///< whose row holds its parameters
-};
-
-/// The internodes of all axes, axis after axis, each from its base on; outlines of organs are none.
-/// An axis stands on the internode that ends where it begins, of those the last of lower order; failing that, on one
-/// that begins there.
-std::vector<RecordedInternode> internodes_of(const RecordedGeometry& geometry);
 
 /// A row of lifespans.vtp: an internode where it was last seen.
 struct RecordedLife {
@@ -136,6 +75,7 @@ struct RecordedFrame {
     double time = 0;
     std::filesystem::path plants;                         ///< empty where no plants were recorded
     std::map<std::string, std::filesystem::path> fields;  ///< .vti, or .vdb where only that was recorded
+    std::shared_ptr<const FrameGeometry> geometry;        ///< the plants, where they are in memory instead of a file
 };
 
 /// How the author of a model looked at it, as its view file says.
@@ -159,7 +99,7 @@ struct RecordedMaterial {
 /// background.vtp: the triangles of what stands around the plants.
 struct RecordedBackground {
     Column<glm::vec3> points, normals;
-    RecordedCells triangles;
+    FrameCells triangles;
     Column<std::array<std::uint8_t, 3>> rgb;  ///< one colour a triangle, as the opacities
     Column<float> opacities;
 };
@@ -176,7 +116,10 @@ std::filesystem::path folder_of_run(const std::filesystem::path& path);
 class RecordedRun {
 public:
     explicit RecordedRun(const std::filesystem::path& path);
+    /// A run that lies in no folder: `record` is what run.json would say. Throws UserError if it does not say it.
+    RecordedRun(const std::string& record, std::vector<RecordedFrame> frames);
 
+    /// Empty for a run that lies in none.
     const std::filesystem::path& folder() const { return folder_; }
     const std::string& scene() const { return scene_; }  ///< its name
     /// How it ended: "done", "interrupted", "failed: why", "killed"; "running" while it is going.
@@ -196,7 +139,7 @@ public:
     const RecordedFrame& frame(int step) const;
     std::vector<std::string> field_names() const;
 
-    RecordedGeometry geometry(const RecordedFrame& frame) const;
+    FrameGeometry geometry(const RecordedFrame& frame) const;
     RecordedField field(const RecordedFrame& frame, const std::string& name) const;
     /// None if no plant has a view file.
     const std::optional<RecordedView>& view() const { return view_; }
@@ -208,6 +151,8 @@ public:
     RecordedLives lifespans() const;
 
 private:
+    void take(const std::string& record);
+
     std::filesystem::path folder_;
     std::string scene_, exit_, time_unit_ = "step";
     double dt_ = 1;
@@ -225,15 +170,10 @@ namespace espalier {
 
 using archive::exit_of_run;
 using archive::folder_of_run;
-using archive::internodes_of;
 using archive::read_table;
-using archive::RecordedAttributes;
 using archive::RecordedBackground;
-using archive::RecordedCells;
 using archive::RecordedField;
 using archive::RecordedFrame;
-using archive::RecordedGeometry;
-using archive::RecordedInternode;
 using archive::RecordedLife;
 using archive::RecordedLives;
 using archive::RecordedMaterial;

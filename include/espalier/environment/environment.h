@@ -61,6 +61,11 @@ public:
     /// Quantities of all processes for one plant, named "process.quantity", in scene order.
     std::vector<Quantity> statistics(std::uint32_t plant) const;
 
+    /// What processes know of each organ, named "process.quantity", in scene order.
+    std::vector<OrganQuantity> organ_quantities() const;
+    /// Values of one of them for a plant's modules, see EnvironmentProcess; null for an unknown name or plant.
+    std::shared_ptr<const std::vector<float>> organ_values(const std::string& name, std::uint32_t plant) const;
+
     /// Bytes that plants must leave to the fields of processes until the next exchange.
     std::size_t memory_kept() const;
     /// What all fields together may take from the next exchange on.

@@ -52,6 +52,14 @@ struct Quantity {
     std::string unit = {};  ///< "": a number without one
 };
 
+/// A quantity that a process knows of each organ: "absorbed" of the process "light" is recorded as "light.absorbed".
+struct OrganQuantity {
+    std::string name;
+    std::string unit = {};  ///< "": a number without one
+    std::string meaning = {};
+    int components = 1;  ///< 3 for directions
+};
+
 /// A number of a process's table that may change between steps.
 struct ChangingSetting {
     std::string key;  ///< "strength"
@@ -85,6 +93,14 @@ public:
     /// This step's figures for a plant, by number. Quantities of the whole world repeat for every plant.
     virtual std::vector<Quantity> statistics(std::uint32_t) const { return {}; }
 
+    /// What `organ_values` knows; the same in every step.
+    virtual std::vector<OrganQuantity> organ_quantities() const { return {}; }
+    /// This step's values of one of them for a plant, by number: `components` for each module of its string, NaN where
+    /// there is none. Null if the plant is unknown.
+    virtual std::shared_ptr<const std::vector<float>> organ_values(const std::string&, std::uint32_t) const {
+        return nullptr;
+    }
+
     /// Fewest and most parameters a query to this process may have, for `check` and for a clear error.
     virtual std::pair<int, int> query_arity() const = 0;
 
@@ -115,6 +131,7 @@ namespace espalier {
 using environment::ChangingSetting;
 using environment::EnvironmentContext;
 using environment::EnvironmentProcess;
+using environment::OrganQuantity;
 using environment::PlantView;
 using environment::ProcessMemory;
 using environment::ProcessType;

@@ -51,7 +51,7 @@ struct ExportJob {
     bool keep = false;    ///< a file that is there stays, and the new one has a number behind its name
 
     /// A frame's plants with their bark.
-    RecordedGeometry geometry(const RecordedFrame& frame) const;
+    FrameGeometry geometry(const RecordedFrame& frame) const;
 
     /// A file of the whole job, or of a frame.
     std::filesystem::path path(const std::string& extension, const MeshName& mesh = {}) const;
@@ -76,6 +76,7 @@ struct ExporterType {
     std::string summary;  ///< one line about the format
     std::string help;     ///< what the files contain and what they lose
     std::function<std::unique_ptr<Exporter>()> make;
+    bool of_fields = false;  ///< it takes fields, which lie in files only, instead of plants
 };
 
 /// The format whose files have this extension, ".glb"; empty if there is none.

@@ -19,6 +19,7 @@ struct Progress {
 
 struct RunOptions {
     std::filesystem::path output;  ///< empty: no timeline
+    Recorder* recorder = nullptr;  ///< sees every frame, besides the timeline if there is one; may be null
     bool overwrite = false;
     /// A checkpoint is written after every so many steps, before steps that last, and when the run is interrupted; 0:
     /// only then.
@@ -50,6 +51,7 @@ struct RunResult {
     std::size_t modules = 0;
     double seconds = 0;
     std::size_t peak_memory = 0;  ///< bytes
+    std::string record = {};      ///< of a run with a recorder: what run.json says of it, or would say
 };
 
 /// The default of --memory: half of the machine, or of what its container may use, in bytes.

@@ -8,6 +8,7 @@
 #include "espalier/turtle/interpretation.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,14 +26,17 @@ struct PlantFrame {
     std::vector<Quantity> quantities;        ///< "light.mean", ... of this plant, the same names in every frame
     const Palette* palette = nullptr;        ///< what colour indices look like; null: unknown
     const Background* background = nullptr;  ///< what stands around it in pictures; null: nothing
+    /// Of a frame that is kept: what its environment knew of its modules, by the names that recorders read.
+    std::map<std::string, std::shared_ptr<const std::vector<float>>> organs = {};
 };
 
 struct Frame {
     int step = 0;     ///< frame k is k derivations
     double time = 0;  ///< scene's unit
     std::vector<PlantFrame> plants;
-    const Fields* fields = nullptr;  ///< as they are until the next step
-    bool is_last = false;            ///< no step follows in this run
+    const Fields* fields = nullptr;            ///< as they are until the next step
+    bool is_last = false;                      ///< no step follows in this run
+    const Environment* environment = nullptr;  ///< knows what organs have met, until the next step; null: nothing
 };
 
 }  // namespace espalier::timeline

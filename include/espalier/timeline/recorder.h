@@ -47,6 +47,8 @@ public:
     /// The fields it reads, asked for once, before the first frame; {"all"} for every one. Frames of a timeline hold no
     /// others: to make a field that is not read would cost a step as much as the field itself.
     virtual std::vector<std::string> fields() const { return {}; }
+    /// What it reads of organs, as processes call it: "light.absorbed". Asked for once, as fields().
+    virtual std::vector<std::string> organs() const { return {}; }
     /// The frame is gone when this returns. Copies of its plants keep their values, and grids of fields may be kept.
     virtual void record(const Frame& frame) = 0;
     /// After the last frame, also of an interrupted or failed run; frees what is not needed any more.

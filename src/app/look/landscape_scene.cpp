@@ -31,7 +31,7 @@ auto blamed_on(const Settings& settings, const char* key, const Work& work) {
 /// The run that a key names, and the last frame of its plants.
 struct LastFrame {
     RecordedRun run;
-    RecordedGeometry geometry;
+    FrameGeometry geometry;
 };
 LastFrame last_frame(const Settings& settings) {
     return blamed_on(settings, "run", [&]() -> LastFrame {
@@ -40,7 +40,7 @@ LastFrame last_frame(const Settings& settings) {
         const auto drawn = std::find_if(frames.rbegin(), frames.rend(),
                                         [](const RecordedFrame& frame) { return !frame.plants.empty(); });
         if (drawn == frames.rend()) throw UserError(fmt::format("{}: no plants were recorded", run.folder().string()));
-        RecordedGeometry geometry = run.geometry(*drawn);
+        FrameGeometry geometry = run.geometry(*drawn);
         return {std::move(run), std::move(geometry)};
     });
 }

@@ -3,6 +3,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/file.h"
 #include "espalier/formats/exporter.h"
+#include "espalier/timeline/last_frame.h"
 
 #include "app/command.h"
 #include "app/model_library.h"
@@ -11,10 +12,8 @@
 #include "app/progress.h"
 #include "app/run_command.h"
 #include "app/setting_values.h"
-#include "app/temporary_folder.h"
 #include "base/number.h"
 #include "base/text.h"
-#include "frame_option.h"
 #include "mesh_file_options.h"
 
 #include <fmt/format.h>
@@ -25,6 +24,7 @@
 #include <chrono>
 #include <limits>
 #include <random>
+#include <span>
 
 namespace espalier::app {
 namespace {
@@ -66,15 +66,14 @@ struct End {
 
 constexpr int no_point_left = 3, no_point_in_reach = 4;
 
-End end_of(const RecordedRun& run) {
-    const RecordedTable table = run.statistics();
-    const auto last = [&](const std::string& quantity) {
-        for (std::size_t column = 0; column < table.columns.size(); ++column) {
-            if (table.columns[column].ends_with("." + quantity)) return table.rows.back()[column];
+End end_of(std::span<const Quantity> quantities) {
+    const auto last = [&](const std::string& name) {
+        for (const Quantity& quantity : quantities) {
+            if (quantity.name.ends_with("." + name)) return quantity.value;
         }
         return std::numeric_limits<double>::quiet_NaN();
     };
-    if (table.rows.empty() || last("winners") != 0) return {};
+    if (last("winners") != 0) return {};
     if (last("left") == 0) return {"no-point-left", no_point_left};
     return {"no-point-in-reach", no_point_in_reach};
 }
@@ -131,18 +130,13 @@ public:
         const Target target = this->target();
         collect_values();
         const InterruptibleRun interruptible(arguments_.quiet);
-        std::optional<TemporaryFolder> temporary;
-        if (run_.empty()) temporary.emplace("tree");
-        const fs::path folder = run_.empty() ? temporary->path() / "run" : run_;
-        const std::uint64_t seed = grow_in(folder);
-        if (InterruptibleRun::interrupted()) return exit_code::interrupted;
-        const RecordedRun grown(folder);
-        const Json files = write(grown, target);
-        save_settings(seed);
-        const End end = end_of(grown);
+        const std::optional<Grown> grown = grow_tree();
+        if (!grown) return exit_code::interrupted;
+        const Json files = write(grown->run, target);
+        save_settings(grown->seed);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        tell(files, seed, end, seconds.count());
-        return end.code;
+        tell(files, grown->seed, grown->end, seconds.count());
+        return grown->end.code;
     }
 
 private:
@@ -212,10 +206,16 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         for (const auto& [setting, text] : said_) values.set(*setting, text);
     }
 
-    // Returns the seed.
-    std::uint64_t grow_in(const fs::path& folder) {
+    struct Grown {
+        RecordedRun run;  ///< its last frame, in memory
+        std::uint64_t seed;
+        End end;
+    };
+
+    // None if it was interrupted.
+    std::optional<Grown> grow_tree() {
         arguments_.model.file = kind_->scene;
-        arguments_.output = folder;
+        arguments_.output = run_;
         arguments_.seed = parse_seed(seed_);
         if (!memory_.empty()) arguments_.memory = size_in_bytes(memory_, "--memory");
         if (!arguments_.seed) arguments_.seed = kind_->values.seed();
@@ -223,13 +223,14 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             arguments_.overrides.emplace_back("plant.0.define." + name, value);
         }
         dress_leaves();
-        // Only the last frame is read of a run that is not kept.
-        if (run_.empty()) arguments_.overrides.emplace_back("timeline.every", "1000000000");
         const ReadLog inputs;
         const Scene scene = scene_of(arguments_);
         if (!arguments_.quiet) print_warnings(scene.notes.diagnostics);
-        grow(arguments_, scene, inputs, folder);
-        return scene.seed;
+        LastFrame last;
+        const RunResult result = grow(arguments_, scene, inputs, run_, &last);
+        if (InterruptibleRun::interrupted()) return std::nullopt;
+        const RecordedFrame frame{last.step(), last.time(), {}, {}, last.geometry()};
+        return Grown{RecordedRun(result.record, {frame}), scene.seed, end_of(last.quantities().back())};
     }
 
     /// The stages of the scene whose leaves are cards with a picture; blossoms and fruit have an id.
@@ -247,8 +248,8 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
     }
 
     Json write(const RecordedRun& run, const Target& target) const {
-        const std::vector<const RecordedFrame*> frames = chosen_frames(run, "last");
-        if (internodes_of(run.geometry(*frames.front())).empty()) {
+        const RecordedFrame* const frame = &run.frames().front();
+        if (internodes_of(*frame->geometry).empty()) {
             throw UserError(
                 "no internode has grown, and nothing was written: see the warnings, or choose more steps, a larger "
                 "crown, a longer stem, or another seed");
@@ -258,7 +259,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
             files.push_back({{"path", file.path.string()}, {"vertices", file.vertices}, {"triangles", file.triangles}});
             if (!arguments_.quiet && !file.hint.empty()) fmt::print(stderr, "{}\n", file.hint);
         };
-        ExportJob job{run, frames, {}, target.folder, report, target.name};
+        ExportJob job{run, {&frame, 1}, {}, target.folder, report, target.name};
         mesh_.put_into(job);
         job.counts = job.counts || target.counts;
         job.keep = true;

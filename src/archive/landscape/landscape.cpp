@@ -34,7 +34,7 @@ double crown_radius(const std::vector<glm::vec3>& points) {
 }
 
 /// Where the plant's first axis stands; of a plant without axes, its lowest point.
-glm::vec3 foot_of(const RecordedGeometry& geometry, const FrameMesh& mesh) {
+glm::vec3 foot_of(const FrameGeometry& geometry, const FrameMesh& mesh) {
     const AxisTree tree = axis_tree(geometry, {});
     if (!tree.axes.empty()) return tree.internodes[tree.axes.front().first].base;
     const auto lower = [](const glm::vec3& a, const glm::vec3& b) { return a.y < b.y; };
@@ -43,9 +43,9 @@ glm::vec3 foot_of(const RecordedGeometry& geometry, const FrameMesh& mesh) {
 
 }  // namespace
 
-std::vector<StandPlant> stand_of(const RecordedGeometry& geometry) {
+std::vector<StandPlant> stand_of(const FrameGeometry& geometry) {
     std::vector<StandPlant> stand;
-    for (const RecordedInternode& internode : internodes_of(geometry)) {
+    for (const FrameInternode& internode : internodes_of(geometry)) {
         if (!(internode.base_radius > 0)) {
             throw UserError(
                 fmt::format("a plant of the stand at x = {:.6g}, z = {:.6g} has no radius; the model says "
@@ -120,7 +120,7 @@ PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species,
     return landscape;
 }
 
-LandscapeSpecies species_of(const RecordedGeometry& geometry, const std::string& name, int number,
+LandscapeSpecies species_of(const FrameGeometry& geometry, const std::string& name, int number,
                             std::optional<double> radius, const LevelDistances& distances) {
     LandscapeSpecies species{name, number, 0, 0, 0, {}};
     glm::vec3 foot(0);

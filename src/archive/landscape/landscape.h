@@ -18,7 +18,7 @@ struct StandPlant {
 };
 
 /// Every internode of a frame is a plant. Throws UserError if there is none, or one without a radius.
-std::vector<StandPlant> stand_of(const RecordedGeometry& geometry);
+std::vector<StandPlant> stand_of(const FrameGeometry& geometry);
 
 /// A recorded plant in its own space: it stands at the origin.
 struct LandscapeSpecies {
@@ -75,7 +75,7 @@ PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species,
 
 /// A recorded plant moved to the origin, with levels that are `degrade`d for the distances. `radius` of its crown: none
 /// is the mean distance of its outermost points from the middle, in twelve directions.
-LandscapeSpecies species_of(const RecordedGeometry& geometry, const std::string& name, int number,
+LandscapeSpecies species_of(const FrameGeometry& geometry, const std::string& name, int number,
                             std::optional<double> radius, const LevelDistances& distances);
 
 }  // namespace espalier::archive

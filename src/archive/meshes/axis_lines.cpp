@@ -50,7 +50,7 @@ void share_rings(std::span<const AxisPath> paths, std::vector<AxisLine>& lines) 
 
 }  // namespace
 
-std::vector<AxisLine> axis_lines(const RecordedGeometry& geometry, std::span<const AxisPath> paths, double tolerance,
+std::vector<AxisLine> axis_lines(const FrameGeometry& geometry, std::span<const AxisPath> paths, double tolerance,
                                  float thinnest, Forks forks) {
     std::vector<AxisLine> lines(paths.size());
     tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
@@ -73,7 +73,7 @@ std::vector<AxisLine> axis_lines(const RecordedGeometry& geometry, std::span<con
     return lines;
 }
 
-void dress_axes(RecordedGeometry& geometry, const std::string& texture) {
+void dress_axes(FrameGeometry& geometry, const std::string& texture) {
     if (geometry.texture_files.empty()) geometry.texture_files.emplace_back();
     const auto number = static_cast<std::uint16_t>(geometry.texture_files.size());
     geometry.texture_files.push_back(texture);

@@ -21,11 +21,11 @@ struct AxisLine {
 enum class Forks { rings, none };
 
 /// As `tube_line` makes them, with as many pictures of their textures around as fit the thickest axis of their plant.
-std::vector<AxisLine> axis_lines(const RecordedGeometry& geometry, std::span<const AxisPath> paths, double tolerance,
+std::vector<AxisLine> axis_lines(const FrameGeometry& geometry, std::span<const AxisPath> paths, double tolerance,
                                  float thinnest, Forks forks);
 
 /// Puts a texture on all axes that wear none.
-void dress_axes(RecordedGeometry& geometry, const std::string& texture);
+void dress_axes(FrameGeometry& geometry, const std::string& texture);
 
 }  // namespace espalier::archive
 

@@ -12,10 +12,10 @@ struct AxisTree {
     struct Axis {
         std::uint32_t plant;
         std::uint32_t first, end;  ///< internodes
-        std::int32_t bearer;       ///< the internode it stands on, or RecordedInternode::none
+        std::int32_t bearer;       ///< the internode it stands on, or FrameInternode::none
     };
 
-    std::vector<RecordedInternode> internodes;
+    std::vector<FrameInternode> internodes;
     std::vector<Axis> axes;                              ///< plant after plant, each after the axis it stands on
     std::vector<std::vector<std::uint32_t>> axes_borne;  ///< by each internode
 
@@ -37,14 +37,14 @@ struct AxisPath {
     std::vector<std::int32_t> points;
     bool stands_free = true;  ///< on no other axis
     std::vector<Fork> forks = {};
-    std::int32_t first_ring = RecordedInternode::none;  ///< the fork whose ring it shares; none: it has one of its own
+    std::int32_t first_ring = FrameInternode::none;  ///< the fork whose ring it shares; none: it has one of its own
 };
 
 /// Axes joined for drawing: where one ends and others begin, the thickest of them goes on, of equals the straightest.
-std::vector<AxisPath> axis_paths(const RecordedGeometry& geometry, const MeshOptions& options);
+std::vector<AxisPath> axis_paths(const FrameGeometry& geometry, const MeshOptions& options);
 
 /// Returns the tree of the plants asked for.
-AxisTree axis_tree(const RecordedGeometry& geometry, const MeshOptions& options);
+AxisTree axis_tree(const FrameGeometry& geometry, const MeshOptions& options);
 
 }  // namespace espalier::archive
 

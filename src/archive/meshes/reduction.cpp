@@ -95,7 +95,7 @@ public:
         bool keeps_bearers;     ///< an axis counts for all that stands on it
     };
 
-    Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
+    Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
               const Limits& limits)
         : tubes_(tubes), organs_(organs), limits_(limits) {
         const std::vector<double> areas = limits_.keeps_bearers ? borne_areas(tubes_) : std::vector<double>();
@@ -155,7 +155,7 @@ private:
         bool gone = false;
     };
 
-    void add_tube(std::size_t i, const RecordedAttributes& of_points, const std::vector<double>& borne) {
+    void add_tube(std::size_t i, const FrameAttributes& of_points, const std::vector<double>& borne) {
         const TubeLine& line = tubes_[i].line;
         TubeState& state = states_.emplace_back();
         state.nodes = line.nodes.size();
@@ -361,13 +361,12 @@ private:
 
 }  // namespace
 
-void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
+void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
             std::size_t triangles) {
     Reduction(tubes, organs, of_points, {fewest_sides, longest_growth, true}).run_to_count(triangles);
 }
 
-void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
-             double tolerance) {
+void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points, double tolerance) {
     Reduction(tubes, organs, of_points, {sides_of_line, std::numeric_limits<double>::infinity(), false})
         .run_to_error(tolerance);
     std::erase_if(tubes, [](const PlannedTube& tube) { return tube.sides == 0; });

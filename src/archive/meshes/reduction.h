@@ -23,13 +23,13 @@ inline constexpr double smallest_angle = 1e-3;
 /// the shape moves by the fewest metres, until `triangles` are left, or a few per cent less. An axis counts for all
 /// that stands on it: it goes after that, and keeps its foot and its course as long as it bears something. Of organs
 /// that look alike, those that stay grow by the area of those that went, up to twice their length (Cook et al. 2007).
-void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points,
+void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
             std::size_t triangles);
 
 /// What looks the same from afar, after the degradation of Weber & Penn 1995 with the range: every change that `reduce`
 /// knows is made if the shape moves by no more than `tolerance` metres. Stems no thicker than that are lines: flat
 /// tubes of two sides and four triangles a piece. Leaves become fewer, and those that stay grow by the area of all that
 /// went. The larger the tolerance, the fewer the triangles.
-void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const RecordedAttributes& of_points, double tolerance);
+void degrade(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points, double tolerance);
 
 }  // namespace espalier::archive

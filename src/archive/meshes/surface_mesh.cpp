@@ -23,7 +23,7 @@ constexpr std::size_t most_vertices = std::size_t{1} << 31;
 
 class MeshBuilder {
 public:
-    MeshBuilder(const RecordedGeometry& geometry, const MeshOptions& options)
+    MeshBuilder(const FrameGeometry& geometry, const MeshOptions& options)
         : geometry_(geometry),
           options_(options),
           thinnest_(thinnest_radius(geometry)),
@@ -73,7 +73,7 @@ public:
 
     // Before the tubes are swept.
     void reduce(std::vector<PlannedTube>& tubes) {
-        const RecordedAttributes& of = geometry_.of_points;
+        const FrameAttributes& of = geometry_.of_points;
         if (options_.distance > 0) degrade(tubes, mesh_, of, smallest_angle * options_.distance);
         if (options_.triangles) archive::reduce(tubes, mesh_, of, *options_.triangles);
     }
@@ -93,7 +93,7 @@ private:
     bool wanted(std::size_t row) const { return !options_.plant || geometry_.of_cells.plants[row] == *options_.plant; }
 
     bool same_organ(std::size_t a, std::size_t b) const {
-        const RecordedAttributes& of = geometry_.of_cells;
+        const FrameAttributes& of = geometry_.of_cells;
         return of.identities[a] == of.identities[b] && of.kinds[a] == of.kinds[b] && of.plants[a] == of.plants[b] &&
                wanted(a);
     }
@@ -105,7 +105,7 @@ private:
     }
 
     void begin_part(std::size_t row) {
-        const RecordedAttributes& of = geometry_.of_cells;
+        const FrameAttributes& of = geometry_.of_cells;
         MeshPart& part = mesh_.parts.emplace_back();
         part.kind = of.kinds[row];
         part.plant = of.plants[row];
@@ -190,7 +190,7 @@ private:
         return vertex_of_[row] = static_cast<std::uint32_t>(mesh_.points.size() - 1);
     }
 
-    const RecordedGeometry& geometry_;
+    const FrameGeometry& geometry_;
     const MeshOptions& options_;
     float thinnest_;
     FrameMesh mesh_;
@@ -217,13 +217,13 @@ std::string_view name_of(Kind kind) {
 
 }  // namespace
 
-Rgb colour_of(const RecordedAttributes& attributes, std::size_t row) {
+Rgb colour_of(const FrameAttributes& attributes, std::size_t row) {
     if (!attributes.rgb.empty()) return attributes.rgb[row];
     const Kind kind = attributes.kinds[row];
     return kind == Kind::axis || kind == Kind::cylinder ? wood : leaf;
 }
 
-float thinnest_radius(const RecordedGeometry& geometry) {
+float thinnest_radius(const FrameGeometry& geometry) {
     if (geometry.points.empty()) return 0.001f;
     glm::vec3 lower = geometry.points.front(), upper = lower;
     for (const glm::vec3& point : geometry.points) {
@@ -234,7 +234,7 @@ float thinnest_radius(const RecordedGeometry& geometry) {
     return diagonal > 0 ? diagonal / 1000 : 0.001f;
 }
 
-FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) {
+FrameMesh mesh_of(const FrameGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
     if (options.skin.smooth) {
         builder.add_skin();
@@ -253,7 +253,7 @@ FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options) 
     return builder.take();
 }
 
-FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options) {
+FrameMesh tubes_of(const FrameGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
     if (options.skin.smooth) {
         builder.add_skin();
@@ -263,7 +263,7 @@ FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options)
     return builder.take();
 }
 
-FrameMesh surfaces_of(const RecordedGeometry& geometry, const MeshOptions& options) {
+FrameMesh surfaces_of(const FrameGeometry& geometry, const MeshOptions& options) {
     MeshBuilder builder(geometry, options);
     builder.add_surfaces();
     return builder.take();

@@ -47,22 +47,22 @@ inline glm::vec3 upright(const glm::vec3& v, char up) {
 }
 
 /// The colour of a row, as the plant's colour map said; where none did, brown wood and green organs.
-Rgb colour_of(const RecordedAttributes& attributes, std::size_t row);
+Rgb colour_of(const FrameAttributes& attributes, std::size_t row);
 
 /// Tubes or skin, and surfaces, of the plants asked for. Throws RunError beyond 2^31 vertices, UserError as
 /// `skin_voxel` does. `triangles` says nothing about a skin.
-FrameMesh mesh_of(const RecordedGeometry& geometry, const MeshOptions& options);
+FrameMesh mesh_of(const FrameGeometry& geometry, const MeshOptions& options);
 /// The tubes alone.
-FrameMesh tubes_of(const RecordedGeometry& geometry, const MeshOptions& options);
+FrameMesh tubes_of(const FrameGeometry& geometry, const MeshOptions& options);
 /// The surfaces alone.
-FrameMesh surfaces_of(const RecordedGeometry& geometry, const MeshOptions& options);
+FrameMesh surfaces_of(const FrameGeometry& geometry, const MeshOptions& options);
 
 /// Each plant's parts with vertices of their own; materials keep their numbers.
 std::map<std::uint32_t, FrameMesh> by_plant(const FrameMesh& mesh);
 
 /// The radius given to lines that have none, and half a pixel of those whose widths are given so: a thousandth of the
 /// diagonal of the frame.
-float thinnest_radius(const RecordedGeometry& geometry);
+float thinnest_radius(const FrameGeometry& geometry);
 
 /// "left_axis_12": the plant's name, what it is and a number; letters that formats take for something else become '_'.
 std::string part_name(const RecordedRun& run, const MeshPart& part, std::size_t number);

@@ -45,12 +45,12 @@ void mark(const std::vector<TubeNode>& nodes, std::size_t first, std::size_t las
     }
 }
 
-bool same_look(const RecordedAttributes& of, std::int32_t a, std::int32_t b) {
+bool same_look(const FrameAttributes& of, std::int32_t a, std::int32_t b) {
     const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
     return of.colours[i] == of.colours[k] && (of.rgb.empty() || of.rgb[i] == of.rgb[k]);
 }
 
-std::vector<TubeNode> simplified(const std::vector<TubeNode>& nodes, const RecordedAttributes& of, double tolerance) {
+std::vector<TubeNode> simplified(const std::vector<TubeNode>& nodes, const FrameAttributes& of, double tolerance) {
     std::vector<bool> keep(nodes.size(), false);
     keep.front() = keep.back() = true;
     std::size_t begin = 0;
@@ -169,7 +169,7 @@ private:
     Tube tube_;
 };
 
-float radius_of(const RecordedGeometry& geometry, std::size_t row, float thinnest) {
+float radius_of(const FrameGeometry& geometry, std::size_t row, float thinnest) {
     const float radius = geometry.radii[row];
     if (std::isfinite(radius) && radius > 0) return radius;
     const float pixels = geometry.pixels.empty() ? 0 : geometry.pixels[row];
@@ -178,7 +178,7 @@ float radius_of(const RecordedGeometry& geometry, std::size_t row, float thinnes
 
 }  // namespace
 
-TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
+TubeLine tube_line(const FrameGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
                    float thinnest) {
     std::vector<TubeNode> nodes;
     float thickest = 0;
@@ -199,7 +199,7 @@ TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_
     return {std::move(nodes)};
 }
 
-std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points) {
+std::vector<double> node_errors(const TubeLine& line, const FrameAttributes& of_points) {
     const std::vector<TubeNode>& nodes = line.nodes;
     struct Piece {
         std::size_t from, to;

@@ -35,12 +35,12 @@ struct TubeLine {
 /// The nodes of an axis: no two neighbours in one place; nodes left out where middle line and radius stray no more than
 /// `tolerance` from them and no colour changes (Douglas and Peucker 1973). Radii of 0 become `thinnest`, tips that
 /// taper to nothing a thousandth of the axis's thickest; widths in pixels count in widths of the thinnest.
-TubeLine tube_line(const RecordedGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
+TubeLine tube_line(const FrameGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
                    float thinnest);
 
 /// How far middle line and radius stray once a node and all that stray less have left; infinite at both ends. Where the
 /// colour changes it is the radius at least.
-std::vector<double> node_errors(const TubeLine& line, const RecordedAttributes& of_points);
+std::vector<double> node_errors(const TubeLine& line, const FrameAttributes& of_points);
 
 /// Returns the frame of each node; two nodes at least.
 std::vector<TubeFrame> frames_along(const TubeLine& line);

@@ -21,26 +21,25 @@ double density(const std::string& name, double inclination) {
     return 2 / pi;
 }
 
-/// Area that unit area of that inclination, evenly turned, hides from a direction (Warren Wilson 1960).
-double hidden(double cosine_of_inclination, double cosine) {
+/// How much of unit area of that inclination, evenly turned about the vertical, a direction sees from above: the mean
+/// of the positive cosines between it and the upper normals (Warren Wilson 1960). The cosine is negative from below.
+double seen_from_above(double cosine_of_inclination, double cosine) {
     const double sines = std::sqrt((1 - cosine_of_inclination * cosine_of_inclination) * (1 - cosine * cosine));
     const double cosines = cosine_of_inclination * cosine;
-    if (cosines >= sines) return cosines;
-    const double turn = math::acos(cosines / sines);
-    return cosines * (1 - 2 * turn / pi) + 2 / pi * std::sqrt(sines * sines - cosines * cosines);
+    if (std::abs(cosines) >= sines) return std::max(cosines, 0.0);
+    const double turn = math::acos(-cosines / sines);
+    return (cosines * turn + std::sqrt(sines * sines - cosines * cosines)) / pi;
 }
 
-/// Campbell's: the shadow of a spheroid over half its surface.
-double of_spheroid(double ratio, double cosine) {
-    double surface = 2;
+/// Half of a spheroid's surface over its shadow from above (Campbell 1986).
+double surface_of_spheroid(double ratio) {
+    if (ratio == 1) return 2;
     if (ratio < 1) {
         const double e = std::sqrt(1 - ratio * ratio);
-        surface = ratio + math::asin(e) / e;
-    } else if (ratio > 1) {
-        const double e = std::sqrt(1 - 1 / (ratio * ratio));
-        surface = ratio + math::log((1 + e) / (1 - e)) / (2 * e * ratio);
+        return ratio + math::asin(e) / e;
     }
-    return std::sqrt(ratio * ratio * cosine * cosine + 1 - cosine * cosine) / surface;
+    const double e = std::sqrt(1 - 1 / (ratio * ratio));
+    return ratio + math::log((1 + e) / (1 - e)) / (2 * e * ratio);
 }
 
 }  // namespace
@@ -55,19 +54,32 @@ const std::vector<std::string>& LeafAngles::names() {
     return names;
 }
 
+double LeafAngles::density(double inclination) const {
+    if (!name_.empty()) return environment::density(name_, inclination);
+    const double sine = math::sin(inclination), cosine = math::cos(inclination);
+    const double square = cosine * cosine + ratio_ * ratio_ * sine * sine;
+    return 2 * ratio_ * ratio_ * ratio_ * sine / (surface_of_spheroid(ratio_) * square * square);
+}
+
+double LeafAngles::seen_from_above(double cosine) const {
+    cosine = std::clamp(cosine, -1.0, 1.0);
+    if (name_ == "horizontal") return std::max(cosine, 0.0);
+    if (name_ == "vertical") return environment::seen_from_above(0, cosine);
+    constexpr int parts = 1000;
+    double sum = 0, all = 0;
+    for (int i = 0; i < parts; ++i) {
+        const double inclination = pi / 2 * (i + 0.5) / parts, share = density(inclination);
+        sum += share * environment::seen_from_above(math::cos(inclination), cosine);
+        all += share;
+    }
+    return sum / all;
+}
+
 double LeafAngles::projection(double cosine) const {
     cosine = std::clamp(cosine, 0.0, 1.0);
-    if (name_.empty()) return of_spheroid(ratio_, cosine);
     if (name_ == "spherical") return 0.5;
-    if (name_ == "horizontal") return cosine;
-    if (name_ == "vertical") return hidden(0, cosine);
-    constexpr int parts = 1000;
-    double sum = 0;
-    for (int i = 0; i < parts; ++i) {
-        const double inclination = pi / 2 * (i + 0.5) / parts;
-        sum += density(name_, inclination) * hidden(math::cos(inclination), cosine);
-    }
-    return sum * pi / 2 / parts;
+    if (!name_.empty()) return seen_from_above(cosine) + seen_from_above(-cosine);
+    return std::sqrt(ratio_ * ratio_ * cosine * cosine + 1 - cosine * cosine) / surface_of_spheroid(ratio_);
 }
 
 }  // namespace espalier::environment

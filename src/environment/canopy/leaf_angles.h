@@ -22,8 +22,13 @@ public:
 
     /// Mean area that unit leaf area hides from a direction at that cosine (0 to 1) from the vertical: G.
     double projection(double cosine) const;
+    /// The part of it that shows its upper side; the cosine, from -1 to 1, is negative for directions from below. From
+    /// there, as much is seen of the lower sides.
+    double seen_from_above(double cosine) const;
 
 private:
+    double density(double inclination) const;
+
     std::string name_;
     double ratio_ = 1;
 };

@@ -1,11 +1,22 @@
 #include "environment/canopy/leaves.h"
 
+#include "espalier/base/math.h"
+
+#include "geometry/vectors.h"
+
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace espalier::environment {
+namespace {
+
+constexpr std::uint16_t leaf_material = 0;
+
+}  // namespace
 
 void CanopyLeaves::clear() {
     pieces_.clear();
@@ -17,40 +28,71 @@ void CanopyLeaves::add(const LeafPiece& piece) {
     bounds_.add(piece.middle);
 }
 
-void CanopyLeaves::add(std::uint32_t plant, std::uint32_t module, const glm::dvec3& place, double area) {
-    if (area > 0) add({plant, module, place, glm::vec3(static_cast<float>(area), 0, 0), true});
+void CanopyLeaves::add(const Owner& owner, const glm::dvec3& middle, const glm::dvec3& area) {
+    add({owner.plant, owner.module, middle, glm::vec3(area), owner.material, owner.kind, false});
 }
 
-void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, double longest) {
-    drawn_.collect(geometry);
+void CanopyLeaves::add(std::uint32_t plant, std::uint32_t module, const glm::dvec3& place, double area) {
+    if (!(area > 0)) return;
+    add({plant, module, place, glm::vec3(static_cast<float>(area), 0, 0), leaf_material, LitKind::leaf, true});
+}
+
+void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, double longest, const Optics& optics,
+                       bool with_stems) {
+    drawn_.clear();
+    drawn_.add_leaves(plant, geometry);
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
-        const auto& [module, corners] = drawn_[i];
-        const glm::dvec3 middle = middle_of(corners);
-        const bool is_small = std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& corner) {
+        const DrawnFace face = drawn_[i];
+        const std::uint16_t material = optics.require_material(LitKind::leaf, face.owner.colour, plant);
+        const Owner owner{plant, face.owner.module, material, LitKind::leaf};
+        const glm::dvec3 middle = face.middle();
+        const bool is_small = std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
             return glm::distance(corner, middle) <= longest / 2;
         });
         if (is_small) {
-            add({plant, module, middle, glm::vec3(area_vector(corners)), false});
+            add(owner, middle, face.area());
             continue;
         }
-        for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-            cut(plant, module, corners[0], corners[k], corners[k + 1], longest);
-        }
+        face.for_triangles(
+            [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { cut(owner, a, b, c, longest); });
+    }
+    if (!with_stems) return;
+    for (const Internode& internode : geometry.internodes) {
+        const std::uint16_t material = optics.require_material(LitKind::stem, internode.colour, plant);
+        add_stem({plant, internode.module, material, LitKind::stem}, internode, longest);
     }
 }
 
 // Halves the longest side until all are short.
-void CanopyLeaves::cut(std::uint32_t plant, std::uint32_t module, const glm::dvec3& a, const glm::dvec3& b,
-                       const glm::dvec3& c, double longest) {
+void CanopyLeaves::cut(const Owner& owner, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                       double longest) {
     const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
     if (std::max({ab, bc, ca}) <= longest) {
-        add({plant, module, (a + b + c) / 3.0, glm::vec3(0.5 * glm::cross(b - a, c - a)), false});
+        add(owner, (a + b + c) / 3.0, 0.5 * glm::cross(b - a, c - a));
     } else if (ab >= bc && ab >= ca) {
         const glm::dvec3 middle = 0.5 * (a + b);
-        cut(plant, module, a, middle, c, longest);
-        cut(plant, module, middle, b, c, longest);
+        cut(owner, a, middle, c, longest);
+        cut(owner, middle, b, c, longest);
     } else {
-        cut(plant, module, b, c, a, longest);
+        cut(owner, b, c, a, longest);
+    }
+}
+
+// Three strips across the axis, each for two opposite sides of a prism with six: together they hide what it hides.
+void CanopyLeaves::add_stem(const Owner& owner, const Internode& internode, double longest) {
+    const glm::dvec3 along = internode.tip - internode.base;
+    const double length = glm::length(along);
+    if (!(length > 0) || !(internode.base_radius + internode.tip_radius > 0)) return;
+    const int parts = static_cast<int>(std::ceil(length / longest));
+    const glm::dvec3 x = any_across(along / length), y = glm::cross(along / length, x);
+    for (int i = 0; i < parts; ++i) {
+        const double t = (i + 0.5) / parts;
+        const double radius = (1 - t) * internode.base_radius + t * internode.tip_radius;
+        const double strip = std::numbers::pi / 3 * radius * length / parts;
+        for (int side = 0; side < 3; ++side) {
+            const auto [sine, cosine] = math::sine_and_cosine(std::numbers::pi / 3 * side);
+            add(owner, internode.base + t * along, strip * (cosine * x + sine * y));
+        }
     }
 }
 
@@ -58,38 +100,36 @@ void CanopyLeaves::sort_into(const CanopyVoxels& voxels) {
     for (LeafPiece& piece : pieces_) piece.voxel = voxels.number_of(piece.middle);
     std::stable_sort(pieces_.begin(), pieces_.end(),
                      [](const LeafPiece& a, const LeafPiece& b) { return a.voxel < b.voxel; });
-}
-
-template <class AreaOf>
-std::vector<float> CanopyLeaves::per_volume(const CanopyVoxels& voxels, const AreaOf& area_of) const {
-    std::vector<float> values(voxels.count(), 0.0f);
-    const double volume = voxels.edge * voxels.edge * voxels.edge;
-    for (std::size_t i = 0; i < pieces_.size();) {
-        const std::size_t voxel = pieces_[i].voxel;
-        double sum = 0;
-        for (; i < pieces_.size() && pieces_[i].voxel == voxel; ++i) sum += area_of(pieces_[i]);
-        values[voxel] = static_cast<float>(sum / volume);
+    starts_.clear();
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        if (i == 0 || pieces_[i].voxel != pieces_[i - 1].voxel) starts_.push_back(i);
     }
-    return values;
+    starts_.push_back(pieces_.size());
 }
 
 std::vector<float> CanopyLeaves::densities(const CanopyVoxels& voxels) const {
-    return per_volume(voxels, [](const LeafPiece& piece) { return area_of(piece); });
-}
-
-std::vector<float> CanopyLeaves::depths(const CanopyVoxels& voxels, const glm::dvec3& towards,
-                                        const LeafAngles& angles) const {
-    const double projection = angles.projection(towards.y);
-    return per_volume(voxels, [&](const LeafPiece& piece) { return seen_area(piece, towards, projection); });
-}
-
-double seen_area(const LeafPiece& piece, const glm::dvec3& towards, double projection) {
-    const glm::dvec3 area(piece.area);
-    return piece.undirected ? area.x * projection : std::abs(glm::dot(area, towards));
+    return per_volume(voxels, pieces(),
+                      [&](std::size_t i) { return pieces_[i].kind == LitKind::leaf ? area_of(pieces_[i]) : 0.0; });
 }
 
 double area_of(const LeafPiece& piece) {
     return glm::length(glm::dvec3(piece.area));
+}
+
+LeavesSeen::LeavesSeen(const glm::dvec3& towards, const LeafAngles& angles, double clumping)
+    : towards_(towards),
+      above_(clumping * angles.seen_from_above(towards.y)),
+      below_(clumping * angles.projection(std::abs(towards.y)) - above_),
+      clumping_(clumping) {}
+
+LeavesSeen::Sides LeavesSeen::operator()(const LeafPiece& piece) const {
+    if (piece.undirected) return {piece.area.x * above_, piece.area.x * below_};
+    const double seen = clumping_ * glm::dot(glm::dvec3(piece.area), towards_);
+    return {std::max(seen, 0.0), std::max(-seen, 0.0)};
+}
+
+std::vector<float> LeavesSeen::depths(const CanopyVoxels& voxels, const SortedPieces& sorted) const {
+    return per_volume(voxels, sorted, [&](std::size_t i) { return (*this)(sorted.pieces[i]).both(); });
 }
 
 }  // namespace espalier::environment

@@ -18,21 +18,36 @@ struct CanopyVoxels {
     bool periodic = false;  ///< what leaves through a side comes in again opposite
 
     std::size_t count() const { return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z); }
+    /// Squares of the ground below, with x fastest.
+    std::size_t ground_count() const { return std::size_t(size.x) * std::size_t(size.z); }
     /// A periodic one wraps x and z; a place outside has the number of the nearest voxel.
     std::size_t number_of(const glm::dvec3& place) const;
 };
 
-/// What parallel light of flux 1 across its direction leaves behind.
-struct BeamLight {
-    std::vector<double> flux;  ///< for each voxel, the mean flux that its leaves meet, 0 to 1
-    double met = 0;            ///< m2: the area across the light whose light the leaves have met, all in all
-    double passed = 0;         ///< share of the light that comes to the voxels and that no leaf has met
+/// Parallel light through the voxels. Fluxes are per area across the direction.
+struct ParallelLight {
+    glm::dvec3 towards{0, 1, 0};      ///< unit vector to where it comes from: from below, y is negative
+    std::span<const float> depth;     ///< leaf area per volume of each voxel, as seen from that direction, 1/m
+    std::span<const float> added;     ///< flux that each metre of a voxel adds to it; empty: none
+    double outside = 1;               ///< flux that enters through the sides, and through the top from above
+    std::span<const double> floor{};  ///< from below: flux that enters from each square of the ground
 };
 
-/// Follows parallel beams, `beams` x `beams` from each voxel of the top, along exact lengths through the voxels.
-/// `depth` is the leaf area per volume, as seen from that direction, 1/m. A leaf of voxel v whose area A is seen from
-/// there meets A * flux[v]; so what all leaves meet is what the beams lose, to rounding. The same bytes with any number
-/// of threads. `towards` is the unit vector to the light, and rises at least by `least_rise`.
+/// What parallel light leaves behind.
+struct BeamLight {
+    std::vector<double> flux;     ///< for each voxel, the mean flux that its leaves meet
+    std::vector<double> arrived;  ///< for each square of the ground, what falls on it per m2 of it; only from above
+    double entered = 0;           ///< m2 of flux 1, across the direction, that come into the voxels
+    double left = 0;              ///< the same that goes out of them, through the bottom too
+    double met = 0;               ///< entered less left, where nothing is added
+    double passed = 1;            ///< left over entered
+};
+
+/// Follows parallel beams, `beams` x `beams` from each voxel of the top or bottom, along exact lengths through the
+/// voxels. A leaf of voxel v whose area A is seen from there meets A * flux[v]; so what all leaves meet is what the
+/// beams lose, to rounding. The same bytes with any number of threads. `towards` is not nearer to the horizon than
+/// `least_rise`.
+BeamLight send_beams(const CanopyVoxels& voxels, const ParallelLight& light, int beams);
 BeamLight send_beams(const CanopyVoxels& voxels, std::span<const float> depth, const glm::dvec3& towards, int beams);
 
 /// Sine of the least elevation of light: of what comes from below 2 degrees, leaves meet nothing.

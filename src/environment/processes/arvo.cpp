@@ -10,7 +10,7 @@
 #include "base/bytes.h"
 #include "base/parallel.h"
 #include "environment/parameter_file.h"
-#include "geometry/rigid_motion.h"
+#include "geometry/drawn/rigid_motion.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>

@@ -1,14 +1,15 @@
-// canopy-light: photons of sun and sky that leaves meet, by Beer's law along exact paths through voxels of leaf area.
+// canopy-light: photons of sun and sky that leaves absorb, by Beer's law along exact paths through voxels of leaf area.
 // Ross 1981, The radiation regime and architecture of plant stands; Sinoquet et al. 2001, RATP: a model for simulating
 // the spatial distribution of radiation absorption, transpiration and photosynthesis within canopies.
 #include "espalier/environment/environment_process.h"
+#include "espalier/environment/shape.h"
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "environment/canopy/leaves.h"
+#include "environment/canopy/scattering.h"
 #include "environment/covering.h"
-#include "environment/sky/daylight.h"
+#include "environment/optics/organ_light.h"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -16,23 +17,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace espalier::environment {
 namespace {
 
-// Flux, depth, sums, and what fields show.
-constexpr double bytes_per_voxel = 8 + 8 + 4 + 8 + 4 + 2 * 5;
+// Fluxes of a beam and of all, depth, what is added, and what fields show.
+constexpr double bytes_per_voxel = 8 + 2 * 4 + 4 * 8 + 2 * 5;
 
 LeafAngles read_angles(const Settings& settings) {
     if (settings.has("leaf_ratio")) return LeafAngles(settings.number("leaf_ratio", Range::between(0.01, 100)));
     return LeafAngles(settings.choice_or("leaf_angles", "spherical", LeafAngles::names()));
 }
 
-/// What the leaves of one module have met in this step.
-struct ModuleLight {
-    double area = 0;     ///< m2
-    double photons = 0;  ///< mol
-};
+CanopyScattering::Options read_options(const Settings& settings) {
+    CanopyScattering::Options options;
+    options.clumping = settings.number_or("clumping", 1, Range{0, 1, true});
+    options.beams = static_cast<int>(settings.integer_or("beams", 2, Range::between(1, 64)));
+    const Settings table = settings.table("scattering");
+    options.rings = table.integer_or("rings", 3, Range::between(1, 32));
+    options.around = table.integer_or("around", 6, Range::between(3, 360));
+    options.residual = table.number_or("residual", 0.01, Range::between(1e-9, 0.5));
+    return options;
+}
 
 class CanopyLight final : public EnvironmentProcess {
 public:
@@ -40,62 +47,66 @@ public:
         : name_(context.name),
           memory_(context.memory),
           sky_(settings.table("sky"), least_rise),
+          optics_(settings),
+          organs_(settings, optics_.bands(), context.plants),
           angles_(read_angles(settings)),
+          options_(read_options(settings)),
           edge_(settings.number_or("voxel", 0.2, Range::positive())),
           edge_place_(settings.place("voxel")),
-          beams_(static_cast<int>(settings.integer_or("beams", 2, Range::between(1, 64)))),
+          ground_(settings.number_or("ground", 0)),
           days_(settings.number_or("days", 1, Range::positive())),
+          stems_(settings.flag_or("stems", true)),
           asks_area_(settings.choice_or("area", "drawn", {"drawn", "queries"}) == "queries"),
-          modules_(context.plants) {
+          plants_(context.plants) {
         if (settings.flag_or("periodic", false)) read_period(settings, context);
+        for (Settings table : settings.tables("solids")) solids_.push_back(read_shape(table));
         fields.provide({name_, "mol/m2", "photons across all directions in a step", nullptr, true,
-                        [this] { return grid_of(fluence_); }});
+                        [this] { return grid_of(first_band().fluence); }});
         fields.provide({name_ + ".leaf_area_density", "m2/m3", "leaf area per volume", nullptr, true,
                         [this] { return grid_of(leaves_.densities(voxels_)); }});
     }
 
     void advance(const WorldView& world, std::span<const Query> queries, Fields&) override {
         light_ = sky_.over(world.time * days_, world.dt * days_);
+        organs_.begin(world, light_);
         collect(world, queries);
         lay_voxels(queries);
         leaves_.sort_into(voxels_);
-        for (std::size_t plant = 0; plant < modules_.size(); ++plant) modules_[plant].clear();
-        for (const PlantView& plant : world.plants) {
-            if (plant.plant < modules_.size()) modules_[plant.plant].resize(plant.string->size());
-        }
+        mark_solids();
         shine();
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        const std::size_t skipped = asks_area_ ? 1 : 0;
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            const Answer answer =
-                asks_area_ ? answers[i].subspan(std::min<std::size_t>(1, answers[i].size())) : answers[i];
-            if (answer.empty()) continue;
-            const double per_area = photons_per_area(queries[i]);
-            answer[0] = light_.on_ground > 0 ? per_area / light_.on_ground : 0;
-            if (answer.size() > 1) answer[1] = met_by(queries[i]).photons;
-            if (answer.size() > 2) answer[2] = light_.seconds > 0 ? 1e6 * per_area / light_.seconds : 0;
+            const Answer answer = answers[i].subspan(std::min(skipped, answers[i].size()));
+            organs_.answer(queries[i], 1 - skipped, answer,
+                           [&](std::size_t band) { return open_share(queries[i], band); });
         }
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
-        ModuleLight sum;
-        if (plant < modules_.size()) {
-            for (const ModuleLight& module : modules_[plant]) {
-                sum.area += module.area;
-                sum.photons += module.photons;
-            }
+        std::vector<Quantity> quantities = organs_.statistics(plant, false, {});
+        quantities.push_back({"passed", passed_});
+        for (std::size_t b = 0; b < bands_.size(); ++b) {
+            const std::string of_band = b == 0 ? "" : "." + optics_.bands()[b].name;
+            const CanopyBandLight& band = bands_[b];
+            const auto share = [&](double light) { return band.entered > 0 ? light / band.entered : std::nan(""); };
+            quantities.push_back({"soil" + of_band, share(band.ends.soil)});
+            quantities.push_back({"escaped" + of_band, share(band.ends.escaped)});
+            if (!solids_.empty()) quantities.push_back({"solids" + of_band, share(band.ends.solids)});
+            quantities.push_back({"closure" + of_band, band.closure()});
         }
-        const double open = light_.on_ground * sum.area;
-        return {{"absorbed", sum.photons, "mol"},
-                {"leaf_area", sum.area, "m2"},
-                {"mean", open > 0 ? sum.photons / open : std::nan("")},
-                {"incoming", light_.on_ground, "mol/m2"},
-                {"passed", passed_},
-                {"closure", closure_}};
+        return quantities;
     }
 
-    std::pair<int, int> query_arity() const override { return {1, 20}; }
+    std::vector<OrganQuantity> organ_quantities() const override { return organs_.organ_quantities(false); }
+    std::shared_ptr<const std::vector<float>> organ_values(const std::string& name,
+                                                           std::uint32_t plant) const override {
+        return organs_.organ_values(name, plant);
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 25}; }
 
     ProcessMemory memory() const override {
         return {static_cast<std::size_t>(bytes_per_voxel * static_cast<double>(voxels_.count())), true};
@@ -122,7 +133,7 @@ private:
         leaves_.clear();
         if (!asks_area_) {
             for (const PlantView& plant : world.plants) {
-                leaves_.add(plant.plant, plant.interpretation->geometry, edge_);
+                leaves_.add(plant.plant, plant.interpretation->geometry, edge_, optics_, stems_);
             }
             return;
         }
@@ -136,11 +147,16 @@ private:
         }
     }
 
-    /// Voxels over all leaves and all places that are asked for; those at the origin begin there.
+    /// Voxels over all leaves, places that are asked for and solids, down to the ground if it scatters; those at the
+    /// origin begin there.
     void lay_voxels(std::span<const Query> queries) {
         Box box = leaves_.bounds();
         for (const Query& query : queries) box.add(query.pose.position);
+        for (const auto& solid : solids_) {
+            if (const std::optional<Box> bounds = solid->bounds()) box.add(*bounds);
+        }
         if (box.empty()) box.add(glm::dvec3(0));
+        box.lower.y = std::min(box.lower.y, ground_ + 1e-9 * edge_);
         if (period_) {
             for (const int axis : {0, 2}) {
                 box.lower[axis] = period_->lower[axis];
@@ -165,56 +181,75 @@ private:
                                    to_string(edge_place_), name_, format_general(voxels), format_general(bytes / 1e9)));
     }
 
+    /// Voxels whose middles are in solids.
+    void mark_solids() {
+        is_solid_.clear();
+        if (solids_.empty()) return;
+        is_solid_.assign(voxels_.count(), 0);
+        for_in_parallel(std::size_t{0}, is_solid_.size(), [&](std::size_t v) {
+            const auto x = static_cast<std::size_t>(voxels_.size.x), y = static_cast<std::size_t>(voxels_.size.y);
+            const glm::dvec3 cell(double(v % x), double(v / x % y), double(v / x / y));
+            const glm::dvec3 middle = voxels_.corner + edge_ * (cell + 0.5);
+            is_solid_[v] =
+                std::any_of(solids_.begin(), solids_.end(), [&](const auto& solid) { return solid->inside(middle); });
+        });
+    }
+
     void shine() {
-        const std::span<const LeafPiece> pieces = leaves_.pieces();
-        std::vector<double> met(pieces.size(), 0.0);
-        fluence_.assign(voxels_.count(), 0.0f);
-        isotropic_.assign(voxels_.count(), 0.0f);
-        double lost = 0, passed = 0, sent = 0;
-        for (const LightBeam& beam : light_.beams) {
-            if (beam.photons <= 0) continue;
-            const double projection = angles_.projection(beam.towards.y);
-            const BeamLight light =
-                send_beams(voxels_, leaves_.depths(voxels_, beam.towards, angles_), beam.towards, beams_);
-            for_in_parallel(std::size_t{0}, pieces.size(), [&](std::size_t i) {
-                met[i] += beam.photons * light.flux[pieces[i].voxel] * seen_area(pieces[i], beam.towards, projection);
-            });
-            for (std::size_t v = 0; v < fluence_.size(); ++v) {
-                fluence_[v] += static_cast<float>(beam.photons * light.flux[v]);
-                isotropic_[v] += static_cast<float>(beam.photons * light.flux[v] * projection);
-            }
-            lost += beam.photons * light.met;
-            passed += beam.photons * beam.towards.y * light.passed;
-            sent += beam.photons * beam.towards.y;
+        const SortedPieces pieces = leaves_.pieces();
+        const CanopyScattering scattering(voxels_, pieces, optics_, angles_, is_solid_, options_);
+        bands_.assign(1, {});
+        const CanopyFlux first = scattering.first(light_.beams);
+        const double square = edge_ * edge_;
+        const double down = square * std::accumulate(first.ground.begin(), first.ground.end(), 0.0);
+        passed_ = first.entered > 0 ? (down + first.escaped) / first.entered : std::nan("");
+        bands_.clear();
+        for (std::size_t b = 0; b < optics_.bands().size(); ++b) {
+            bands_.push_back(scattering.band(first, b));
+            add_up(bands_.back().flux, b);
         }
-        passed_ = sent > 0 ? passed / sent : std::nan("");
-        add_up(met, lost);
+        look(first);
     }
 
-    void add_up(const std::vector<double>& met, double lost) {
-        const std::span<const LeafPiece> pieces = leaves_.pieces();
-        double sum = 0;
+    /// Adds what pieces meet to their modules.
+    void add_up(const CanopyFlux& flux, std::size_t band) {
+        const std::span<const LeafPiece> pieces = leaves_.pieces().pieces;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
-            sum += met[i];
-            if (pieces[i].plant >= modules_.size()) continue;
-            ModuleLight& module = modules_[pieces[i].plant][pieces[i].module];
-            module.area += area_of(pieces[i]);
-            module.photons += met[i];
+            if (pieces[i].plant >= plants_) continue;
+            const std::size_t slot = organs_.start(pieces[i].plant) + pieces[i].module;
+            const auto& [front, back] = optics_.of(pieces[i].material, band);
+            OrganLight::Meeting& meeting = organs_.meeting(slot, band);
+            meeting.front += flux.front[i];
+            meeting.back += flux.back[i];
+            meeting.absorbed += flux.front[i] * (1 - front.reflectance - front.transmittance) +
+                                flux.back[i] * (1 - back.reflectance - back.transmittance);
+            if (band == 0 && pieces[i].kind == LitKind::leaf) organs_.leaf_area(slot) += area_of(pieces[i]);
         }
-        closure_ = lost > 0 ? sum / lost - 1 : 0;
     }
 
-    /// Returns the light met by the leaves of the module that follows the query, or by its own area.
-    ModuleLight met_by(const Query& query) const {
-        if (query.plant >= modules_.size()) return {};
-        const std::size_t module = query.module + (asks_area_ ? 0 : 1);
-        return module < modules_[query.plant].size() ? modules_[query.plant][module] : ModuleLight();
+    /// Where the light comes from, and which of it from the sun.
+    void look(const CanopyFlux& first) {
+        const std::span<const LeafPiece> pieces = leaves_.pieces().pieces;
+        for (std::size_t i = 0; i < pieces.size() && i < first.towards.size(); ++i) {
+            if (pieces[i].plant >= plants_) continue;
+            OrganLight::View& view = organs_.view(organs_.start(pieces[i].plant) + pieces[i].module);
+            view.sun += first.sun[i];
+            view.open_sun += first.open_sun[i];
+            view.towards += first.towards[i];
+        }
     }
 
-    /// mol per m2 of leaf; where there is none, what a small leaf of the distribution would meet.
-    double photons_per_area(const Query& query) const {
-        const ModuleLight met = met_by(query);
-        return met.area > 0 ? met.photons / met.area : isotropic_[voxels_.number_of(query.pose.position)];
+    const CanopyFlux& first_band() const {
+        static const CanopyFlux none;
+        return bands_.empty() ? none : bands_.front().flux;
+    }
+
+    /// What a small leaf of the distribution would absorb there, over the light on open level ground.
+    double open_share(const Query& query, std::size_t band) const {
+        if (!(light_.on_ground > 0)) return 0;
+        const SideOptics& leaf = optics_.of(0, band).front;
+        const double met = bands_[band].flux.isotropic[voxels_.number_of(query.pose.position)];
+        return met * (1 - leaf.reflectance - leaf.transmittance) / light_.on_ground;
     }
 
     std::shared_ptr<const FieldGrid> grid_of(const std::vector<float>& values) const {
@@ -232,54 +267,66 @@ private:
     std::string name_;
     std::size_t memory_;
     DaylightSeries sky_;
+    Optics optics_;
+    OrganLight organs_;
     LeafAngles angles_;
+    CanopyScattering::Options options_;
     double edge_;
     Place edge_place_;
-    int beams_;
-    double days_;
-    bool asks_area_;
+    double ground_, days_;
+    bool stems_, asks_area_;
+    std::size_t plants_;
     std::optional<Box> period_;
+    std::vector<std::shared_ptr<const Shape>> solids_;
 
     Daylight light_;  ///< all that follows is of this step
     CanopyLeaves leaves_;
     CanopyVoxels voxels_;
-    std::vector<float> fluence_;                     ///< mol/m2 across all directions
-    std::vector<float> isotropic_;                   ///< mol/m2 that a leaf of the distribution would meet
-    std::vector<std::vector<ModuleLight>> modules_;  ///< by plant and place in its string
-    double passed_ = 1, closure_ = 0;
+    std::vector<char> is_solid_;
+    std::vector<CanopyBandLight> bands_;
+    double passed_ = 1;
 };
 
 const std::string& canopy_light_help() {
     static const std::string text =
         std::string(
-            R"(Leaves fill voxels evenly and at random. Light of each direction passes the voxels along its exact path, and of it
-exp(-projected leaf area per area across the path) is left (Beer's law); the leaves of a voxel share what it loses by
-the area that each turns to the light. Leaves absorb all light that they meet: nothing is scattered or reflected, and
-stems and solids cast no shadow. docs/light.md says when that is right.
+            R"(Leaves and stems fill voxels evenly and at random. Light of each direction passes the voxels along its exact path, and
+exp(-projected area per area across the path) of it is left (Beer's law); the leaves of a voxel share what it loses by
+the area that each turns to the light. What they and the soil do not absorb is scattered as Lambert's law says, and
+goes on in `scattering` directions, generation by generation. docs/light.md says when that is right.
 
-?name(f)        -> f: photons per area of the leaves of the module that follows in the string, over those on open level
-                   ground. If it draws no leaf, what a small leaf of `leaf_angles` in its place would meet
-?name(f, m)     -> m: mol of photons that these leaves absorb in the step
-?name(f, m, e)  -> e: umol m-2 s-1 that they absorb while there is light
+?name(f)        -> f: light that the leaves of the module that follows in the string absorb per area, over what falls
+                   on open level ground. If it draws no leaf, what a small leaf of `leaf_angles` in its place would
+?name(f, m)     -> m: mol of photons that leaves and stems of this module absorb in the step
+?name(f, m, e)  -> e: umol m-2 s-1 that the leaves absorb while there is light
 ?name(a, ...)      with area = "queries": a is the leaf area (m2) of the query itself, and f, m, e come after it
-Further parameters (at most 20 in all) keep their values.
+Three more parameters for each further band tell the same of it. Other parameters keep their values.
 
 voxel         0.2 m
 beams         2: beams from each voxel's width of the top
 days          1: days that a unit of time stands for
 area          "drawn": leaves are the polygons, patches, surfaces and discs that plants have drawn; or "queries"
+stems         true: internodes take light too
 leaf_angles   "spherical": how leaves that are not drawn are inclined; or "planophile", "erectophile", "plagiophile",
               "extremophile", "uniform" (de Wit 1965), "horizontal", "vertical"
 leaf_ratio    ellipsoidal angles instead: horizontal over vertical axis of the spheroid (Campbell 1986)
+clumping      1: leaves in clumps smaller than a voxel hide each other; light sees this share of their area (Nilson 1971)
 periodic      false; true repeats the scene's domain to all sides
-sky           the table of the light, below
+ground        0 m: height of the soil; leaves below it lower it
+solids        [[solids]] tables of shapes, which absorb all light in voxels whose middle they hold
+scattering    { rings = 3, around = 6, residual = 0.01 }: directions of scattered light, in each half of the sphere; the
+              generations end where less than residual of the light is left, which shares the fate of the last one
+)") + OrganLight::help() +
+        optics_help() +
+        R"(sky           the table of the light, below
 
-Fields: name, photons across all directions (mol/m2); name.leaf_area_density (m2/m3).
-Statistics of a plant: absorbed (mol), leaf_area (m2), mean (absorbed per area over that on open level ground);
-of the world: incoming (mol/m2 on open level ground), passed (share of the light over the voxels that no leaf meets),
-closure (what leaves absorb over what beams lose, less 1).
+Fields: name, photons across all directions (mol/m2, first band); name.leaf_area_density (m2/m3).
+Of organs a timeline can record absorbed, flux, front, back, reflected, each for every band, sunlit and brightest.
+Statistics of a plant: absorbed, of further bands absorbed.BAND, leaf_area (m2), mean (absorbed per area over what falls
+on open level ground); of the world: incoming (per m2 of open level ground), passed (share of the light over the voxels
+that meets nothing), for each band soil and escaped (shares of the light), closure (all shares, less 1).
 
-)") + sky_help();
+)" + sky_help();
     return text;
 }
 

@@ -12,6 +12,7 @@
 #include "environment/shade/exposure.h"
 #include "environment/shade/leaf_area.h"
 #include "environment/shade/sky_directions.h"
+#include "environment/sky/daylight.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 namespace espalier::environment {
@@ -76,6 +78,18 @@ struct VoxelView {
     std::vector<bool> sun, sky;
 };
 
+/// Directions with their shares of the light.
+struct LightShares {
+    std::vector<glm::dvec3> towards;
+    std::vector<double> weights;
+
+    void add(const glm::dvec3& direction, double weight) {
+        towards.push_back(direction);
+        weights.push_back(weight);
+    }
+    double sum() const { return std::accumulate(weights.begin(), weights.end(), 0.0); }
+};
+
 struct VineTrial {
     glm::dvec3 direction, place;
     openvdb::Coord voxel;
@@ -97,18 +111,15 @@ public:
           trials_(settings.integer_or("trials", 12, Range::between(1, 10000))),
           least_cosine_(math::cos(glm::radians(settings.number_or("spread", 60, Range::between(0, 180))))),
           most_nodes_(settings.number_or("most_nodes", 3, Range::positive())),
-          sun_share_(settings.number_or("sun_share", 0.5, Range::between(0, 1))),
           extinction_(settings.number_or("extinction", 0, Range::not_negative())),
           leaves_(room_.voxel),
-          sky_(sky_hemisphere(settings.integer_or("sky_samples", 128, Range::between(1, 1e6)))),
           totals_(context.plants) {
-        const double latitude = settings.number_or("latitude", 50, Range::between(-90, 90));
-        const glm::dvec3 north = settings.vector_or("north", {0, 0, -1});
-        if (north.y != 0 || !(glm::length(north) > 0)) {
-            throw UserError(settings.place("north"), "'north' must be horizontal and not zero: [x, 0, z]");
+        const std::vector<double> days = settings.numbers_or("days", {80, 172, 264});
+        if (settings.has("sky")) {
+            look_at_light(settings.table("sky"), days);
+        } else {
+            look_at_directions(settings, days);
         }
-        sun_ = sun_path(latitude, settings.numbers_or("days", {80, 172, 264}),
-                        settings.integer_or("sun_samples", 32, Range::between(1, 1e6)), glm::normalize(north));
         fields.provide({context.name, "1", "exposure to sun and sky of the voxels that vines have looked at", nullptr,
                         true, [this] { return grid(); }});
     }
@@ -167,6 +178,36 @@ private:
         double grown = 0, stuck = 0, chosen = 0, others = 0, rejected = 0;
     };
 
+    /// The sun's path and the whole sky, each evenly.
+    void look_at_directions(const Settings& settings, std::span<const double> days) {
+        const double latitude = settings.number_or("latitude", 50, Range::between(-90, 90));
+        const glm::dvec3 north = settings.vector_or("north", {0, 0, -1});
+        if (north.y != 0 || !(glm::length(north) > 0)) {
+            throw UserError(settings.place("north"), "'north' must be horizontal and not zero: [x, 0, z]");
+        }
+        sun_share_ = settings.number_or("sun_share", 0.5, Range::between(0, 1));
+        const auto samples = settings.integer_or("sun_samples", 32, Range::between(1, 1e6));
+        for (const glm::dvec3& towards : sun_path(latitude, days, samples, glm::normalize(north))) sun_.add(towards, 1);
+        for (const glm::dvec3& towards :
+             sky_hemisphere(settings.integer_or("sky_samples", 128, Range::between(1, 1e6)))) {
+            sky_.add(towards, 1);
+        }
+    }
+
+    /// The light of these days, in photons.
+    void look_at_light(const Settings& table, std::span<const double> days) {
+        constexpr double least_elevation = 0.0349;  // sine of 2 degrees
+        const DaylightSeries series(table, least_elevation);
+        for (const double day : days) {
+            for (const LightBeam& beam : series.over(day - series.first_day(), 1).beams) {
+                (beam.is_sun ? sun_ : sky_).add(beam.towards, beam.photons);
+            }
+        }
+        const double of_sun = sun_.sum(), of_sky = sky_.sum();
+        if (!(of_sun + of_sky > 0)) throw UserError(table.place(), "there is no light on any of the 'days'");
+        sun_share_ = of_sun / (of_sun + of_sky);
+    }
+
     static bool seeks(const Query& query) { return query.parameters.size() >= 4 && query.parameters[0] > 0; }
 
     std::vector<VineTrial> allowed_trials(const Query& query, int step) const {
@@ -207,8 +248,8 @@ private:
             const glm::dvec3 centre = room_.centre_of(asked[i]);
             VoxelView& view = *views[i];
             if (view.sky.empty()) {
-                view.sun = unobstructed(*room_.solid, centre, sun_, room_.voxel / 16);
-                view.sky = unobstructed(*room_.solid, centre, sky_, room_.voxel / 16);
+                view.sun = unobstructed(*room_.solid, centre, sun_.towards, room_.voxel / 16);
+                view.sky = unobstructed(*room_.solid, centre, sky_.towards, room_.voxel / 16);
             }
             seen[i] = {light_from(centre, sun_, view.sun), light_from(centre, sky_, view.sky)};
         });
@@ -216,15 +257,17 @@ private:
         if (extinction_ == 0) views_.clear();
     }
 
-    /// The mean of what comes through the leaves from all directions; 0 without directions.
-    double light_from(const glm::dvec3& place, std::span<const glm::dvec3> directions,
-                      const std::vector<bool>& free) const {
+    /// The share of the light of all directions that comes through the leaves; 0 without light.
+    double light_from(const glm::dvec3& place, const LightShares& light, const std::vector<bool>& free) const {
         double sum = 0;
-        for (std::size_t i = 0; i < directions.size(); ++i) {
+        for (std::size_t i = 0; i < light.towards.size(); ++i) {
             if (!free[i]) continue;
-            sum += extinction_ > 0 ? math::exp(-extinction_ * leaves_.crossed(place, directions[i])) : 1;
+            const double passed =
+                extinction_ > 0 ? math::exp(-extinction_ * leaves_.crossed(place, light.towards[i])) : 1;
+            sum += light.weights[i] * passed;
         }
-        return directions.empty() ? 0 : sum / static_cast<double>(directions.size());
+        const double all = light.sum();
+        return all > 0 ? sum / all : 0;
     }
 
     double exposure(const VoxelLight& light) const { return sun_share_ * light.sun + (1 - sun_share_) * light.sky; }
@@ -289,9 +332,9 @@ private:
     VineWeights weights_;
     RandomKey key_;
     std::int64_t trials_;
-    double least_cosine_, most_nodes_, sun_share_, extinction_;
+    double least_cosine_, most_nodes_, sun_share_ = 0.5, extinction_;
     LeafArea leaves_;
-    std::vector<glm::dvec3> sky_, sun_;
+    LightShares sky_, sun_;
     std::unordered_map<openvdb::Coord, VoxelView> views_;   ///< past the solid, where leaves make the light change
     std::unordered_map<openvdb::Coord, VoxelLight> light_;  ///< light in the voxels looked at so far, as last seen
     std::unordered_map<openvdb::Coord, double> nodes_;      ///< nodes of this step
@@ -330,6 +373,8 @@ sun_share     0.5: exposure = sun_share * sun + (1 - sun_share) * sky
 latitude      50 degrees;  north  [0, 0, -1]
 days          [80, 172, 264]: days of the year; sun_samples  32 times a day, from sunrise to sunset
 sky_samples   128 directions
+sky           a table of light as canopy-light has it: then sun and sky are those of the light of `days`, weighted with
+              their photons, and sun_share is the sun's
 extinction    0: only the solid casts shadow. k > 0: leaves do, and of the light of a direction exp(-k leaf area that
               it crosses, per area across it) comes through; 0.5 for leaves that are turned in all directions evenly
 

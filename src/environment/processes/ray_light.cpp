@@ -1,13 +1,16 @@
-// ray-light: photons of sun and sky that each drawn leaf and stem absorbs, by paths of light through the drawn plants.
-// Chelle & Andrieu 1998, The nested radiosity model for the distribution of light within plant canopies, for the
-// question; Veach 1997, Robust Monte Carlo methods for light transport simulation, for the method.
+// ray-light: photons of sun, sky and lamps that each drawn leaf and stem absorbs, by paths of light through the drawn
+// plants. Chelle & Andrieu 1998, The nested radiosity model for the distribution of light within plant canopies, for
+// the question; Veach 1997, Robust Monte Carlo methods for light transport simulation, for the method.
 #include "espalier/environment/environment_process.h"
+#include "espalier/geometry/openvdb_grid.h"
 
 #include "base/text.h"
+#include "environment/optics/organ_light.h"
 #include "environment/rays/light_paths.h"
 #include "environment/sky/daylight.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,71 +21,66 @@ namespace {
 constexpr double least_elevation = 0.0349;  // sine of 2 degrees
 constexpr int trials = 8;
 constexpr std::uint32_t most_paths = 1U << 27;
-constexpr double bytes_per_triangle = 300;  // corners, owner, and Embree's boxes
+constexpr double bytes_per_triangle = 340;  // corners twice, owner, and Embree's boxes
 
-std::array<double, 2> read_leaf(const Settings& table, std::array<double, 2> fallback) {
-    const std::vector<double> leaf = table.numbers_or("leaf", {fallback[0], fallback[1]});
-    if (leaf.size() != 2 || leaf[0] < 0 || leaf[1] < 0 || leaf[0] + leaf[1] > 1) {
-        throw UserError(table.place("leaf"),
-                        "'leaf' must be [reflectance, transmittance], two shares that are 1 together at most");
+LightPaths::Options read_path_options(const Settings& settings, const EnvironmentContext& context) {
+    LightPaths::Options options;
+    options.ground = settings.number_or("ground", 0);
+    options.residual = settings.number_or("residual", 0.001, Range::between(1e-9, 0.5));
+    options.evenly = settings.choice_or("sampling", "sobol", {"sobol", "random"}) == "sobol";
+    if (!settings.flag_or("periodic", false)) return options;
+    if (!context.domain) {
+        throw UserError(settings.place("periodic"),
+                        "a periodic stand needs the scene's domain, whose sides are its period");
     }
-    return {leaf[0], leaf[1]};
+    options.period = context.domain;
+    return options;
 }
 
-OpticalBand read_band(const std::string& name, const Settings& table) {
-    const bool is_infrared = name == "nir";
-    if (name != "par" && !is_infrared && !table.has("leaf")) {
-        throw UserError(table.place(), fmt::format("the band '{}' needs leaf = [reflectance, transmittance]: only par "
-                                                   "and nir have defaults",
-                                                   name));
-    }
-    const std::array<double, 2> leaf =
-        read_leaf(table, is_infrared ? std::array{0.4, 0.4} : std::array{0.1, 0.1});  // Goudriaan 1977
-    const Range share_of_light = Range::between(0, 1);
-    return {.name = name,
-            .share = table.number_or("share", 1, Range::positive()),
-            .leaf_reflectance = leaf[0],
-            .leaf_transmittance = leaf[1],
-            .stem_reflectance = table.number_or("stem", is_infrared ? 0.5 : 0.2, share_of_light),
-            .soil_reflectance = table.number_or("soil", is_infrared ? 0.2 : 0.1, share_of_light)};
+std::optional<DaylightSeries> read_daylight(const Settings& settings) {
+    if (settings.has("lamps") && !settings.has("sky")) return std::nullopt;
+    return DaylightSeries(settings.table("sky"), least_elevation);
 }
 
-std::vector<OpticalBand> read_bands(const Settings& table) {
-    std::vector<OpticalBand> bands;
-    for (const std::string& name : table.keys()) bands.push_back(read_band(name, table.table(name)));
-    if (bands.empty()) bands.push_back(read_band("par", table));
-    if (bands.size() > most_bands) {
-        throw UserError(table.place(), fmt::format("there are {} bands, of at most {}", bands.size(), most_bands));
-    }
-    return bands;
-}
-
-std::optional<Box> read_period(const Settings& settings, const EnvironmentContext& context) {
-    if (!settings.flag_or("periodic", false)) return std::nullopt;
-    if (context.domain) return context.domain;
-    throw UserError(settings.place("periodic"),
-                    "a periodic stand needs the scene's domain, whose sides are its period");
+/// Level, along the axes, in square cells: such a sensor is a field.
+bool is_field(const LightSensor& sensor) {
+    const double along_x = sensor.size[0] / static_cast<double>(sensor.cells[0]),
+                 along_z = sensor.size[1] / static_cast<double>(sensor.cells[1]);
+    return sensor.count() > 1 && sensor.normal.y == 1 && sensor.x.x == 1 &&
+           std::abs(along_x - along_z) < 1e-9 * along_x;
 }
 
 class RayLight final : public EnvironmentProcess {
 public:
-    RayLight(Settings& settings, const EnvironmentContext& context, Fields&)
+    RayLight(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : name_(context.name),
           seed_(context.seed),
           memory_(context.memory),
-          sky_(settings.table("sky"), least_elevation),
-          paths_(read_bands(settings.table("bands")), settings.number_or("ground", 0), read_period(settings, context),
-                 settings.number_or("residual", 0.001, Range::between(1e-9, 0.5))),
+          sky_(read_daylight(settings)),
+          optics_(settings),
+          organs_(settings, optics_.bands(), context.plants),
+          lamps_(read_lamps(settings, optics_.bands())),
+          paths_(optics_, read_sensors(settings), read_path_options(settings, context)),
           days_(settings.number_or("days", 1, Range::positive())),
           count_(static_cast<std::uint32_t>(settings.integer_or("paths", 1 << 16, Range::between(64, most_paths)))),
           accuracy_(settings.number_or("accuracy", 0, Range::between(0, 1))),
-          plants_(context.plants) {}
+          plants_(context.plants) {
+        read_solids(settings);
+        if (!lamps_.empty()) read_reference(settings);
+        provide_fields(fields);
+    }
 
     void advance(const WorldView& world, std::span<const Query>, Fields&) override {
-        light_ = sky_.over(world.time * days_, world.dt * days_);
+        light_ = sky_ ? sky_->over(world.time * days_, world.dt * days_) : Daylight();
+        const double lamp_seconds = 3600 * lit_hours_ * world.dt * days_;
+        if (!lamps_.empty()) light_.seconds = std::max(light_.seconds, lamp_seconds);
+        if (!sky_) light_.on_ground = 1e-6 * on_reference_ * lamp_seconds;
+        organs_.begin(world, light_);
         collect(world);
         require_memory();
-        paths_.set(triangles_, light_);
+        std::vector<double> factors;
+        for (std::size_t b = 0; b < optics_.bands().size(); ++b) factors.push_back(organs_.factor(b));
+        paths_.set(triangles_, organs_.slots(), light_, lamps_, lamp_seconds, factors);
         const auto seed = static_cast<std::uint32_t>(mix(seed_, static_cast<std::uint64_t>(world.step)));
         std::uint32_t count = count_;
         trace(count, seed);
@@ -94,34 +92,37 @@ public:
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            for (std::size_t b = 0; b < bands().size() && 3 * b < answers[i].size(); ++b) {
-                const Answer answer = answers[i].subspan(3 * b);
-                const ModuleLight met = met_by(queries[i], b);
-                const double open = light_.on_ground * bands()[b].share;
-                const double per_area = met.area > 0 ? met.photons / met.area : 0;
-                answer[0] = met.area > 0 ? (open > 0 ? per_area / open : 0) : open_share(queries[i]);
-                if (answer.size() > 1) answer[1] = met.photons;
-                if (answer.size() > 2) answer[2] = light_.seconds > 0 ? 1e6 * per_area / light_.seconds : 0;
-            }
+            organs_.answer(queries[i], 1, answers[i],
+                           [&](std::size_t band) { return open_share(queries[i].pose.position, band); });
         }
     }
 
     std::vector<Quantity> statistics(std::uint32_t plant) const override {
-        const bool is_known = plant < plants_ && plant < slots_.size();
-        const double area = is_known ? area_of(plant) : 0, open = light_.on_ground * area;
-        std::vector<Quantity> quantities{{"leaf_area", area, "m2"}};
-        for (std::size_t b = 0; b < bands().size(); ++b) {
-            const std::string of_band = b == 0 ? "" : "." + bands()[b].name;
-            const Estimate absorbed = is_known ? estimate(plant, b) : Estimate();
-            quantities.push_back({"absorbed" + of_band, absorbed.mean, "mol"});
-            quantities.push_back({"absorbed_error" + of_band, absorbed.error, "mol"});
+        std::vector<double> errors;
+        for (std::size_t b = 0; b < bands() && plant < plants_; ++b) errors.push_back(estimate(plant, b).error);
+        std::vector<Quantity> quantities = organs_.statistics(plant, true, errors);
+        for (std::size_t b = 0; b < bands(); ++b) {
+            const std::string name = b == 0 ? "" : "." + optics_.bands()[b].name;
+            const Balance balance = b < balances_.size() ? balances_[b] : Balance();
+            quantities.push_back({"soil" + name, balance.soil});
+            quantities.push_back({"escaped" + name, balance.escaped});
+            if (!solids_.empty()) quantities.push_back({"solids" + name, balance.solids});
+            quantities.push_back({"closure" + name, balance.closure});
         }
-        quantities.push_back({"mean", open > 0 ? estimate(plant, 0).mean / open : std::nan("")});
-        quantities.push_back({"incoming", light_.on_ground, "mol/m2"});
-        quantities.push_back({"soil", balance_.soil});
-        quantities.push_back({"escaped", balance_.escaped});
-        quantities.push_back({"closure", balance_.closure});
+        for (std::size_t k = 0; k < paths_.sensors().size(); ++k) {
+            for (std::size_t b = 0; b < bands(); ++b) {
+                const std::string name = b == 0 ? "" : "." + optics_.bands()[b].name;
+                quantities.push_back({"sensor." + paths_.sensors()[k].name + name, organs_.amount(sensor_mean(k, b), b),
+                                      organs_.unit() + "/m2"});
+            }
+        }
         return quantities;
+    }
+
+    std::vector<OrganQuantity> organ_quantities() const override { return organs_.organ_quantities(true); }
+    std::shared_ptr<const std::vector<float>> organ_values(const std::string& name,
+                                                           std::uint32_t plant) const override {
+        return organs_.organ_values(name, plant);
     }
 
     std::pair<int, int> query_arity() const override { return {1, 24}; }
@@ -132,29 +133,55 @@ public:
     void limit_memory(std::size_t bytes) override { memory_ = bytes; }
 
 private:
-    struct ModuleLight {
-        double area = 0;     ///< m2 of leaves
-        double photons = 0;  ///< mol that leaves and stems absorb
-    };
     struct Estimate {
-        double mean = 0, error = 0;  ///< mol; the standard error of the mean
+        double mean = 0, error = 0;  ///< mol of PAR before the band's factor; the standard error of the mean
     };
     struct Balance {
-        double soil = 0, escaped = 0, closure = 0;  ///< shares of the first band's light
+        double soil = 0, escaped = 0, solids = 0, closure = 0;  ///< shares of a band's light
     };
 
-    const std::vector<OpticalBand>& bands() const { return paths_.bands(); }
+    std::size_t bands() const { return optics_.bands().size(); }
+
+    void read_solids(const Settings& settings) {
+        solid_voxel_ = settings.number_or("solid_voxel", 0.05, Range::positive());
+        for (Settings table : settings.tables("solids")) {
+            solids_.push_back(read_shape(table));
+            if (solids_.back()->bounds()) continue;
+            throw UserError(table.place(), "a solid that light meets must have bounds: a half-space has none");
+        }
+    }
+
+    void read_reference(const Settings& settings) {
+        lit_hours_ = settings.number_or("lit_hours", 24, Range{0, 24, true});
+        const glm::dvec3 reference = settings.vector_or("reference", {0, 0, 0});
+        for (const Lamp& lamp : lamps_) on_reference_ += lamp.photons[0] * lamp.on_level_ground(reference);
+        if (sky_ || on_reference_ > 0) return;
+        throw UserError(settings.place("reference"),
+                        fmt::format("no lamp sends {} to the place 'reference', with whose light organs are compared",
+                                    optics_.bands().front().name));
+    }
+
+    void provide_fields(Fields& fields) {
+        for (std::size_t k = 0; k < paths_.sensors().size(); ++k) {
+            if (!is_field(paths_.sensors()[k])) continue;
+            fields.provide({name_ + "." + paths_.sensors()[k].name, organs_.unit() + "/m2",
+                            "light that falls on the sensor in a step", nullptr, true,
+                            [this, k] { return grid_of(k); }});
+        }
+    }
 
     void collect(const WorldView& world) {
-        slots_.assign(plants_ + 1, 0);
+        triangles_.clear();
+        std::vector<const PlantView*> views(plants_, nullptr);
         for (const PlantView& plant : world.plants) {
-            if (plant.plant < plants_) slots_[plant.plant + 1] = static_cast<std::uint32_t>(plant.string->size());
+            if (plant.plant < plants_) views[plant.plant] = &plant;
         }
-        for (std::size_t plant = 0; plant < plants_; ++plant) slots_[plant + 1] += slots_[plant];
-        triangles_.clear(slots_.back());
-        for (const PlantView& plant : world.plants) {
-            if (plant.plant < plants_) triangles_.add(plant.interpretation->geometry, slots_[plant.plant]);
+        static const PlantGeometry nothing;
+        for (std::uint32_t plant = 0; plant < plants_; ++plant) {
+            const PlantGeometry& geometry = views[plant] ? views[plant]->interpretation->geometry : nothing;
+            triangles_.add(geometry, static_cast<std::uint32_t>(organs_.start(plant)), plant, optics_);
         }
+        for (const auto& solid : solids_) triangles_.add(*solid, solid_voxel_);
     }
 
     void require_memory() const {
@@ -165,38 +192,114 @@ private:
     }
 
     void trace(std::uint32_t count, std::uint32_t seed) {
-        absorbed_.assign(slots_.back() * bands().size(), 0);
-        by_plant_.assign(plants_ * bands().size() * trials, 0);
-        balance_ = {};
-        double sum = 0;
+        for (std::size_t slot = 0; slot < organs_.slots(); ++slot) {
+            organs_.view(slot) = {};
+            organs_.leaf_area(slot) = 0;
+            for (std::size_t b = 0; b < bands(); ++b) organs_.meeting(slot, b) = {};
+        }
+        by_plant_.assign(plants_ * bands() * trials, 0);
+        balances_.assign(bands(), {});
+        sensor_sums_.assign(sensor_cells() * bands(), 0);
         for (std::uint32_t trial = 0; trial < trials; ++trial) {
             paths_.trace(std::max(1U, count / trials), static_cast<std::uint32_t>(mix(seed, trial)));
             add_trial(trial);
-            balance_.soil += paths_.absorbed_by_soil(0) / trials;
-            balance_.escaped += paths_.escaped(0) / trials;
+            add_balance();
+            add_sensors();
         }
-        const double open = light_.on_ground * paths_.area_lit();
-        for (std::size_t slot = 0; slot < slots_.back(); ++slot) sum += absorbed_[slot * bands().size()];
-        balance_.closure = open > 0 ? balance_.soil + balance_.escaped + sum / open - 1 : 0;
+        finish();
     }
 
     void add_trial(std::uint32_t trial) {
-        for (std::size_t b = 0; b < bands().size(); ++b) {
-            const double photons = light_.on_ground * paths_.area_lit() * bands()[b].share;
-            for (std::size_t plant = 0; plant < plants_; ++plant) {
-                double sum = 0;
-                for (std::uint32_t slot = slots_[plant]; slot < slots_[plant + 1]; ++slot) {
-                    const double absorbed = photons * paths_.absorbed(slot, b);
-                    absorbed_[slot * bands().size() + b] += absorbed / trials;
-                    sum += absorbed;
+        const double light = paths_.light();
+        for (std::size_t plant = 0; plant < plants_; ++plant) {
+            for (std::size_t slot = organs_.start(plant); slot < organs_.start(plant + 1); ++slot) {
+                for (std::size_t b = 0; b < bands(); ++b) {
+                    OrganLight::Meeting& meeting = organs_.meeting(slot, b);
+                    const double absorbed = light * paths_.absorbed(slot, b);
+                    meeting.front += light * paths_.front(slot, b) / trials;
+                    meeting.back += light * paths_.back(slot, b) / trials;
+                    meeting.absorbed += absorbed / trials;
+                    meeting.error += absorbed * absorbed / trials;
+                    by_plant_[(plant * bands() + b) * trials + trial] += absorbed;
                 }
-                by_plant_[(plant * bands().size() + b) * trials + trial] = sum;
+                organs_.view(slot).sun += light * paths_.sun(slot) / trials;
+                organs_.view(slot).towards += light * paths_.towards(slot) / double(trials);
             }
         }
     }
 
+    void add_balance() {
+        for (std::size_t b = 0; b < bands(); ++b) {
+            const double brought = paths_.brought(b);
+            if (!(brought > 0)) continue;
+            double organs = 0;
+            for (std::size_t slot = 0; slot < organs_.slots(); ++slot) organs += paths_.absorbed(slot, b);
+            Balance& balance = balances_[b];
+            balance.soil += paths_.absorbed_by_soil(b) / brought / trials;
+            balance.escaped += paths_.escaped(b) / brought / trials;
+            balance.solids += paths_.absorbed_by_solids(b) / brought / trials;
+            const double all = organs + paths_.absorbed_by_soil(b) + paths_.escaped(b) + paths_.absorbed_by_solids(b);
+            balance.closure += (all / brought - 1) / trials;
+        }
+    }
+
+    std::size_t sensor_cells() const {
+        std::size_t cells = 0;
+        for (const LightSensor& sensor : paths_.sensors()) cells += sensor.count();
+        return cells;
+    }
+
+    void add_sensors() {
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < paths_.sensors().size(); ++k) {
+            const LightSensor& sensor = paths_.sensors()[k];
+            for (std::size_t cell = 0; cell < sensor.count(); ++cell) {
+                for (std::size_t b = 0; b < bands(); ++b) {
+                    sensor_sums_[at++] += paths_.light() * paths_.passed(k, cell, b) / sensor.cell_area() / trials;
+                }
+            }
+        }
+    }
+
+    /// Light per m2 of the whole sensor.
+    double sensor_mean(std::size_t number, std::size_t band) const {
+        const std::size_t count = paths_.sensors()[number].count(), first = first_sensor_cell(number);
+        double sum = 0;
+        for (std::size_t cell = 0; cell < count && !sensor_sums_.empty(); ++cell) {
+            sum += sensor_sums_[(first + cell) * bands() + band];
+        }
+        return sum / static_cast<double>(count);
+    }
+
+    std::size_t first_sensor_cell(std::size_t number) const {
+        std::size_t first = 0;
+        for (std::size_t k = 0; k < number; ++k) first += paths_.sensors()[k].count();
+        return first;
+    }
+
+    /// Standard errors of organs, their areas, and what the sun would bring them without shade.
+    void finish() {
+        for (std::size_t slot = 0; slot < organs_.slots(); ++slot) {
+            for (std::size_t b = 0; b < bands(); ++b) {
+                OrganLight::Meeting& meeting = organs_.meeting(slot, b);
+                const double variance = std::max(0.0, meeting.error - meeting.absorbed * meeting.absorbed);
+                meeting.error = std::sqrt(variance / (trials - 1));
+            }
+        }
+        triangles_.visit_areas([&](const LitTriangles::Owner& owner, const glm::dvec3& area) {
+            if (owner.kind == LitKind::solid) return;
+            if (owner.kind == LitKind::leaf) organs_.leaf_area(owner.slot) += glm::length(area);
+            const double seen = owner.kind == LitKind::leaf ? 1 : 0.5;  // of a stem, the other half is behind
+            for (const LightBeam& beam : light_.beams) {
+                if (!beam.is_sun) continue;
+                organs_.view(owner.slot).open_sun += seen * beam.photons * std::abs(glm::dot(area, beam.towards));
+            }
+        });
+    }
+
     Estimate estimate(std::size_t plant, std::size_t band) const {
-        const double* const sums = &by_plant_[(plant * bands().size() + band) * trials];
+        if (by_plant_.empty()) return {};
+        const double* const sums = &by_plant_[(plant * bands() + band) * trials];
         Estimate found;
         for (int i = 0; i < trials; ++i) found.mean += sums[i] / trials;
         double squares = 0;
@@ -215,71 +318,87 @@ private:
         return worst;
     }
 
-    double area_of(std::uint32_t plant) const {
-        double area = 0;
-        for (std::uint32_t slot = slots_[plant]; slot < slots_[plant + 1]; ++slot)
-            area += triangles_.leaf_areas()[slot];
-        return area;
+    double open_share(const glm::dvec3& place, std::size_t band) const {
+        const SideOptics& leaf = optics_.of(0, band).front;
+        const double absorbed = 1 - leaf.reflectance - leaf.transmittance;
+        return light_.on_ground > 0 ? absorbed * paths_.open_light(place) / light_.on_ground : 0;
     }
 
-    /// What the module that follows the query has met.
-    ModuleLight met_by(const Query& query, std::size_t band) const {
-        if (query.plant >= plants_ || query.module + 1 >= slots_[query.plant + 1] - slots_[query.plant]) return {};
-        const std::size_t slot = slots_[query.plant] + query.module + 1;
-        return {triangles_.leaf_areas()[slot], absorbed_[slot * bands().size() + band]};
+    std::shared_ptr<const FieldGrid> grid_of(std::size_t number) const {
+        initialize_openvdb();
+        const LightSensor& sensor = paths_.sensors()[number];
+        const double edge = sensor.size[0] / static_cast<double>(sensor.cells[0]);
+        auto field = std::make_shared<FieldGrid>();
+        field->grid = openvdb::FloatGrid::create(0);
+        const glm::dvec3 corner = sensor.middle - glm::dvec3(sensor.size[0], edge, sensor.size[1]) / 2.0;
+        field->grid->setTransform(cell_centred_transform(edge, corner));
+        const auto columns = static_cast<int>(sensor.cells[0]), rows = static_cast<int>(sensor.cells[1]);
+        field->box = {openvdb::Coord(0), openvdb::Coord(columns - 1, 0, rows - 1)};
+        auto accessor = field->grid->getAccessor();
+        const std::size_t first = first_sensor_cell(number);
+        for (std::size_t cell = 0; cell < sensor.count() && !sensor_sums_.empty(); ++cell) {
+            const double light = organs_.amount(sensor_sums_[(first + cell) * bands()], 0);
+            const auto column = static_cast<int>(cell % sensor.cells[0]),
+                       row = static_cast<int>(cell / sensor.cells[0]);
+            accessor.setValue({column, 0, row}, static_cast<float>(light));
+        }
+        return field;
     }
-
-    double open_share(const Query& query) const { return paths_.open_share(query.pose.position); }
 
     std::string name_;
     std::uint64_t seed_;
     std::size_t memory_;
-    DaylightSeries sky_;
+    std::optional<DaylightSeries> sky_;
+    Optics optics_;
+    OrganLight organs_;
+    std::vector<Lamp> lamps_;
     LightPaths paths_;
     double days_;
     std::uint32_t count_;
     double accuracy_;
     std::size_t plants_;
+    std::vector<std::shared_ptr<const Shape>> solids_;
+    double solid_voxel_ = 0.05, lit_hours_ = 24;
+    double on_reference_ = 0;  ///< umol m-2 s-1 of lamps
 
     Daylight light_;  ///< all that follows is of this step
     LitTriangles triangles_;
-    std::vector<std::uint32_t> slots_;  ///< the number of the first module of each plant, and behind the last
-    std::vector<double> absorbed_;      ///< mol, by slot and band: the mean of the trials
-    std::vector<double> by_plant_;      ///< mol, by plant, band and trial
-    Balance balance_;
+    std::vector<double> by_plant_;     ///< mol, by plant, band and trial
+    std::vector<double> sensor_sums_;  ///< mol/m2, by cell and band
+    std::vector<Balance> balances_;
 };
 
 const std::string& ray_light_help() {
     static const std::string text =
         std::string(
-            R"(Paths of light begin at sun and sky, and end at the leaves, stems and the soil that absorb them, as the plants of the
-step are drawn. What is not absorbed is scattered as Lambert's law says, by leaves to both sides.
+            R"(Paths of light begin at sun, sky and lamps, and end at the leaves, stems, solids and the soil that absorb them, as the
+plants of the step are drawn. What is not absorbed is scattered as Lambert's law says, by leaves to both sides.
 
-?name(f)        -> f: photons that the leaves of the module that follows in the string absorb per area, over those on
-                   open level ground. If it draws no leaf, what a small leaf of any direction in its place gets of sun
-                   and sky, scattered light apart
+?name(f)        -> f: light that the leaves of the module that follows in the string absorb per area, over what falls
+                   on open level ground. If it draws no leaf, what a small leaf of any direction in its place would
+                   absorb of sun and sky, scattered light apart
 ?name(f, m)     -> m: mol of photons that leaves and stems of this module absorb in the step
 ?name(f, m, e)  -> e: umol m-2 s-1 that the leaves absorb while there is light
 Three more parameters for each further band tell the same of it.
 
 paths         65536: paths of light in each step. They are 8 independent trials, whose spread gives the standard error
 accuracy      0: the standard error that each plant's sum may have, as a share of it; paths grow until it is reached
+sampling      "sobol", even; or "random", plain Monte Carlo, for comparisons
 residual      0.001: a path ends where less than this share of its light is left
 days          1: days that a unit of time stands for
 periodic      false; true repeats the scene's domain to all sides
 ground        0 m: height of the soil
-bands         the tables of the bands, as in bands.par = { leaf = [0.1, 0.1] }; default: par alone
-  leaf        [reflectance, transmittance] of both sides; par [0.1, 0.1], nir [0.4, 0.4] (Goudriaan 1977)
-  stem        reflectance of stems; par 0.2, nir 0.5
-  soil        reflectance of the soil; par 0.1, nir 0.2
-  share       1: incoming photons of the band over those of PAR
-sky           the table of the light, below
+solids        [[solids]] tables of shapes with bounds; their surfaces are made with voxels of solid_voxel, 0.05 m
+)") + OrganLight::help() +
+        optics_help() + lamps_help() + sensors_help() +
+        R"(sky           the table of the light, below
 
-Statistics of a plant: leaf_area (m2, one side), absorbed (mol) with its standard error absorbed_error, also of further
-bands as absorbed.BAND, mean (absorbed per leaf area over what falls on open level ground); of the world: incoming
-(mol/m2), soil and escaped (shares of the light of the first band), closure (all shares, less 1).
+Of organs a timeline can record absorbed, flux, front, back, reflected and error, each for every band, sunlit and
+brightest. Statistics of a plant: leaf_area (m2, one side), absorbed (mol) with its standard error absorbed_error, also of
+further bands as absorbed.BAND, mean (absorbed per leaf area over what falls on open level ground); of the world: incoming
+(per m2 of it), for each band soil and escaped (shares of the light), closure (all shares, less 1).
 
-)") + sky_help();
+)" + sky_help();
     return text;
 }
 

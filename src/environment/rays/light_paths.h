@@ -1,6 +1,9 @@
-// Light along random paths: from sun and sky to leaves, stems and soil, scattered until little is left.
+// Light along random paths: from sun, sky and lamps to leaves, stems, solids and soil, scattered until little is left.
 #pragma once
 
+#include "environment/optics/optics.h"
+#include "environment/rays/lamp.h"
+#include "environment/rays/light_sensor.h"
 #include "environment/rays/lit_triangles.h"
 #include "environment/rays/ray_scene.h"
 #include "environment/sky/daylight.h"
@@ -13,75 +16,104 @@
 
 namespace espalier::environment {
 
-constexpr std::size_t most_bands = 8;
-
-/// What surfaces do with the light of one band. All scatter as Lambert's law says, a leaf to both sides.
-struct OpticalBand {
-    std::string name;
-    double share = 1;  ///< its incoming light over that of the first band
-    double leaf_reflectance = 0, leaf_transmittance = 0, stem_reflectance = 0, soil_reflectance = 0;
-};
-
 class LightPaths {
 public:
-    /// `ground` is the height of the soil, `period` that of a stand without an edge. Where less than the share
-    /// `residual` of a path's light is left, that is absorbed where it is.
-    LightPaths(std::vector<OpticalBand> bands, double ground, const std::optional<Box>& period, double residual)
-        : bands_(std::move(bands)), ground_(ground), period_(period), residual_(residual) {}
+    struct Options {
+        double ground = 0;          ///< height of the soil
+        std::optional<Box> period;  ///< of a stand without an edge
+        double residual = 0.001;    ///< where less of a path's light is left, that is absorbed where it is
+        bool evenly = true;         ///< by Sobol's sequence, or by independent random numbers
+    };
 
-    const std::vector<OpticalBand>& bands() const { return bands_; }
+    /// `optics` is kept by reference.
+    LightPaths(const Optics& optics, std::vector<LightSensor> sensors, Options options);
 
-    /// What is to be lit. Repeats the triangles of a periodic stand, and keeps a reference to them.
-    void set(LitTriangles& triangles, const Daylight& light);
+    /// What is to be lit; `slots` is the number of modules. Lamps shine for `lamp_seconds`; `factors` are the photons
+    /// of each band for one of PAR. Keeps references to the triangles and the lamps. Returns how many parts of the
+    /// triangles have changed.
+    std::size_t set(const LitTriangles& triangles, std::size_t slots, const Daylight& light,
+                    std::span<const Lamp> lamps, double lamp_seconds, std::span<const double> factors);
 
     /// Follows so many paths; each `seed` is an independent trial. What follows is of this trial, and the same with any
     /// number of threads.
     void trace(std::uint32_t paths, std::uint32_t seed);
 
-    /// Shares of the incoming light of a band.
-    double absorbed(std::size_t slot, std::size_t band) const { return share(absorbed_[slot * bands_.size() + band]); }
+    /// What all paths bring: mol of PAR, or of other bands over their factor.
+    double light() const { return light_; }
+    /// Shares of it.
+    double absorbed(std::size_t slot, std::size_t band) const { return share(absorbed_[slot * bands() + band]); }
+    /// On the front and the back of leaves, and on stems.
+    double front(std::size_t slot, std::size_t band) const { return share(front_[slot * bands() + band]); }
+    double back(std::size_t slot, std::size_t band) const { return share(back_[slot * bands() + band]); }
+    /// Light of the sun that nothing has scattered, in PAR, and the mean direction to all light that nothing has.
+    double sun(std::size_t slot) const { return share(sun_[slot]); }
+    glm::dvec3 towards(std::size_t slot) const;
     double absorbed_by_soil(std::size_t band) const { return share(by_soil_[band]); }
+    double absorbed_by_solids(std::size_t band) const { return share(by_solids_[band]); }
     double escaped(std::size_t band) const { return share(escaped_[band]); }
-    /// m2 of open level ground whose light the paths bring.
-    double area_lit() const { return area_lit_; }
+    /// All that the paths have brought in a band; 1 but for lamps.
+    double brought(std::size_t band) const { return share(brought_[band]); }
+    /// What passes a cell of a sensor from its front.
+    double passed(std::size_t sensor, std::size_t cell, std::size_t band) const {
+        return share(through_sensors_[(first_cells_[sensor] + cell) * bands() + band]);
+    }
+    const std::vector<LightSensor>& sensors() const { return sensors_; }
 
-    /// Share of the light on open level ground that a small leaf of any direction gets at a place, scattered light
-    /// apart.
-    double open_share(const glm::dvec3& place) const;
+    /// Light of sun and sky that a small leaf of any direction meets at a place per area, scattered light apart.
+    double open_light(const glm::dvec3& place) const;
 
 private:
     struct Path {
         glm::dvec3 origin, direction;
         double near = 0;  ///< nothing is met before
+        bool is_first = true, from_sun = false;
         std::array<double, most_bands> weights{};
+    };
+    struct Met {
+        enum class Kind : std::uint8_t { triangle, soil, sky } kind = Kind::sky;
+        RayScene::Hit hit{};
     };
     using Sums = std::vector<std::uint64_t>;  ///< in units of 2^-32 paths, so that their order does not matter
 
-    double share(std::uint64_t sum) const { return static_cast<double>(sum) * 0x1p-32 / paths_; }
+    static std::int64_t units(double weight);
+    double share(std::uint64_t sum) const {
+        return static_cast<double>(static_cast<std::int64_t>(sum)) * 0x1p-32 / paths_;
+    }
+    std::size_t bands() const { return optics_.bands().size(); }
+    Box lit_box(const LitTriangles& triangles) const;
+    void set_sources(const Daylight& light, std::span<const Lamp> lamps, double lamp_seconds,
+                     std::span<const double> factors, const glm::dvec3& size);
     Path first_of(const std::array<double, 4>& sample) const;
+    Path from_beam(const LightBeam& beam, const std::array<double, 4>& sample) const;
     void follow(std::uint32_t number, std::uint32_t seed);
-    std::uint32_t advance(Path& path) const;
+    template <class Pass>
+    Met advance_with(Path& path, const Pass& pass) const;
     double to_side(const Path& path) const;
     void enter_opposite(Path& path) const;
-    bool scatter(Path& path, std::uint32_t triangle, const std::array<double, 4>& sample);
+    void count_at_sensors(const Path& path, double to);
+    bool scatter(Path& path, const RayScene::Hit& hit, const std::array<double, 4>& sample);
     bool scatter_from_soil(Path& path, const std::array<double, 4>& sample);
+    void note_meeting(const Path& path, const LitTriangles::Owner& owner, bool on_back);
+    SideOptics optics_of(const LitTriangles::Owner& owner, bool on_back, std::size_t band) const;
     bool ends(const Path& path) const;
     void add(Sums& sums, std::size_t slot, const Path& path) const;
 
-    std::vector<OpticalBand> bands_;
-    double ground_;
-    std::optional<Box> period_;
-    double residual_;
+    const Optics& optics_;
+    std::vector<LightSensor> sensors_;
+    std::vector<std::size_t> first_cells_;
+    Options options_;
 
     RayScene scene_;
     const LitTriangles* triangles_ = nullptr;
     std::vector<LightBeam> beams_;
-    std::vector<double> powers_;  ///< sums up to each beam, the last is 1
-    double area_lit_ = 0, on_ground_ = 0;
+    std::span<const Lamp> lamps_;
+    std::vector<std::array<double, most_bands>> lamp_weights_;
+    std::vector<double> powers_;  ///< sums up to each beam, then lamp; the last is 1
+    double light_ = 0;
     glm::dvec3 centre_{0, 0, 0};
-    double radius_ = 0, near_ = 0;
+    double radius_ = 0, near_ = 0, top_ = 0;
     std::uint32_t paths_ = 1;
-    Sums absorbed_, by_soil_, escaped_;
+    Sums absorbed_, front_, back_, sun_, towards_, by_soil_, by_solids_, escaped_, brought_, through_sensors_;
 };
 
 }  // namespace espalier::environment

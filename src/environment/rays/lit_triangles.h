@@ -1,9 +1,12 @@
-// What rays of light meet: leaves and stems as drawn, triangle by triangle.
+// What rays of light meet: leaves, stems and solids as drawn, triangle by triangle.
 #pragma once
 
+#include "espalier/environment/shape.h"
 #include "espalier/geometry/plant_geometry.h"
 
-#include "environment/shade/drawn_leaves.h"
+#include "environment/optics/optics.h"
+#include "environment/rays/ray_scene.h"
+#include "geometry/drawn/faces.h"
 
 #include <glm/vec3.hpp>
 
@@ -14,41 +17,51 @@
 
 namespace espalier::environment {
 
-enum class LitKind : std::uint8_t { leaf, stem };
-
 class LitTriangles {
 public:
     struct Owner {
-        std::uint32_t slot;  ///< counts the modules of all plants
+        std::uint32_t slot;      ///< counts the modules of all plants
+        std::uint16_t material;  ///< of the optics
         LitKind kind;
     };
 
-    /// Forgets all triangles; those to come belong to so many modules.
-    void clear(std::size_t slots);
-    /// Flat parts as leaves, internodes as open prisms with six sides and the surface of the cone. `first_slot` is that
-    /// of the plant's first module.
-    void add(const PlantGeometry& geometry, std::uint32_t first_slot);
-    /// Copies of all that reaches beyond the sides of a period, so that no triangle is missing inside; what lies wholly
-    /// outside comes in.
-    void repeat(const Box& period);
+    /// Forgets all triangles.
+    void clear();
+    /// Leaves and stems as `DrawnFaces` has them, a part of their own. `first_slot` is that of the plant's first
+    /// module. Throws RunError for leaves without a material.
+    void add(const PlantGeometry& geometry, std::uint32_t first_slot, std::uint32_t plant, const Optics& optics);
+    /// The surface of a solid with bounds, from voxels of that length; a part of its own.
+    void add(const Shape& solid, double voxel);
+
+    /// All parts, to be met inside a period: each stands wherever it reaches into it. The spans are of this object.
+    std::vector<RayScene::Part> parts(const std::optional<Box>& period) const;
 
     std::size_t size() const { return owners_.size(); }
-    std::span<const glm::vec3> corners() const { return corners_; }  ///< three a triangle
-    const Owner& owner(std::size_t triangle) const { return owners_[triangle]; }
-    /// Unit normal; zero of a triangle without area.
-    glm::dvec3 normal(std::size_t triangle) const;
+    const Owner& owner(const RayScene::Hit& hit) const { return owners_[number_of(hit)]; }
+    /// Unit normal, from where the corners run round counter-clockwise; zero of a triangle without area.
+    glm::dvec3 normal(const RayScene::Hit& hit) const { return normal(number_of(hit)); }
     const Box& bounds() const { return bounds_; }
-    /// One side of the leaves of each slot as drawn, m2.
-    std::span<const double> leaf_areas() const { return leaf_areas_; }
+    /// Calls visit(owner, normal as long as the area) for each triangle.
+    template <class Visit>
+    void visit_areas(const Visit& visit) const {
+        for (std::size_t i = 0; i < owners_.size(); ++i) visit(owners_[i], area_vector_of(i));
+    }
 
 private:
-    void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Owner owner);
-    void add_stem(const Internode& internode, std::uint32_t slot);
+    struct Part {
+        std::size_t first;  ///< triangle
+        Box bounds;
+    };
 
-    std::vector<glm::vec3> corners_;
+    std::size_t number_of(const RayScene::Hit& hit) const { return parts_[hit.part].first + hit.triangle; }
+    glm::dvec3 normal(std::size_t triangle) const;
+    glm::dvec3 area_vector_of(std::size_t triangle) const;
+    void add(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Owner owner);
+
+    std::vector<glm::vec3> corners_;  ///< three a triangle
     std::vector<Owner> owners_;
-    std::vector<double> leaf_areas_;
-    DrawnLeaves leaves_;
+    std::vector<Part> parts_;
+    DrawnFaces faces_;
     Box bounds_;
 };
 

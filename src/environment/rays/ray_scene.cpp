@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -13,15 +14,41 @@ namespace {
 // The widest instructions differ between processors, and so would their rounding.
 constexpr const char* same_everywhere = "isa=sse2";
 
+/// Releases it with its owner.
+class EmbreeScene {
+public:
+    explicit EmbreeScene(RTCDevice device) : scene_(rtcNewScene(device)) {}
+    EmbreeScene(EmbreeScene&& other) noexcept : scene_(std::exchange(other.scene_, nullptr)) {}
+    EmbreeScene& operator=(EmbreeScene&& other) noexcept {
+        std::swap(scene_, other.scene_);
+        return *this;
+    }
+    ~EmbreeScene() {
+        if (scene_) rtcReleaseScene(scene_);
+    }
+    RTCScene get() const { return scene_; }
+
+private:
+    RTCScene scene_;
+};
+
+struct BuiltPart {
+    EmbreeScene scene;
+    std::vector<glm::vec3> corners;
+};
+
 }  // namespace
 
 struct RayScene::Embree {
     RTCDevice device = rtcNewDevice(same_everywhere);
-    RTCScene scene = nullptr;
+    std::vector<BuiltPart> parts;
+    std::vector<std::uint32_t> part_of_instance;
+    std::optional<EmbreeScene> all;
 
     Embree() { require_success(); }
     ~Embree() {
-        if (scene) rtcReleaseScene(scene);
+        all.reset();
+        parts.clear();
         if (device) rtcReleaseDevice(device);
     }
     Embree(const Embree&) = delete;
@@ -31,45 +58,87 @@ struct RayScene::Embree {
         if (device && rtcGetDeviceError(device) == RTC_ERROR_NONE) return;
         throw RunError("rays: Embree cannot hold the triangles of the plants: there is too little memory");
     }
+
+    void attach(const EmbreeScene& scene, RTCGeometry geometry) const {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene.get(), geometry);
+        rtcReleaseGeometry(geometry);
+    }
+
+    BuiltPart build(std::span<const glm::vec3> corners) const {
+        EmbreeScene scene(device);
+        require_success();
+        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* places = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), corners.size()));
+        auto* numbers = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), corners.size() / 3));
+        require_success();
+        std::copy(corners.begin(), corners.end(), places);
+        for (std::size_t i = 0; i < corners.size(); ++i) numbers[i] = static_cast<std::uint32_t>(i);
+        attach(scene, geometry);
+        rtcCommitScene(scene.get());
+        require_success();
+        return {std::move(scene), {corners.begin(), corners.end()}};
+    }
+
+    void place(const BuiltPart& part, const glm::vec3& shift) {
+        RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, part.scene.get());
+        const float columns[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, shift.x, shift.y, shift.z};
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        attach(*all, instance);
+    }
 };
 
 RayScene::RayScene() : embree_(std::make_unique<Embree>()) {}
 RayScene::~RayScene() = default;
 
-void RayScene::set_triangles(std::span<const glm::vec3> corners) {
-    if (embree_->scene) rtcReleaseScene(embree_->scene);
-    embree_->scene = rtcNewScene(embree_->device);
-    embree_->require_success();
-    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const std::size_t triangles = corners.size() / 3;
-    auto* places = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * triangles));
-    auto* numbers = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles));
-    if (triangles > 0) embree_->require_success();
-    for (std::size_t i = 0; i < 3 * triangles; ++i) {
-        places[i] = corners[i];
-        numbers[i] = static_cast<std::uint32_t>(i);
+std::size_t RayScene::set_parts(std::span<const Part> parts) {
+    std::size_t built = 0;
+    Embree& own = *embree_;
+    own.all.emplace(own.device);
+    own.require_success();
+    rtcSetSceneFlags(own.all->get(), RTC_SCENE_FLAG_ROBUST);
+    own.part_of_instance.clear();
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const std::span<const glm::vec3> corners = parts[k].corners;
+        const bool is_known = k < own.parts.size();
+        if (!is_known ||
+            !std::equal(corners.begin(), corners.end(), own.parts[k].corners.begin(), own.parts[k].corners.end())) {
+            BuiltPart part = own.build(corners);
+            if (is_known) {
+                own.parts[k] = std::move(part);
+            } else {
+                own.parts.push_back(std::move(part));
+            }
+            ++built;
+        }
+        if (corners.empty()) continue;
+        for (const glm::vec3& shift : parts[k].shifts) {
+            own.place(own.parts[k], shift);
+            own.part_of_instance.push_back(static_cast<std::uint32_t>(k));
+        }
     }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(embree_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(embree_->scene);
-    embree_->require_success();
+    own.parts.erase(own.parts.begin() + static_cast<std::ptrdiff_t>(parts.size()), own.parts.end());
+    rtcCommitScene(own.all->get());
+    own.require_success();
+    return built;
 }
 
 std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const glm::vec3& direction, float from,
                                                  float to) const {
-    if (!embree_->scene) return std::nullopt;
+    if (embree_->part_of_instance.empty()) return std::nullopt;
     RTCRayHit ray{};
     ray.ray = {origin.x, origin.y, origin.z, from, direction.x, direction.y, direction.z, 0, to, 0xFFFFFFFF, 0, 0};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(embree_->scene, &context, &ray);
+    rtcIntersect1(embree_->all->get(), &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{ray.hit.primID, ray.ray.tfar};
+    return Hit{embree_->part_of_instance[ray.hit.instID[0]], ray.hit.primID, ray.ray.tfar};
 }
 
 }  // namespace espalier::environment

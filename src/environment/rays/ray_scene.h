@@ -8,14 +8,20 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace espalier::environment {
 
+/// Parts, each a mesh of its own that may stand in several places. A part that has not changed is not built again.
 class RayScene {
 public:
     struct Hit {
-        std::uint32_t triangle;
-        float distance;  ///< in lengths of the direction
+        std::uint32_t part, triangle;  ///< the triangle counts from the part's first
+        float distance;                ///< in lengths of the direction
+    };
+    struct Part {
+        std::span<const glm::vec3> corners;  ///< three a triangle
+        std::vector<glm::vec3> shifts;       ///< where it stands; {0, 0, 0} is as given
     };
 
     /// Throws RunError if there is no memory for it.
@@ -24,8 +30,9 @@ public:
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// Replaces all triangles by these, three corners each. Throws RunError if there is no memory for them.
-    void set_triangles(std::span<const glm::vec3> corners);
+    /// Replaces everything; part k is compared with part k of before. Returns how many parts were built. Throws
+    /// RunError if there is no memory for them.
+    std::size_t set_parts(std::span<const Part> parts);
 
     /// The nearest triangle from `from` to `to` along the ray, both in lengths of `direction`. Several threads may ask.
     /// The same on any processor.

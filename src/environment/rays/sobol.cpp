@@ -70,4 +70,11 @@ std::array<double, 4> scrambled_sobol(std::uint32_t index, std::uint32_t seed) {
     return sample;
 }
 
+std::array<double, 4> independent_numbers(std::uint32_t index, std::uint32_t seed) {
+    RandomSamples samples(RandomKey(seed, 0, Stream::process, 0x70617468), index, 0);
+    std::array<double, 4> numbers;
+    for (double& number : numbers) number = samples.uniform();
+    return numbers;
+}
+
 }  // namespace espalier::environment

@@ -11,4 +11,7 @@ namespace espalier::environment {
 /// gives an independent randomisation; 2^k samples from a multiple of 2^k on are evenly spread.
 std::array<double, 4> scrambled_sobol(std::uint32_t index, std::uint32_t seed);
 
+/// Four numbers that have nothing to do with each other, nor with those of other indices: plain Monte Carlo.
+std::array<double, 4> independent_numbers(std::uint32_t index, std::uint32_t seed);
+
 }  // namespace espalier::environment

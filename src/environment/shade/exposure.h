@@ -1,18 +1,12 @@
-// How much of the sky and of the sun's path is seen past a solid.
+// What of the sky and of the sun's path is seen past a solid.
 #pragma once
 
 #include "espalier/environment/shape.h"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace espalier::environment {
-
-/// Where the sun stands at `samples` times, evenly from sunrise to sunset of each day of the year; nothing for days
-/// without a sunrise. `north` is horizontal, latitude in degrees. Declination after Cooper 1969.
-std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
-                                 const glm::dvec3& north);
 
 /// Whether a ray of that length meets the solid. It steps from distance to distance, at least by `least_step`.
 bool meets(const Shape& solid, const glm::dvec3& from, const glm::dvec3& direction, double length, double least_step);

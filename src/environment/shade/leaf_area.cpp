@@ -1,6 +1,6 @@
 #include "environment/shade/leaf_area.h"
 
-#include "environment/shade/drawn_leaves.h"
+#include "geometry/drawn/faces.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,12 +18,11 @@ void LeafArea::collect(std::span<const PlantView> plants) {
     areas_->clear();
     box_.reset();
     total_ = 0;
-    DrawnLeaves leaves;
+    DrawnFaces leaves;
     for (const PlantView& plant : plants) {
-        leaves.collect(plant.interpretation->geometry);
-        for (std::size_t i = 0; i < leaves.size(); ++i) {
-            add(middle_of(leaves[i].corners), glm::length(area_vector(leaves[i].corners)));
-        }
+        leaves.clear();
+        leaves.add_leaves(plant.plant, plant.interpretation->geometry);
+        for (std::size_t i = 0; i < leaves.size(); ++i) add(leaves[i].middle(), glm::length(leaves[i].area()));
     }
 }
 

@@ -1,6 +1,6 @@
 // Shapes made of shapes: union, intersection, difference; and shapes put elsewhere or grown.
 #include "environment/shapes/kinds.h"
-#include "geometry/rigid_motion.h"
+#include "geometry/drawn/rigid_motion.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,9 +1,11 @@
 #include "environment/sky/daylight.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace espalier::environment {
 namespace {
@@ -16,24 +18,18 @@ std::vector<std::string> kinds_of_sky() {
     return kinds;
 }
 
-/// How long each hour stands for: to the middles between it and its neighbours, around the clock.
-std::vector<double> spans_of(const std::vector<double>& hours) {
-    std::vector<double> spans;
-    const std::size_t count = hours.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const double before = i > 0 ? hours[i - 1] : hours.back() - 24;
-        const double after = i + 1 < count ? hours[i + 1] : hours.front() + 24;
-        spans.push_back((after - before) / 2);
-    }
-    return spans;
-}
-
 glm::dvec3 unit_vector(const Settings& sky, const char* key, const glm::dvec3& fallback) {
     const glm::dvec3 given = sky.vector_or(key, fallback);
     if (!(glm::length(given) > 0)) {
         throw UserError(sky.place(key), std::string("'") + key + "' must not be the vector of zeros");
     }
     return glm::normalize(given);
+}
+
+double light_of(const Settings& sky, const char* key) {
+    const double light = sky.number(key, Range::not_negative());
+    if (light > 0) return light;
+    throw UserError(sky.place(key), fmt::format("'{}' is 0: a sky without light lights nothing", key));
 }
 
 }  // namespace
@@ -43,23 +39,19 @@ DaylightSeries::DaylightSeries(const Settings& sky, double least_rise) : least_r
     north_ = unit_vector(sky, "north", {0, 0, -1});
     if (north_.y != 0) throw UserError(sky.place("north"), "'north' must be horizontal: [x, 0, z]");
     if (sky.has("diffuse")) diffuse_ = sky.number("diffuse", Range::between(0, 1));
-    if (sky.has("par")) {
-        given_ = sky.number("par", Range::not_negative());
-        sun_ = unit_vector(sky, "sun", {0, 1, 0});
-        if (sun_.y < least_rise_ && diffuse_.value_or(1) < 1) {
-            throw UserError(sky.place("sun"), "the sun must stand at least 2 degrees above the horizon");
-        }
-        return;
+    const double photons = sky.number_or("photons", 4.57, Range::positive());
+    par_of_global_ = photons * sky.number_or("par_share", 0.5, Range{0, 1, true});
+    if (sky.has("par") || sky.has("global")) {
+        read_steady(sky);
+    } else if (sky.has("series")) {
+        read_path(sky);
+        read_series(sky);
+    } else {
+        read_path(sky);
+        clearness_ = sky.has("clearness") ? light_of(sky, "clearness") : sky.number_or("clearness", 0.5);
+        if (clearness_ > 1) throw UserError(sky.place("clearness"), "'clearness' must lie between 0 and 1");
+        read_hours(sky);
     }
-    place_.latitude = sky.number_or("latitude", 50, Range::between(-90, 90));
-    place_.longitude = sky.number_or("longitude", 0, Range::between(-180, 180));
-    place_.zone = sky.number_or("zone", 0, Range::between(-14, 14));
-    year_ = static_cast<double>(sky.integer_or("year", 2025, Range::between(1950, 2050)));
-    day_ = sky.number_or("day", 172, Range::between(1, 366));
-    clearness_ = sky.number_or("clearness", 0.5, Range::between(0, 1));
-    photons_per_joule_ = 1e-6 * sky.number_or("photons", 4.57, Range::positive()) *
-                         sky.number_or("par_share", 0.5, Range::between(0, 1));
-    read_hours(sky);
 }
 
 void DaylightSeries::read_sky(const Settings& sky) {
@@ -69,16 +61,63 @@ void DaylightSeries::read_sky(const Settings& sky) {
     std::erase_if(parts_, [&](const SkyPart& part) { return part.towards.y < least_rise_; });
 }
 
+void DaylightSeries::read_steady(const Settings& sky) {
+    if (sky.has("par") && sky.has("global")) {
+        throw UserError(sky.place("global"), "the light is given twice, as 'par' and as 'global': leave one out");
+    }
+    steady_ = sky.has("par") ? light_of(sky, "par") : par_of_global_ * light_of(sky, "global");
+    sun_ = unit_vector(sky, "sun", {0, 1, 0});
+    if (sun_.y < least_rise_ && diffuse_.value_or(1) < 1) {
+        throw UserError(sky.place("sun"), "the sun must stand at least 2 degrees above the horizon");
+    }
+}
+
+void DaylightSeries::read_path(const Settings& sky) {
+    place_.latitude = sky.number_or("latitude", 50, Range::between(-90, 90));
+    place_.longitude = sky.number_or("longitude", 0, Range::between(-180, 180));
+    place_.zone = sky.number_or("zone", 0, Range::between(-14, 14));
+    if (sky.has("series")) series_.emplace(sky.path("series"), sky.number_or("photons", 4.57));
+    const bool is_dated = series_ && series_->year() > 0;
+    year_ = static_cast<double>(sky.integer_or("year", is_dated ? series_->year() : 2025, Range::between(1950, 2050)));
+    day_ = sky.number_or("day", is_dated ? series_->day() : 172, Range::between(1, 366));
+}
+
 void DaylightSeries::read_hours(const Settings& sky) {
+    adaptive_ = sky.choice_or("integration", "hours", {"hours", "adaptive"}) == "adaptive";
+    if (adaptive_ && sky.has("hours")) {
+        throw UserError(sky.place("hours"), "with integration = \"adaptive\" the hours are chosen: leave 'hours' out");
+    }
+    if (adaptive_) return;
     std::vector<double> each;
     for (int hour = 0; hour < 24; ++hour) each.push_back(hour + 0.5);
-    hours_ = sky.numbers_or("hours", each);
-    if (hours_.empty()) throw UserError(sky.place("hours"), "'hours' must name at least one hour of the day");
-    for (std::size_t i = 0; i < hours_.size(); ++i) {
-        if (hours_[i] >= 0 && hours_[i] < 24 && (i == 0 || hours_[i] > hours_[i - 1])) continue;
-        throw UserError(sky.place("hours"), "'hours' must rise, and lie from 0 to before 24");
+    const std::vector<double> hours = sky.numbers_or("hours", each);
+    if (hours.empty()) throw UserError(sky.place("hours"), "'hours' must name at least one hour of the day");
+    for (std::size_t i = 0; i < hours.size(); ++i) {
+        if (!(hours[i] >= 0 && hours[i] < 24 && (i == 0 || hours[i] > hours[i - 1]))) {
+            throw UserError(sky.place("hours"), "'hours' must rise, and lie from 0 to before 24");
+        }
+        // Each stands for the time to the middles between it and its neighbours, around the clock.
+        const double before = i > 0 ? hours[i - 1] : hours.back() - 24;
+        const double after = i + 1 < hours.size() ? hours[i + 1] : hours.front() + 24;
+        hours_.push_back({hours[i], (after - before) / 2});
     }
-    spans_ = spans_of(hours_);
+}
+
+void DaylightSeries::read_series(const Settings& sky) {
+    repeats_ = sky.flag_or("repeat", false);
+    sample_ = sky.number_or("sample", 0.5, Range::between(0.01, 24));
+    for (const MeasuredLight& row : series_->rows()) {
+        const double global = row.global >= 0 ? row.global : row.par / par_of_global_;
+        const SunPosition sun =
+            sun_position(place_, {year_, day_ + std::floor(row.hours / 24), std::fmod(row.hours, 24)});
+        const double below = -sun.elevation * 180 / std::numbers::pi;
+        if (below < 3 || global < 50) continue;
+        throw UserError(
+            {series_->path().string(), row.line, 0},
+            fmt::format("{:.4g} W m-2 are measured while the sun stands {:.0f} degrees below the horizon: check "
+                        "latitude, longitude and zone, and that times are civil time of the place",
+                        global, below));
+    }
 }
 
 SkyRadiance DaylightSeries::radiance(const glm::dvec3& sun) const {
@@ -88,65 +127,168 @@ SkyRadiance DaylightSeries::radiance(const glm::dvec3& sun) const {
 }
 
 Daylight DaylightSeries::over(double elapsed, double days) const {
-    if (given_) return given(days);
-    Daylight light;
-    for (const SkyPart& part : parts_) light.beams.push_back({part.towards});
-    const double day = std::floor(day_ + elapsed + days / 2);
-    for (std::size_t i = 0; i < hours_.size(); ++i) add_hour({year_, day, hours_[i]}, spans_[i] * 3600 * days, light);
-    return light;
-}
-
-Daylight DaylightSeries::given(double days) const {
-    Daylight light;
-    for (const SkyPart& part : parts_) light.beams.push_back({part.towards});
-    const double photons = *given_ * 1e-6 * seconds_of_day * days, diffuse = diffuse_.value_or(1);
-    add_sky(sun_, photons * diffuse, light);
-    if (diffuse < 1) add_sun(sun_, photons * (1 - diffuse), light);
-    light.seconds = seconds_of_day * days;
-    return light;
-}
-
-void DaylightSeries::add_hour(const CivilTime& time, double seconds, Daylight& light) const {
-    const SunPosition position = sun_position(place_, time);
-    const glm::dvec3 sun = towards_sun(position, north_);
-    if (sun.y < least_rise_) return;
-    const double photons = clearness_ * extraterrestrial_flux(position) * sun.y * seconds * photons_per_joule_;
-    const double diffuse = diffuse_.value_or(diffuse_share(clearness_));
-    add_sky(sun, photons * diffuse, light);
-    add_sun(sun, photons * (1 - diffuse), light);
-    light.seconds += seconds;
-}
-
-void DaylightSeries::add_sky(const glm::dvec3& sun, double on_ground, Daylight& light) const {
-    const std::vector<double> shares = shares_on_ground(radiance(sun), parts_);
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        light.beams[i].photons += on_ground * shares[i] / parts_[i].towards.y;
+    Sums sums;
+    for (const SkyPart& part : parts_) sums.light.beams.push_back({part.towards});
+    if (steady_) {
+        add_steady(days, sums);
+    } else if (series_) {
+        add_series(elapsed, days, sums);
+    } else {
+        add_days(elapsed, days, sums);
     }
-    light.on_ground += on_ground;
+    for (const auto& [slot, sun] : sums.suns) {
+        const glm::dvec3 towards = glm::normalize(sun.direction);
+        sums.light.beams.push_back({towards, sun.on_ground / towards.y, true});
+    }
+    return sums.light;
 }
 
-void DaylightSeries::add_sun(const glm::dvec3& sun, double on_ground, Daylight& light) const {
-    if (on_ground <= 0) return;
-    light.beams.push_back({sun, on_ground / sun.y});
-    light.on_ground += on_ground;
+void DaylightSeries::add(const Moment& moment, Sums& sums) const {
+    if (moment.par <= 0) return;
+    const bool is_up = moment.sun.y >= least_rise_;
+    const double photons = 1e-6 * moment.par * moment.seconds, diffuse = is_up ? moment.diffuse_share : 1;
+    const std::vector<double> shares = shares_on_ground(radiance(moment.sun), parts_);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        sums.light.beams[i].photons += photons * diffuse * shares[i] / parts_[i].towards.y;
+    }
+    if (diffuse < 1) {
+        SunSum& sun = sums.suns[moment.slot];
+        sun.on_ground += photons * (1 - diffuse);
+        sun.direction += photons * (1 - diffuse) * moment.sun;
+    }
+    sums.light.on_ground += photons;
+    sums.light.energy += moment.global * moment.seconds;
+    sums.light.seconds += moment.seconds;
+}
+
+void DaylightSeries::add_steady(double days, Sums& sums) const {
+    add({sun_, seconds_of_day * days, *steady_, *steady_ / par_of_global_, diffuse_.value_or(1), 0}, sums);
+}
+
+void DaylightSeries::add_days(double elapsed, double days, Sums& sums) const {
+    const double day = std::floor(day_ + elapsed + days / 2);
+    int slot = 0;
+    for (const Hour& hour : hours_of(day)) add(at_hour(day, {hour.at, hour.span * days}, slot++), sums);
+}
+
+DaylightSeries::Moment DaylightSeries::at_hour(double day, const Hour& hour, int slot) const {
+    const SunPosition position = sun_position(place_, {year_, day, hour.at});
+    const glm::dvec3 sun = towards_sun(position, north_);
+    const double global = sun.y < least_rise_ ? 0 : clearness_ * extraterrestrial_flux(position) * sun.y;
+    return {sun, 3600 * hour.span, par_of_global_ * global, global, diffuse_.value_or(diffuse_share(clearness_)), slot};
+}
+
+/// The hours of the scene, or so many between the sun's rise and set that twice as many change little.
+std::vector<DaylightSeries::Hour> DaylightSeries::hours_of(double day) const {
+    if (!adaptive_) return hours_;
+    const auto rise_at = [&](double hour) {
+        return towards_sun(sun_position(place_, {year_, day, hour}), north_).y - least_rise_;
+    };
+    std::vector<Hour> all;
+    constexpr double step = 0.1;
+    double begin = rise_at(0) > 0 ? 0 : -1;
+    for (int i = 1; i <= 240; ++i) {
+        const double before = step * (i - 1), now = step * i;
+        const bool was_up = rise_at(before) > 0, is_up = rise_at(now) > 0;
+        double low = before, high = now;
+        for (int turn = 0; turn < 40 && was_up != is_up; ++turn) {
+            const double middle = (low + high) / 2;
+            ((rise_at(middle) > 0) == is_up ? high : low) = middle;
+        }
+        if (!was_up && is_up) begin = high;
+        if (begin >= 0 && ((was_up && !is_up) || (is_up && i == 240))) {
+            for (const Hour& hour : hours_between(begin, is_up ? 24 : low, day)) all.push_back(hour);
+            begin = -1;
+        }
+    }
+    return all;
+}
+
+std::vector<DaylightSeries::Hour> DaylightSeries::hours_between(double rise, double set, double day) const {
+    constexpr double tolerance = 1e-3;
+    double before = -1;
+    for (std::int64_t count = 4;; count *= 2) {
+        std::vector<Hour> hours;
+        double light = 0;
+        for (const GaussPoint& point : gauss_points(count)) {
+            hours.push_back({rise + (set - rise) * point.at, (set - rise) * point.weight});
+            const Moment moment = at_hour(day, hours.back(), 0);
+            light += moment.global * moment.seconds;
+        }
+        std::sort(hours.begin(), hours.end(), [](const Hour& a, const Hour& b) { return a.at < b.at; });
+        if (count >= 64 || std::abs(light - before) <= tolerance * light) return hours;
+        before = light;
+    }
+}
+
+/// From hours since the run's first midnight to those of the series.
+double DaylightSeries::series_hours(double hours) const {
+    if (!repeats_) return hours;
+    const double period = 24 * std::max(1.0, std::round((series_->last() - series_->first()) / 24));
+    return series_->first() + std::fmod(std::fmod(hours - series_->first(), period) + period, period);
+}
+
+void DaylightSeries::add_series(double elapsed, double days, Sums& sums) const {
+    const double from = 24 * elapsed, to = 24 * (elapsed + days);
+    const double row = series_->rows()[1].hours - series_->first();
+    if (!repeats_ && (from < series_->first() - row || to > series_->last() + row)) {
+        throw RunError(
+            fmt::format("{} has light from {:g} to {:g} hours, and this step needs {:g} to {:g}: measure longer, "
+                        "or let it begin anew with sky.repeat = true",
+                        series_->path().string(), series_->first(), series_->last(), from, to));
+    }
+    std::vector<double> breaks{from, to};
+    for (double at = std::ceil(from / sample_) * sample_; at < to; at += sample_) breaks.push_back(at);
+    if (!repeats_) {
+        for (const MeasuredLight& measured : series_->rows()) {
+            if (measured.hours > from && measured.hours < to) breaks.push_back(measured.hours);
+        }
+    }
+    std::sort(breaks.begin(), breaks.end());
+    // Light changes evenly in between, so the middle is the mean.
+    for (std::size_t i = 1; i < breaks.size(); ++i) {
+        const double span = breaks[i] - breaks[i - 1];
+        if (span > 1e-9) add(measured(series_hours(breaks[i - 1] + span / 2), 3600 * span), sums);
+    }
+}
+
+DaylightSeries::Moment DaylightSeries::measured(double hours, double seconds) const {
+    const MeasuredLight row = series_->at(hours);
+    const double hour = hours - 24 * std::floor(hours / 24);
+    const SunPosition position = sun_position(place_, {year_, day_ + std::floor(hours / 24), hour});
+    const glm::dvec3 sun = towards_sun(position, north_);
+    const double global = row.global >= 0 ? row.global : row.par / par_of_global_;
+    const double par = row.par >= 0 ? row.par : global * par_of_global_;
+    double diffuse = diffuse_.value_or(1);
+    if (row.diffuse >= 0 && global > 0) {
+        diffuse = std::min(1.0, row.diffuse / global);
+    } else if (row.direct >= 0 && global > 0) {
+        diffuse = 1 - std::min(1.0, row.direct / global);
+    } else if (!diffuse_ && sun.y >= least_rise_) {
+        diffuse = diffuse_share(std::clamp(global / (extraterrestrial_flux(position) * sun.y), 0.0, 1.0));
+    }
+    return {sun, seconds, par, global, diffuse, static_cast<int>(hour / sample_)};
 }
 
 const std::string& sky_help() {
     static const std::string text =
-        R"(The table `sky` says what light there is. PAR are the photosynthetically active photons, 400 to 700 nm.
+        R"help(The table `sky` says what light there is. PAR are the photosynthetically active photons, 400 to 700 nm.
 radiance      "overcast" (1 + 2 cos zenith angle; Moon & Spencer 1942), "uniform", or "cie-1" to "cie-15": the skies of
               ISO 15469:2004, of which cie-12 is the clear one
 rings         5: rings of the sky, and `around`, 8 parts of each; so 40 directions. Of light from below 2 degrees above
               the horizon nothing is counted
 north         [0, 0, -1]: horizontal direction to the north
 diffuse       the share of the light on level ground that comes from the sky; the rest comes from the sun
+par_share     0.5: share of PAR in the light's energy
+photons       4.57 umol per joule of PAR (McCree 1972)
 
-With par, the light is the same at all times:
-par           umol m-2 s-1 on open level ground
+With par or global, the light is the same at all times:
+par           umol m-2 s-1 on open level ground; or
+global        W m-2 there, of all wavelengths
 sun           [0, 1, 0]: direction to the sun
 diffuse       1
 
-Without it, the sun goes its way (Michalsky 1988), and a share of the light above the air reaches the ground:
+Without them, the sun goes its way (Michalsky 1988), and a share of the light above the air reaches the ground:
 latitude      50 degrees to the north
 longitude     0 degrees to the east
 zone          0: hours by which civil time is ahead of Greenwich
@@ -154,11 +296,18 @@ year          2025: of the first day
 day           172: the first day, counted from 1 on 1 January
 hours         [0.5, 1.5, ... 23.5]: hours of civil time at which the sun is looked at; each stands for the time
               to the middles between it and its neighbours. Of a step of several days, the middle day stands for all
+integration   "hours", or "adaptive": as many times between the sun's rise and set as the day's light needs (0.1 %)
 clearness     0.5: light on level ground over that above the air (1361 W/m2 across it)
 diffuse       after Erbs et al. 1982, from the clearness
-par_share     0.5: share of PAR in the light's energy
-photons       4.57 umol per joule of PAR (McCree 1972)
-)";
+
+With series, the light is what was measured, and the sun goes its way:
+series        a CSV file. Its header names columns and units: "time (h)" since the midnight at which the run begins,
+              or "date" as 2025-06-21 13:30 in civil time; "global (W m-2)", "par (umol m-2 s-1)" or both, on level
+              ground; "diffuse (W m-2)" or "direct (W m-2)" if measured, else after Erbs et al. 1982. Light changes
+              evenly from row to row, and each step gets the integral over its time
+sample        0.5 hours: how often the sun is looked at
+repeat        false; true begins the series anew where it ends
+)help";
     return text;
 }
 

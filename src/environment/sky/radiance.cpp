@@ -31,10 +31,6 @@ constexpr std::array<std::array<double, 5>, 15> cie_skies{{{4.0, -0.70, 0, -1.0,
                                                            {-1.0, -0.15, 16, -3.0, 0.30},
                                                            {-1.0, -0.15, 24, -2.8, 0.15}}};
 
-struct GaussPoint {
-    double at, weight;
-};
-
 /// Legendre's polynomial of that degree and its derivative.
 std::pair<double, double> legendre(std::int64_t degree, double x) {
     double before = 1, value = x;
@@ -47,7 +43,9 @@ std::pair<double, double> legendre(std::int64_t degree, double x) {
     return {value, static_cast<double>(degree) * (x * value - before) / (x * x - 1)};
 }
 
-/// Gauss's quadrature over 0 .. 1, by Newton's method.
+}  // namespace
+
+// By Newton's method.
 std::vector<GaussPoint> gauss_points(std::int64_t count) {
     std::vector<GaussPoint> points;
     for (std::int64_t i = 0; i < count; ++i) {
@@ -61,8 +59,6 @@ std::vector<GaussPoint> gauss_points(std::int64_t count) {
     }
     return points;
 }
-
-}  // namespace
 
 SkyRadiance SkyRadiance::uniform() {
     return {};

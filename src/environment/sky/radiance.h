@@ -37,6 +37,12 @@ private:
     glm::dvec3 sun_{0, 1, 0};
 };
 
+/// A point of Gauss's quadrature over 0 .. 1; the weights add up to 1.
+struct GaussPoint {
+    double at, weight;
+};
+std::vector<GaussPoint> gauss_points(std::int64_t count);
+
 /// A part of the sky.
 struct SkyPart {
     glm::dvec3 towards;  ///< its middle, a unit vector

@@ -48,6 +48,28 @@ glm::dvec3 towards_sun(const SunPosition& position, const glm::dvec3& north) {
     return math::sin(position.elevation) * up + math::cos(position.elevation) * (northward * north + eastward * east);
 }
 
+std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
+                                 const glm::dvec3& north) {
+    const GroundPlace place{latitude, 0, 0};
+    std::vector<glm::dvec3> directions;
+    for (const double day : days) {
+        const auto is_up = [&](double hour) { return sun_position(place, {2025, day, hour}).elevation > 0; };
+        // The sun passes the horizon between the dark hour and the light one.
+        const auto horizon = [&](double dark, double light) {
+            if (is_up(dark)) return dark;
+            for (int turn = 0; turn < 50; ++turn) (is_up((dark + light) / 2) ? light : dark) = (dark + light) / 2;
+            return light;
+        };
+        if (!is_up(12)) continue;
+        const double rise = horizon(0, 12), set = horizon(24, 12);
+        for (std::int64_t i = 0; i < samples; ++i) {
+            const double hour = rise + (set - rise) * (static_cast<double>(i) + 0.5) / static_cast<double>(samples);
+            directions.push_back(towards_sun(sun_position(place, {2025, day, hour}), north));
+        }
+    }
+    return directions;
+}
+
 double extraterrestrial_flux(const SunPosition& position) {
     return 1361 / (position.distance * position.distance);
 }

@@ -3,6 +3,10 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 namespace espalier::environment {
 
 /// Degrees, positive to the north and to the east; hours of civil time ahead of Greenwich.
@@ -28,6 +32,11 @@ SunPosition sun_position(const GroundPlace& place, const CivilTime& time);
 
 /// The unit vector towards the sun. `north` is horizontal and of unit length; y points up.
 glm::dvec3 towards_sun(const SunPosition& position, const glm::dvec3& north);
+
+/// Where the sun stands at `samples` times, evenly from sunrise to sunset of each day of 2025 by its number; nothing
+/// for days without a sunrise.
+std::vector<glm::dvec3> sun_path(double latitude, std::span<const double> days, std::int64_t samples,
+                                 const glm::dvec3& north);
 
 /// W/m2 on a plane across the light above the air: 1361 W/m2 (Kopp & Lean 2011) at one astronomical unit.
 double extraterrestrial_flux(const SunPosition& position);

@@ -31,9 +31,9 @@ public:
     explicit Table(const ExportJob& job) : job_(job) {}
 
     void add(const RecordedFrame& frame) {
-        const RecordedGeometry geometry = job_.run.geometry(frame);
+        const FrameGeometry geometry = job_.run.geometry(frame);
         if (text_.empty()) add_header(geometry);
-        for (const RecordedInternode& internode : internodes_of(geometry)) {
+        for (const FrameInternode& internode : internodes_of(geometry)) {
             if (wanted(internode.plant)) add_internode(frame, geometry, internode);
         }
         add_organs(frame, geometry);
@@ -51,7 +51,7 @@ private:
         fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
     }
 
-    void add_header(const RecordedGeometry& geometry) {
+    void add_header(const FrameGeometry& geometry) {
         text_ =
             "step,time,plant,name,kind,symbol,identity,parent,birth,order,colour,x,y,z,end_x,end_y,end_z,length,radius,"
             "area,volume";
@@ -62,7 +62,7 @@ private:
         text_ += '\n';
     }
 
-    void begin_row(const RecordedFrame& frame, const RecordedGeometry& geometry, const Described& of) {
+    void begin_row(const RecordedFrame& frame, const FrameGeometry& geometry, const Described& of) {
         put("{},{},{},{},{},{},{},{},{},{},{}", frame.step, format_exact(frame.time), of.plant,
             csv_text(job_.run.plants()[of.plant].name), of.kind, csv_text(geometry.symbol_names[of.symbol]),
             of.identity, of.parent, of.birth, of.order, of.colour);
@@ -75,7 +75,7 @@ private:
     }
 
     // A parameter the module has not is an empty cell.
-    void end_row(const RecordedGeometry& geometry, std::size_t point) {
+    void end_row(const FrameGeometry& geometry, std::size_t point) {
         for (const std::string& name : parameters_) {
             const auto column = geometry.parameters.find(name);
             text_ += ',';
@@ -85,8 +85,7 @@ private:
         text_ += '\n';
     }
 
-    void add_internode(const RecordedFrame& frame, const RecordedGeometry& geometry,
-                       const RecordedInternode& internode) {
+    void add_internode(const RecordedFrame& frame, const FrameGeometry& geometry, const FrameInternode& internode) {
         const auto point = static_cast<std::size_t>(internode.tip_point);
         begin_row(frame, geometry,
                   {"internode", internode.plant, internode.symbol, internode.order, internode.colour,
@@ -104,8 +103,8 @@ private:
 
     // Neighbouring polygons of one module are one organ; its place is its first corner, its end the farthest from
     // there.
-    void add_organs(const RecordedFrame& frame, const RecordedGeometry& geometry) {
-        const RecordedAttributes& of = geometry.of_cells;
+    void add_organs(const RecordedFrame& frame, const FrameGeometry& geometry) {
+        const FrameAttributes& of = geometry.of_cells;
         for (std::size_t cell = 0; cell < geometry.polygons.size();) {
             const std::size_t row = geometry.polygons.first + cell;
             std::size_t end = cell + 1;
@@ -119,7 +118,7 @@ private:
         }
     }
 
-    void add_organ(const RecordedFrame& frame, const RecordedGeometry& geometry, std::size_t first, std::size_t end) {
+    void add_organ(const RecordedFrame& frame, const FrameGeometry& geometry, std::size_t first, std::size_t end) {
         const std::size_t row = geometry.polygons.first + first;
         const auto corners = geometry.polygons[first];
         if (corners.empty()) return;
@@ -135,7 +134,7 @@ private:
             }
             area += glm::length(area_vector(polygon.size(), corner));
         }
-        const RecordedAttributes& of = geometry.of_cells;
+        const FrameAttributes& of = geometry.of_cells;
         begin_row(frame, geometry,
                   {"organ", of.plants[row], of.symbols[row], of.orders[row], of.colours[row], of.identities[row],
                    of.parents[row], of.births[row]});
@@ -146,8 +145,8 @@ private:
     }
 
     // What they were answered is a chosen parameter.
-    void add_queries(const RecordedFrame& frame, const RecordedGeometry& geometry) {
-        const RecordedAttributes& of = geometry.of_cells;
+    void add_queries(const RecordedFrame& frame, const FrameGeometry& geometry) {
+        const FrameAttributes& of = geometry.of_cells;
         for (std::size_t cell = 0; cell < geometry.vertices.size(); ++cell) {
             const std::size_t row = geometry.vertices.first + cell;
             const auto corners = geometry.vertices[cell];

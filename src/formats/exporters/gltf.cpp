@@ -126,7 +126,7 @@ public:
         : job_(job), frame_(frame), glb_(job.run), meshes_(glb_) {}
 
     ExportedFile write() {
-        const RecordedGeometry geometry = job_.geometry(frame_);
+        const FrameGeometry geometry = job_.geometry(frame_);
         add_wood(geometry);
         add_organs(geometry);
         std::vector<std::size_t> roots;
@@ -146,7 +146,7 @@ private:
         std::vector<glm::vec4> rotations;
     };
 
-    void add_wood(const RecordedGeometry& geometry) {
+    void add_wood(const FrameGeometry& geometry) {
         const FrameMesh mesh = tubes_of(geometry, standing(job_.options));
         for (const auto& [plant, own] : by_plant(mesh)) {
             vertices_ += own.points.size();
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    void add_organs(const RecordedGeometry& geometry) {
+    void add_organs(const FrameGeometry& geometry) {
         GrowthNodes nodes(standing(job_.options));
         nodes.add_organs(geometry);
         std::map<std::pair<std::uint32_t, std::size_t>, Places> places;  // by plant and mesh

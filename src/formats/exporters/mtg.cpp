@@ -89,7 +89,7 @@ private:
     }
 
     void add_internode(std::uint32_t axis, std::uint32_t number) {
-        const RecordedInternode& internode = tree_.internodes[number];
+        const FrameInternode& internode = tree_.internodes[number];
         const glm::vec3 tip = upright(internode.tip, job_.options.up);
         const std::uint32_t column = column_of_[axis];
         text_.append(column, '\t').append(code(axis, number)).append(width_ - column, '\t');

@@ -89,7 +89,7 @@ private:
 
     void begin_axis(std::uint32_t number, std::size_t depth) {
         const AxisTree::Axis& axis = tree_.axes[number];
-        const RecordedInternode& first = tree_.internodes[axis.first];
+        const FrameInternode& first = tree_.internodes[axis.first];
         double length = 0;
         for (std::uint32_t i = axis.first; i < axis.end; ++i) {
             length += glm::distance(tree_.internodes[i].base, tree_.internodes[i].tip);
@@ -104,7 +104,7 @@ private:
     }
 
     void add_geometry(const AxisTree::Axis& axis) {
-        const RecordedInternode& first = tree_.internodes[axis.first];
+        const FrameInternode& first = tree_.internodes[axis.first];
         put("        <geometry>\n          <polyline>\n");
         add_point(first.base);
         for (std::uint32_t i = axis.first; i < axis.end; ++i) add_point(tree_.internodes[i].tip);

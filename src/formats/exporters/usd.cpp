@@ -133,7 +133,7 @@ private:
 };
 
 /// The axes of every plant.
-std::vector<Curves> curves_of(const RecordedGeometry& geometry, const ExportJob& job) {
+std::vector<Curves> curves_of(const FrameGeometry& geometry, const ExportJob& job) {
     std::vector<Curves> result(job.run.plants().size());
     const float thinnest = thinnest_radius(geometry);
     for (const AxisPath& path : axis_paths(geometry, job.options)) {
@@ -195,7 +195,7 @@ private:
     bool is_wanted(std::uint32_t plant) const { return !job_.options.plant || *job_.options.plant == plant; }
 
     void add(const RecordedFrame& frame) {
-        const RecordedGeometry geometry = job_.geometry(frame);
+        const FrameGeometry geometry = job_.geometry(frame);
         std::vector<Curves> curves(plants_.size());
         if (!job_.mesh_axes) curves = curves_of(geometry, job_);
         std::map<std::uint32_t, FrameMesh> meshes = by_plant(mesh(geometry));
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    FrameMesh mesh(const RecordedGeometry& geometry) const {
+    FrameMesh mesh(const FrameGeometry& geometry) const {
         if (job_.instances) return job_.mesh_axes ? tubes_of(geometry, job_.options) : FrameMesh();
         return job_.mesh_axes ? mesh_of(geometry, job_.options) : surfaces_of(geometry, job_.options);
     }

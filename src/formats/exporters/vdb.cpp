@@ -49,7 +49,7 @@ const Registered<ExporterType> entry{
     {"vdb", "the recorded fields as OpenVDB grids, a file per frame and field",
      "The grid bears the field's name, with unit and meaning; equal fields give equal bytes.\n"
      "Blender and Houdini open it beside a mesh of the same frame",
-     construct<Vdb>}};
+     construct<Vdb>, /*of_fields=*/true}};
 
 }  // namespace
 }  // namespace espalier::formats

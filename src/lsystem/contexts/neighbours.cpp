@@ -163,12 +163,12 @@ void scan_both(const ContextSides& sides, const LetterId* letters, Section<std::
         lefts[i] = left;
         if (letter > Alphabet::close_bracket) {
             const bool keeps = left_codes[letter] == ContextSide::ignored;
-            *(keeps ? &pending.nobody : entry) = static_cast<std::uint8_t>(right_codes[letter]);
+            *(keeps ? &pending.no_module : entry) = static_cast<std::uint8_t>(right_codes[letter]);
             entry = keeps ? entry : rights + i;
             left = keeps ? left : static_cast<std::uint8_t>(left_codes[letter]);
         } else if (letter == Alphabet::open_bracket) {
             *top++ = {entry, left};
-            entry = &pending.nobody;
+            entry = &pending.no_module;
         } else {
             *entry = end_of_branch;
             if (top != base) {
@@ -218,7 +218,7 @@ void Neighbours::join_pending() {
             if (!branches.empty()) branches.pop_back();
         }
         const auto known = [&](std::uint8_t* end) {
-            return end == &pending.first ? entry : end == &pending.nobody ? nullptr : end;
+            return end == &pending.first ? entry : end == &pending.no_module ? nullptr : end;
         };
         if ((pending.branches.empty() ? pending.entry : pending.branches[0].entry) != &pending.first)
             enter(pending.first);

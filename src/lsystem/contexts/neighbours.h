@@ -57,9 +57,9 @@ struct alignas(64) PendingRight {
     Column<Branch> branches;        ///< branches begun in the part and not ended
     std::uint8_t* entry = nullptr;  ///< entry of the last module of the part
     std::vector<std::uint8_t>
-        firsts;               ///< right neighbours of modules before the part, and before branches that exits end
-    std::uint8_t first = 0;   ///< entry of a module before the part
-    std::uint8_t nobody = 0;  ///< entry of no module
+        firsts;                  ///< right neighbours of modules before the part, and before branches that exits end
+    std::uint8_t first = 0;      ///< entry of a module before the part
+    std::uint8_t no_module = 0;  ///< entry where no module stands
 };
 
 /// Neighbours of the modules of one string, in the columns that are asked for; memory is reused.

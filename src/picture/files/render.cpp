@@ -78,7 +78,7 @@ private:
         if (!unfolding_) unfolding_.emplace(job_.run.geometry(early), job_.run.geometry(late));
         RecordedFrame now = early;
         now.time = std::lerp(early.time, late.time, share);
-        painter_.stage().show(now, std::make_shared<RecordedGeometry>(unfolding_->at(share)));
+        painter_.stage().show(now, std::make_shared<FrameGeometry>(unfolding_->at(share)));
     }
 
     static bool is_empty(const StageSurvey& survey) { return survey.outline.empty() && !survey.has_labels; }

@@ -25,26 +25,24 @@ struct Array {
     const char* name;
     const char* title;
     bool is_category;
-    double (*value)(const RecordedGeometry&, int step, std::size_t point);
+    double (*value)(const FrameGeometry&, int step, std::size_t point);
 };
 
 constexpr Array arrays[] = {
     {"birth", "step of birth", false,
-     [](const RecordedGeometry& g, int, std::size_t i) { return double(g.of_points.births[i]); }},
+     [](const FrameGeometry& g, int, std::size_t i) { return double(g.of_points.births[i]); }},
     {"age", "age (steps)", false,
-     [](const RecordedGeometry& g, int step, std::size_t i) { return double(step - g.of_points.births[i]); }},
+     [](const FrameGeometry& g, int step, std::size_t i) { return double(step - g.of_points.births[i]); }},
     {"order", "order of branching", false,
-     [](const RecordedGeometry& g, int, std::size_t i) { return double(g.of_points.orders[i]); }},
-    {"radius", "radius (m)", false, [](const RecordedGeometry& g, int, std::size_t i) { return double(g.radii[i]); }},
-    {"height", "height (m)", false,
-     [](const RecordedGeometry& g, int, std::size_t i) { return double(g.points[i].y); }},
-    {"plant", "plant", true,
-     [](const RecordedGeometry& g, int, std::size_t i) { return double(g.of_points.plants[i]); }},
+     [](const FrameGeometry& g, int, std::size_t i) { return double(g.of_points.orders[i]); }},
+    {"radius", "radius (m)", false, [](const FrameGeometry& g, int, std::size_t i) { return double(g.radii[i]); }},
+    {"height", "height (m)", false, [](const FrameGeometry& g, int, std::size_t i) { return double(g.points[i].y); }},
+    {"plant", "plant", true, [](const FrameGeometry& g, int, std::size_t i) { return double(g.of_points.plants[i]); }},
     {"symbol", "symbol", true,
-     [](const RecordedGeometry& g, int, std::size_t i) { return double(g.of_points.symbols[i]); }},
-    {"kind", "kind", true, [](const RecordedGeometry& g, int, std::size_t i) { return double(g.of_points.kinds[i]); }},
+     [](const FrameGeometry& g, int, std::size_t i) { return double(g.of_points.symbols[i]); }},
+    {"kind", "kind", true, [](const FrameGeometry& g, int, std::size_t i) { return double(g.of_points.kinds[i]); }},
     {"colour", "colour", true,
-     [](const RecordedGeometry& g, int, std::size_t i) { return double(g.of_points.colours[i]); }},
+     [](const FrameGeometry& g, int, std::size_t i) { return double(g.of_points.colours[i]); }},
 };
 
 const Array* array_of(const std::string& name) {
@@ -60,7 +58,7 @@ std::vector<std::string> parameter_names(const RecordedRun& run) {
     const auto with_plants =
         std::find_if(frames.rbegin(), frames.rend(), [](const auto& frame) { return !frame.plants.empty(); });
     if (with_plants == frames.rend()) return names;
-    const RecordedGeometry geometry = run.geometry(*with_plants);
+    const FrameGeometry geometry = run.geometry(*with_plants);
     for (const auto& [name, values] : geometry.parameters) {
         const auto is_drawn = [&geometry, &values = values](std::size_t i) {
             return std::isfinite(values[i]) && geometry.of_points.kinds[i] != Kind::query;
@@ -119,7 +117,7 @@ bool Colouring::is_category() const {
 }
 
 std::vector<double> Colouring::values(const RecordedRun& run, const RecordedFrame& frame,
-                                      const RecordedGeometry& geometry) const {
+                                      const FrameGeometry& geometry) const {
     std::vector<double> values(geometry.points.size(), nothing);
     if (const Array* array = array_of(name_)) {
         for (std::size_t i = 0; i < values.size(); ++i) values[i] = array->value(geometry, frame.step, i);
@@ -134,8 +132,8 @@ std::vector<double> Colouring::values(const RecordedRun& run, const RecordedFram
     return values;
 }
 
-std::vector<Rgb> Colouring::colours(const RecordedRun& run, const RecordedFrame& frame,
-                                    const RecordedGeometry& geometry, const std::array<double, 2>& range) const {
+std::vector<Rgb> Colouring::colours(const RecordedRun& run, const RecordedFrame& frame, const FrameGeometry& geometry,
+                                    const std::array<double, 2>& range) const {
     std::vector<Rgb> colours(geometry.points.size());
     if (is_natural()) {
         for (std::size_t i = 0; i < colours.size(); ++i) colours[i] = colour_of(geometry.of_points, i);
@@ -155,14 +153,14 @@ std::vector<Rgb> Colouring::colours(const RecordedRun& run, const RecordedFrame&
     return colours;
 }
 
-std::string Colouring::name_of(const RecordedRun& run, const RecordedGeometry& geometry, std::size_t value) const {
+std::string Colouring::name_of(const RecordedRun& run, const FrameGeometry& geometry, std::size_t value) const {
     if (name_ == "plant") return run.plants().at(value).name;
     if (name_ == "symbol") return geometry.symbol_names.at(value);
     if (name_ == "kind") return kind_names[value];
     return std::to_string(value);
 }
 
-std::optional<ColourKey> Colouring::key(const RecordedRun& run, const RecordedGeometry& geometry,
+std::optional<ColourKey> Colouring::key(const RecordedRun& run, const FrameGeometry& geometry,
                                         const std::array<double, 2>& range) const {
     if (is_natural()) return std::nullopt;
     const Array* array = array_of(name_);

@@ -35,18 +35,17 @@ public:
     bool is_number() const { return !is_natural() && !is_category(); }
 
     /// A number per point of the frame; NaN where there is none.
-    std::vector<double> values(const RecordedRun& run, const RecordedFrame& frame,
-                               const RecordedGeometry& geometry) const;
+    std::vector<double> values(const RecordedRun& run, const RecordedFrame& frame, const FrameGeometry& geometry) const;
     /// A colour per point of the frame. `range`: of numbers.
-    std::vector<Rgb> colours(const RecordedRun& run, const RecordedFrame& frame, const RecordedGeometry& geometry,
+    std::vector<Rgb> colours(const RecordedRun& run, const RecordedFrame& frame, const FrameGeometry& geometry,
                              const std::array<double, 2>& range) const;
     /// None for natural colours, and for names too many for a key.
-    std::optional<ColourKey> key(const RecordedRun& run, const RecordedGeometry& geometry,
+    std::optional<ColourKey> key(const RecordedRun& run, const FrameGeometry& geometry,
                                  const std::array<double, 2>& range) const;
 
 private:
     bool is_category() const;
-    std::string name_of(const RecordedRun& run, const RecordedGeometry& geometry, std::size_t value) const;
+    std::string name_of(const RecordedRun& run, const FrameGeometry& geometry, std::size_t value) const;
 
     std::string name_;
     std::string field_;  ///< the field that is sampled, if it is one

@@ -53,10 +53,10 @@ std::string time_text(const RecordedRun& run, const RecordedFrame& frame) {
     return fmt::format("{} {:.6g}", run.time_unit(), frame.time);
 }
 
-std::shared_ptr<const RecordedGeometry> dressed(const RecordedGeometry& geometry, const std::string& bark) {
-    RecordedGeometry copy = geometry;
+std::shared_ptr<const FrameGeometry> dressed(const FrameGeometry& geometry, const std::string& bark) {
+    FrameGeometry copy = geometry;
     dress_axes(copy, bark);
-    return std::make_shared<RecordedGeometry>(std::move(copy));
+    return std::make_shared<FrameGeometry>(std::move(copy));
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ public:
     PictureStyle style_;
     std::optional<Colouring> colouring_;
     std::optional<RecordedFrame> frame_;
-    std::shared_ptr<const RecordedGeometry> geometry_ = std::make_shared<RecordedGeometry>();
+    std::shared_ptr<const FrameGeometry> geometry_ = std::make_shared<FrameGeometry>();
     std::optional<StageSurvey> survey_;  ///< what `settle` was given
     StageSurvey here_;                   ///< survey of the frame that is shown
     std::optional<Highlight> highlighted_;
@@ -106,20 +106,20 @@ public:
         if (frame_) rebuild();
     }
 
-    void show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry) {
+    void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry) {
         geometry_ = style_.bark.empty() ? std::move(geometry) : dressed(*geometry, style_.bark);
         frame_ = frame;
         rebuild();
     }
 
-    std::shared_ptr<const RecordedGeometry> load(const RecordedFrame& frame) const {
+    std::shared_ptr<const FrameGeometry> load(const RecordedFrame& frame) const {
         const bool is_here = frame_ && frame_->plants == frame.plants && !frame.plants.empty();
         if (is_here && style_.bark.empty()) return geometry_;
-        if (frame.plants.empty()) return std::make_shared<RecordedGeometry>();
-        return std::make_shared<RecordedGeometry>(run_->geometry(frame));
+        if (frame.plants.empty()) return std::make_shared<FrameGeometry>();
+        return std::make_shared<FrameGeometry>(run_->geometry(frame));
     }
 
-    void add_survey(const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) const {
+    void add_survey(const RecordedFrame& frame, const FrameGeometry& geometry, StageSurvey& survey) const {
         picture::add_survey(*run_, style_, *colouring_, frame, geometry, survey);
     }
 
@@ -158,13 +158,13 @@ public:
         for (const Part& part : parts_) add_highlight(part);
     }
 
-    const RecordedAttributes& attributes(const StageMesh& mesh) const {
+    const FrameAttributes& attributes(const StageMesh& mesh) const {
         return mesh.is_of_axes ? geometry_->of_points : geometry_->of_cells;
     }
 
     StageModule module_of(const StageMesh& mesh, std::size_t triangle) const {
         const std::size_t row = mesh.row_of_triangle[triangle];
-        const RecordedAttributes& of = attributes(mesh);
+        const FrameAttributes& of = attributes(mesh);
         StageModule module{of.plants[row], of.identities[row], row, mesh.is_of_axes, glm::dvec3(0)};
         for (std::size_t k = 0; k < 3; ++k) {
             const auto corner = static_cast<std::size_t>(corners_of(mesh)[3 * triangle + k]);
@@ -338,7 +338,7 @@ private:
     }
 
     void add_highlight(const Part& part) {
-        const RecordedAttributes& of = attributes(part.mesh);
+        const FrameAttributes& of = attributes(part.mesh);
         vtkNew<vtkCellArray> triangles;
         for (std::size_t i = 0; i < part.mesh.row_of_triangle.size(); ++i) {
             const std::size_t row = part.mesh.row_of_triangle[i];
@@ -380,7 +380,7 @@ void Stage::show(const RecordedFrame& frame) {
     body_->show(frame, body_->load(frame));
 }
 
-void Stage::show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry) {
+void Stage::show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry) {
     body_->show(frame, std::move(geometry));
 }
 
@@ -388,7 +388,7 @@ const RecordedFrame* Stage::shown() const {
     return body_->frame_ ? &*body_->frame_ : nullptr;
 }
 
-const RecordedGeometry& Stage::geometry() const {
+const FrameGeometry& Stage::geometry() const {
     return *body_->geometry_;
 }
 
@@ -398,7 +398,7 @@ StageSurvey Stage::survey(std::span<const RecordedFrame* const> frames) const {
     return survey;
 }
 
-StageSurvey Stage::survey(const RecordedFrame& frame, const RecordedGeometry& geometry) const {
+StageSurvey Stage::survey(const RecordedFrame& frame, const FrameGeometry& geometry) const {
     StageSurvey survey;
     body_->add_survey(frame, geometry, survey);
     return survey;
@@ -448,7 +448,7 @@ std::optional<StageModule> Stage::module_at(vtkProp* prop, vtkIdType cell) const
 std::vector<StageModule> Stage::places_of(std::uint32_t plant, std::uint64_t identity) const {
     std::vector<StageModule> places;
     for (const Body::Part& part : body_->parts_) {
-        const RecordedAttributes& of = body_->attributes(part.mesh);
+        const FrameAttributes& of = body_->attributes(part.mesh);
         std::map<std::size_t, std::pair<glm::dvec3, int>> middles;
         for (std::size_t i = 0; i < part.mesh.row_of_triangle.size(); ++i) {
             const std::size_t row = part.mesh.row_of_triangle[i];

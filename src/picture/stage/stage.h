@@ -64,15 +64,15 @@ public:
     /// Replaces what is shown. Throws UserError if files are damaged.
     void show(const RecordedFrame& frame);
     /// The same with plants that were read already, by another thread for instance.
-    void show(const RecordedFrame& frame, std::shared_ptr<const RecordedGeometry> geometry);
+    void show(const RecordedFrame& frame, std::shared_ptr<const FrameGeometry> geometry);
     const RecordedFrame* shown() const;
     /// What is shown; empty before `show`.
-    const RecordedGeometry& geometry() const;
+    const FrameGeometry& geometry() const;
 
     /// Reads frames for what they have in common. Without `settle`, colours and `place_camera` fit the frame that is
     /// shown; after it, from the next `show` on, what was surveyed.
     StageSurvey survey(std::span<const RecordedFrame* const> frames) const;
-    StageSurvey survey(const RecordedFrame& frame, const RecordedGeometry& geometry) const;
+    StageSurvey survey(const RecordedFrame& frame, const FrameGeometry& geometry) const;
     void settle(const StageSurvey& survey);
 
     const PictureStyle& style() const;

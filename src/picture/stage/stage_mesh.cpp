@@ -95,7 +95,7 @@ struct PlacedTube {
 };
 
 /// Outlines and other lines that are no axes.
-std::vector<AxisPath> outlines(const RecordedGeometry& geometry, const std::optional<std::uint32_t>& plant) {
+std::vector<AxisPath> outlines(const FrameGeometry& geometry, const std::optional<std::uint32_t>& plant) {
     std::vector<AxisPath> paths;
     for (std::size_t line = 0; line < geometry.lines.size(); ++line) {
         const std::size_t row = geometry.lines.first + line;
@@ -126,7 +126,7 @@ void cover(std::span<PlacedTube> tubes, const archive::AxisSkin& skin) {
     for (std::size_t i = 0; i < tubes.size(); ++i) tubes[i].patch = std::move(patches[i]);
 }
 
-std::vector<PlacedTube> placed_tubes(const RecordedGeometry& geometry, const StageMeshOptions& options) {
+std::vector<PlacedTube> placed_tubes(const FrameGeometry& geometry, const StageMeshOptions& options) {
     MeshOptions wanted;
     wanted.plant = options.plant;
     std::vector<PlacedTube> tubes;
@@ -188,7 +188,7 @@ StageMesh mesh_of(std::span<PlacedTube> tubes) {
 }
 
 /// A triangle fan's area, along its normal.
-glm::dvec3 area_of(const RecordedGeometry& geometry, std::size_t cell) {
+glm::dvec3 area_of(const FrameGeometry& geometry, std::size_t cell) {
     const auto corners = geometry.polygons[cell];
     const auto corner = [&](std::size_t k) {
         return glm::dvec3(geometry.points[static_cast<std::size_t>(corners[k])]);
@@ -197,8 +197,8 @@ glm::dvec3 area_of(const RecordedGeometry& geometry, std::size_t cell) {
 }
 
 /// How many cells from `cell` on belong to its module.
-std::size_t cells_of_module(const RecordedGeometry& geometry, std::size_t cell) {
-    const RecordedAttributes& of = geometry.of_cells;
+std::size_t cells_of_module(const FrameGeometry& geometry, std::size_t cell) {
+    const FrameAttributes& of = geometry.of_cells;
     const std::size_t row = geometry.polygons.first + cell;
     std::size_t count = 1;
     while (cell + count < geometry.polygons.size() && of.identities[row + count] == of.identities[row] &&
@@ -209,7 +209,7 @@ std::size_t cells_of_module(const RecordedGeometry& geometry, std::size_t cell) 
 }
 
 /// The areas of a closed surface cancel out; of anything that can be seen from behind they hardly do.
-bool is_closed(const RecordedGeometry& geometry, std::size_t cell, std::size_t count) {
+bool is_closed(const FrameGeometry& geometry, std::size_t cell, std::size_t count) {
     constexpr double rounding = 1e-4;
     glm::dvec3 sum(0);
     double all = 0;
@@ -222,7 +222,7 @@ bool is_closed(const RecordedGeometry& geometry, std::size_t cell, std::size_t c
 }
 
 /// The cells that wear one texture.
-StageMesh surface_of(const RecordedGeometry& geometry, const std::vector<std::size_t>& cells) {
+StageMesh surface_of(const FrameGeometry& geometry, const std::vector<std::size_t>& cells) {
     std::size_t points = 0, triangles = 0;
     for (const std::size_t cell : cells) {
         points += geometry.polygons[cell].size();
@@ -245,7 +245,7 @@ StageMesh surface_of(const RecordedGeometry& geometry, const std::vector<std::si
 
 }  // namespace
 
-std::vector<StageMesh> tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options) {
+std::vector<StageMesh> tubes_of(const FrameGeometry& geometry, const StageMeshOptions& options) {
     std::vector<PlacedTube> tubes = placed_tubes(geometry, options);
     std::vector<StageMesh> meshes;
     for (std::size_t first = 0, last = 0; first < tubes.size(); first = last) {
@@ -255,7 +255,7 @@ std::vector<StageMesh> tubes_of(const RecordedGeometry& geometry, const StageMes
     return meshes;
 }
 
-std::vector<StageMesh> surfaces_of(const RecordedGeometry& geometry, const StageMeshOptions& options) {
+std::vector<StageMesh> surfaces_of(const FrameGeometry& geometry, const StageMeshOptions& options) {
     std::map<std::pair<std::uint16_t, bool>, std::vector<std::size_t>> cells_with;
     for (std::size_t cell = 0, count = 0; cell < geometry.polygons.size(); cell += count) {
         count = cells_of_module(geometry, cell);

@@ -32,10 +32,10 @@ struct StageMeshOptions {
 };
 
 /// Axes, joined where one continues another, and outlines: a mesh for each texture.
-std::vector<StageMesh> tubes_of(const RecordedGeometry& geometry, const StageMeshOptions& options);
+std::vector<StageMesh> tubes_of(const FrameGeometry& geometry, const StageMeshOptions& options);
 
 /// Polygons and organs, a mesh for each texture, of what is thin and of what is closed.
-std::vector<StageMesh> surfaces_of(const RecordedGeometry& geometry, const StageMeshOptions& options);
+std::vector<StageMesh> surfaces_of(const FrameGeometry& geometry, const StageMeshOptions& options);
 
 std::span<const glm::vec3> points_of(const StageMesh& mesh);
 std::span<const glm::vec3> normals_of(const StageMesh& mesh);

@@ -10,7 +10,7 @@ void widen(std::array<double, 2>& range, const std::array<double, 2>& by) {
     range = {std::min(range[0], by[0]), std::max(range[1], by[1])};
 }
 
-void add_plants(const RecordedGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
+void add_plants(const FrameGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
     for (std::size_t i = 0; i < geometry.points.size(); ++i) {
         const Kind kind = geometry.of_points.kinds[i];
         if (plant && geometry.of_points.plants[i] != *plant) continue;
@@ -40,8 +40,8 @@ bool is_pale(const Rgb& rgb) {
     return 1.05 / (luminance(rgb) + 0.05) < least_contrast;
 }
 
-void add_colours(const RecordedGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
-    const auto add = [&](const RecordedAttributes& of, std::size_t row) {
+void add_colours(const FrameGeometry& geometry, const std::optional<std::uint32_t>& plant, StageSurvey& survey) {
+    const auto add = [&](const FrameAttributes& of, std::size_t row) {
         if (plant && of.plants[row] != *plant) return;
         ++survey.drawn;
         survey.pale += is_pale(of.rgb[row]);
@@ -67,7 +67,7 @@ void add_field(const RecordedField& field, StageSurvey& survey) {
 }  // namespace
 
 void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
-                const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey) {
+                const RecordedFrame& frame, const FrameGeometry& geometry, StageSurvey& survey) {
     add_plants(geometry, style.plant, survey);
     if (colouring.is_natural()) add_colours(geometry, style.plant, survey);
     if (colouring.is_number()) {

@@ -8,7 +8,7 @@ namespace espalier::picture {
 
 /// Adds what a style shows of a frame: its plants, the numbers they are coloured by, and its fields.
 void add_survey(const RecordedRun& run, const PictureStyle& style, const Colouring& colouring,
-                const RecordedFrame& frame, const RecordedGeometry& geometry, StageSurvey& survey);
+                const RecordedFrame& frame, const FrameGeometry& geometry, StageSurvey& survey);
 
 /// The background of the run's author; else a dark one where most colours are hardly seen on white, or `otherwise`.
 PictureBackground chosen_background(const RecordedRun& run, const StageSurvey& survey,

@@ -31,10 +31,10 @@ public:
     int steps_done() const { return std::max(steps_ - 1, 0); }
     /// `exit`: "running", "done", "interrupted", "failed: why".
     void write(const Timeline& timeline, const std::string& exit, double seconds) const;
-
-private:
+    /// Returns what write() writes.
     std::string json(const std::string& exit, double seconds) const;
 
+private:
     const World& world_;
     int planned_steps_;
     std::size_t memory_;

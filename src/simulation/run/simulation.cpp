@@ -36,7 +36,10 @@ public:
           record_(world_, options) {
         warn();
         if (!options.output.empty()) open_timeline();
-        if (!timeline_ || !timeline_->reads_plants()) world_.skip_geometry();
+        if (options.recorder) world_.attach(*options.recorder);
+        const bool reads_plants =
+            (timeline_ && timeline_->reads_plants()) || (options.recorder && options.recorder->reads_plants());
+        if (!reads_plants) world_.skip_geometry();
     }
 
     RunResult walk() {
@@ -44,14 +47,22 @@ public:
         try {
             cut_short = !grow();
             if (timeline_) timeline_->finish();
+            if (options_.recorder) options_.recorder->finish();
         } catch (const std::exception& error) {
             end_failed(error.what());
             throw;
         }
-        write_record(cut_short ? "interrupted" : "done");
+        const std::string exit = cut_short ? "interrupted" : "done";
+        write_record(exit);
         if (timeline_ && !cut_short) remove_checkpoint();
-        return {record_.steps_done(), world_.last_step(), cut_short,    world_.stopped(),
-                world_.modules(),     seconds(),          peak_memory()};
+        return {record_.steps_done(),
+                world_.last_step(),
+                cut_short,
+                world_.stopped(),
+                world_.modules(),
+                seconds(),
+                peak_memory(),
+                options_.recorder ? record_.json(exit, seconds()) : ""};
     }
 
 private:
@@ -109,7 +120,7 @@ private:
     }
 
     void write_checkpoint() {
-        const StopRequest::Scope nobody(nullptr);
+        const StopRequest::Scope no_request(nullptr);
         const double begin = seconds();
         std::ostringstream timeline;
         timeline_->save(timeline);

@@ -1,7 +1,10 @@
 #include "simulation/world/plant_memory.h"
 
+#include "geometry/drawn/columns.h"
+
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 namespace espalier::simulation {
 namespace {
@@ -16,12 +19,13 @@ std::size_t bytes_of(const Interpretation& interpretation) {
     const auto written = [&](const auto& column) {
         return column.size() < large ? held(column) : column.size() * sizeof(column[0]);
     };
-    const PlantGeometry& geometry = interpretation.geometry;
-    const DrawnMesh& mesh = geometry.mesh;
-    return written(geometry.internodes) + written(interpretation.queries) + written(interpretation.answers) +
-           held(interpretation.directions) + held(geometry.polygons) + held(geometry.vertices) + held(geometry.organs) +
-           held(mesh.vertices) + held(mesh.triangles) + held(mesh.pieces) + held(geometry.labels) +
-           held(geometry.textures);
+    std::size_t bytes =
+        written(interpretation.queries) + written(interpretation.answers) + held(interpretation.directions);
+    geometry::for_drawn_columns(interpretation.geometry, [&](const auto& column) {
+        constexpr bool is_counted = std::is_same_v<decltype(column), const Column<Internode>&>;
+        bytes += is_counted ? written(column) : held(column);
+    });
+    return bytes;
 }
 
 }  // namespace

@@ -212,13 +212,14 @@ void World::record() {
     state_->times.record = 0;
     if (state_->recorders.empty()) return;
     const Stopwatch stopwatch(state_->times.record);
-    const StopRequest::Scope nobody(nullptr);  // a frame is recorded whole
+    const StopRequest::Scope no_request(nullptr);  // a frame is recorded whole
     const Frame now = frame();
     for (Recorder* recorder : state_->recorders) recorder->record(now);
 }
 
 Frame World::frame() const {
-    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end()};
+    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end(),
+                state_->environment.get()};
     frame.plants.reserve(size());
     for (const GrowingPlant& plant : state_->plants) {
         frame.plants.push_back(plant.frame(state_->environment->statistics(plant.number)));

@@ -36,7 +36,8 @@ void FrameWriter::add(const Frame& frame, bool due) {
     start();
     const std::size_t bytes = KeptFrame::bytes(frame);
     std::unique_ptr<Job> job = make_room(bytes);
-    job->frame.take(frame, due ? std::span(fields_) : std::span<const std::string>());
+    const std::span<const std::string> none;
+    job->frame.take(frame, due ? std::span(fields_) : none, due ? std::span(organs_) : none);
     job->due = due;
     job->bytes = bytes;
     {

@@ -21,8 +21,9 @@ public:
     /// Called by the writing thread, frame after frame; `due`: as it was added.
     using Write = std::function<void(const Frame&, bool due)>;
 
-    /// `fields`: those that frames which are due are kept with.
-    FrameWriter(std::vector<std::string> fields, Write write) : fields_(std::move(fields)), write_(std::move(write)) {}
+    /// `fields`, `organs`: those that frames which are due are kept with.
+    FrameWriter(std::vector<std::string> fields, Write write, std::vector<std::string> organs = {})
+        : fields_(std::move(fields)), organs_(std::move(organs)), write_(std::move(write)) {}
     /// Waits until everything is written.
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
@@ -53,7 +54,7 @@ private:
     void work();
     std::exception_ptr attempt(const Job& job) const;
 
-    const std::vector<std::string> fields_;
+    const std::vector<std::string> fields_, organs_;
     const Write write_;
     std::mutex mutex_;
     std::condition_variable changed_;

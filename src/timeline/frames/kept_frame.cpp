@@ -1,5 +1,7 @@
 #include "timeline/frames/kept_frame.h"
 
+#include "geometry/drawn/columns.h"
+
 #include <algorithm>
 
 namespace espalier::timeline {
@@ -11,18 +13,22 @@ std::size_t bytes_of(const Values& values) {
 }
 
 std::size_t bytes_of(const PlantGeometry& geometry) {
-    return bytes_of(geometry.internodes) + bytes_of(geometry.polygons) + bytes_of(geometry.vertices) +
-           bytes_of(geometry.organs) + bytes_of(geometry.mesh.vertices) + bytes_of(geometry.mesh.triangles) +
-           bytes_of(geometry.mesh.pieces) + bytes_of(geometry.labels) + bytes_of(geometry.textures);
+    std::size_t bytes = 0;
+    geometry::for_drawn_columns(geometry, [&bytes](const auto& column) { bytes += bytes_of(column); });
+    return bytes;
 }
 
 }  // namespace
 
-void KeptFrame::take(const Frame& frame, std::span<const std::string> fields) {
+void KeptFrame::take(const Frame& frame, std::span<const std::string> fields, std::span<const std::string> organs) {
     frame_ = frame;
     frame_.fields = &fields_;
     fields_ = {};
     if (frame.fields) take_fields(*frame.fields, fields);
+    if (!frame.environment) return;
+    for (PlantFrame& plant : frame_.plants) {
+        for (const std::string& name : organs) plant.organs[name] = frame.environment->organ_values(name, plant.plant);
+    }
 }
 
 void KeptFrame::take_fields(const Fields& all, std::span<const std::string> wanted) {

@@ -13,8 +13,9 @@ namespace espalier::timeline {
 /// write into what a frame holds.
 class KeptFrame {
 public:
-    /// With these of its fields; {"all"}, or the name of one that is not there, stands for all of them.
-    void take(const Frame& frame, std::span<const std::string> fields);
+    /// With these of its fields; {"all"}, or the name of one that is not there, stands for all of them. `organs`: what
+    /// its plants are to know of their organs.
+    void take(const Frame& frame, std::span<const std::string> fields, std::span<const std::string> organs = {});
     /// Valid until the next is taken, or this one released.
     const Frame& frame() const { return frame_; }
     /// Holds nothing of the frame any longer.

@@ -12,6 +12,7 @@
 #include <cctype>
 #include <cmath>
 #include <exception>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -133,17 +134,18 @@ void Timeline::make_recorders(Settings& table) {
         if (auto recorder = type->make(table, context)) recorders_.push_back(std::move(recorder));
     }
     table.reject_unread();
-    std::vector<std::string> fields;
+    std::vector<std::string> fields, organs;
     for (const auto& recorder : recorders_) {
         sees_every_step_ = sees_every_step_ || recorder->sees_every_step();
-        const std::vector<std::string> wanted = recorder->fields();
-        fields.insert(fields.end(), wanted.begin(), wanted.end());
+        std::ranges::copy(recorder->fields(), std::back_inserter(fields));
+        std::ranges::copy(recorder->organs(), std::back_inserter(organs));
     }
-    writer_ = std::make_unique<FrameWriter>(std::move(fields), [this](const Frame& frame, bool due) {
+    const auto write = [this](const Frame& frame, bool due) {
         for (const auto& recorder : recorders_) {
             if (due || recorder->sees_every_step()) recorder->record(frame);
         }
-    });
+    };
+    writer_ = std::make_unique<FrameWriter>(std::move(fields), write, std::move(organs));
 }
 
 Timeline::~Timeline() = default;

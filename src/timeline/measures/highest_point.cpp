@@ -1,6 +1,6 @@
 #include "timeline/measures/highest_point.h"
 
-#include "timeline/meshes/organ_mesh.h"
+#include "geometry/drawn/organ_mesh.h"
 
 #include <glm/geometric.hpp>
 

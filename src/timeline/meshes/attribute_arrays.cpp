@@ -26,13 +26,23 @@ void for_each_owner(const Owners& owners, const Visit& visit) {
     }
 }
 
-/// How a file is reached from a folder; both are relative to the current one, or absolute.
-std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+/// Of a frame that is not kept the environment knows them still.
+std::shared_ptr<const std::vector<float>> organ_values(const PlantFrame& plant, const std::string& name,
+                                                       const Environment* environment) {
+    const auto kept = plant.organs.find(name);
+    if (kept != plant.organs.end()) return kept->second;
+    return environment ? environment->organ_values(name, plant.plant) : nullptr;
+}
+
+/// How a file is reached from a folder; both are relative to the current one, or absolute. Without a folder the whole
+/// path.
+std::string name_from(const std::optional<std::filesystem::path>& folder, const std::filesystem::path& file) {
     if (file.empty()) return "";
     const auto whole = [](const std::filesystem::path& path) {
         return std::filesystem::absolute(path).lexically_normal();
     };
-    return whole(file).lexically_relative(whole(folder.empty() ? "." : folder)).generic_string();
+    if (!folder) return whole(file).generic_string();
+    return whole(file).lexically_relative(whole(folder->empty() ? "." : *folder)).generic_string();
 }
 
 }  // namespace
@@ -58,6 +68,12 @@ DataArray OwnerArrays::operator[](std::size_t i) const {
     DataArray data = arrays_[i].data;
     data.changed = arrays_[i].changed;
     return data;
+}
+
+const OwnerArrays::Array* OwnerArrays::find(std::string_view name) const {
+    const auto end = arrays_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto found = std::find_if(arrays_.begin(), end, [&](const Array& array) { return array.data.name == name; });
+    return found == end ? nullptr : &*found;
 }
 
 bool OwnerArrays::changed() const {
@@ -100,7 +116,8 @@ void AttributeArrays::add_attributes(OwnerArrays& arrays, const Owners& owners) 
     });
 }
 
-void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners, const std::filesystem::path& folder,
+void AttributeArrays::add_looks(OwnerArrays& arrays, const Owners& owners,
+                                const std::optional<std::filesystem::path>& folder,
                                 std::vector<std::string>& texture_files) const {
     // Texture k of a plant is file numbers[k] of the run, whose file 0 is none.
     if (texture_files.empty()) texture_files.emplace_back();
@@ -154,6 +171,24 @@ void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) 
             const int slot = plant.slots[k].find(string, owner.module);
             values.put(i, slot < 0 ? std::numeric_limits<double>::quiet_NaN()
                                    : string.parameters[plant.offsets[owner.module] + static_cast<std::size_t>(slot)]);
+        });
+    }
+}
+
+void AttributeArrays::add_organs(OwnerArrays& arrays, const Owners& owners, const Environment* environment,
+                                 std::span<const OrganQuantity> quantities) const {
+    for (const OrganQuantity& quantity : quantities) {
+        const auto components = static_cast<std::size_t>(quantity.components);
+        std::vector<std::shared_ptr<const std::vector<float>>> known;
+        for (const Plant& plant : plants_) known.push_back(organ_values(*plant.frame, quantity.name, environment));
+        const auto values = arrays.append<float>(quantity.name, owners, quantity.components);
+        for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
+            const std::vector<float>* const of_plant = known[owner.plant].get();
+            for (std::size_t k = 0; k < components; ++k) {
+                const std::size_t at = components * owner.module + k;
+                const bool has_value = of_plant && at < of_plant->size();
+                values.put(components * i + k, has_value ? (*of_plant)[at] : std::numeric_limits<float>::quiet_NaN());
+            }
         });
     }
 }

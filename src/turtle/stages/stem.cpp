@@ -2,7 +2,7 @@
 // Brzoska 2019, sections 5.1 and 5.2.1: another length moves the crown by one vector and grows nothing again.
 #include "espalier/turtle/geometry_stage.h"
 
-#include "geometry/rigid_motion.h"
+#include "geometry/drawn/rigid_motion.h"
 
 #include <glm/geometric.hpp>
 

@@ -5,7 +5,7 @@
 #include "espalier/base/math.h"
 #include "espalier/turtle/geometry_stage.h"
 
-#include "geometry/rigid_motion.h"
+#include "geometry/drawn/rigid_motion.h"
 #include "geometry/vectors.h"
 #include "turtle/internode_bearers.h"
 

@@ -2,7 +2,7 @@
 #include "espalier/turtle/background.h"
 
 #include "base/text_cursor.h"
-#include "geometry/rigid_motion.h"
+#include "geometry/drawn/rigid_motion.h"
 #include "language/preprocessor/preprocessed_text.h"
 #include "turtle/view_file/background_solids.h"
 

@@ -2,7 +2,7 @@
 #include "espalier/turtle/walk.h"
 
 #include "base/text.h"
-#include "geometry/drawn_bounds.h"
+#include "geometry/drawn/bounds.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

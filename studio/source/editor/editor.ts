@@ -350,8 +350,8 @@ export class Editor {
         const line = doc.line(Math.min(Math.max(1, problem.line), doc.lines));
         const from = Math.min(line.to, line.from + Math.max(0, problem.column - 1));
         const word = /^\s*[\w@.]+|^\s*\S/.exec(doc.sliceString(from, line.to));
-        const severity = problem.severity === "note" ? "info" : problem.severity;
-        return { from, to: Math.min(line.to, from + Math.max(1, word?.[0].length ?? 1)), severity, message: problem.message };
+        const to = Math.min(line.to, from + Math.max(1, word?.[0].length ?? 1));
+        return { from, to, severity: problem.severity, message: problem.message };
       });
     this.view.dispatch(setDiagnostics(this.view.state, diagnostics));
   }

@@ -16,7 +16,7 @@ function numbersOf(line: string): number[] {
   return line.trim().split(/\s+/).map(Number);
 }
 
-function valueOf(lines: readonly string[], from: number, key: string): { line: number; value: string } | null {
+function settingIn(lines: readonly string[], from: number, key: string): { line: number; value: string } | null {
   for (let i = from; i < lines.length; i++) {
     if (!lines[i].startsWith(key)) continue;
     return { line: i, value: lines[i].slice(key.length).trim() };
@@ -46,7 +46,7 @@ function writer(body: Body, countText: (points: readonly Point[]) => string, lin
 }
 
 function readFunction(lines: string[], from: number): PointFile | null {
-  const found = valueOf(lines, from, "points:");
+  const found = settingIn(lines, from, "points:");
   if (!found) return null;
   const count = Number(found.value);
   const rows = lines.slice(found.line + 1, found.line + 1 + count).map(numbersOf);
@@ -54,7 +54,7 @@ function readFunction(lines: string[], from: number): PointFile | null {
   const body = { lines, countLine: found.line, first: found.line + 1, count };
   const withTimes = rows.some((row) => row.length > 2);
   return {
-    name: valueOf(lines, from, "name:")?.value || "function",
+    name: settingIn(lines, from, "name:")?.value || "function",
     kind: "function",
     closed: false,
     points: rows.map(([x, y, times]) => ({ x, y, z: 0, times: times ?? 1 })),
@@ -68,8 +68,8 @@ function readFunction(lines: string[], from: number): PointFile | null {
 }
 
 function readContour(lines: string[]): PointFile | null {
-  const found = valueOf(lines, 0, "points:");
-  const type = valueOf(lines, 0, "type:");
+  const found = settingIn(lines, 0, "points:");
+  const type = settingIn(lines, 0, "type:");
   if (!found || !type) return null;
   const count = numbersOf(found.value)[0];
   let first = type.line + 1;
@@ -79,7 +79,7 @@ function readContour(lines: string[]): PointFile | null {
   const closed = type.value.startsWith("c");
   const total = (points: readonly Point[]) => points.reduce((sum, { times }) => sum + times, 0);
   return {
-    name: valueOf(lines, 0, "name:")?.value || "contour",
+    name: settingIn(lines, 0, "name:")?.value || "contour",
     kind: "contour",
     closed,
     points: rows.map(([x, y, z, times]) => ({ x, y, z, times: times ?? 1 })),
@@ -93,10 +93,10 @@ function readContour(lines: string[]): PointFile | null {
 }
 
 function readCurve(lines: string[]): PointFile | null {
-  const found = valueOf(lines, 0, "points:");
-  const type = valueOf(lines, 0, "type:");
+  const found = settingIn(lines, 0, "points:");
+  const type = settingIn(lines, 0, "type:");
   if (!found || !type) return null;
-  const dimension = Number((valueOf(lines, 0, "dimension:") ?? valueOf(lines, 0, "dim:"))?.value ?? 2);
+  const dimension = Number((settingIn(lines, 0, "dimension:") ?? settingIn(lines, 0, "dim:"))?.value ?? 2);
   const count = Number(found.value);
   let first = type.line + 1;
   while (first < lines.length && !/^\s*[-+.\d]/.test(lines[first])) first++;

@@ -22,7 +22,7 @@ function patchesOf(text: string): Patch[] {
     const from = match.index + match[0].length - match[1].length;
     const before = text.slice(0, match.index);
     const name =
-      /(\S+)\s+TOP COLOR:[^]*$/.exec(before.slice(before.lastIndexOf("TOP COLOR:") - 80))?.[1] ?? `patch ${patches.length + 1}`;
+      /(\S+)\s+TOP COLOR:[\s\S]*$/.exec(before.slice(before.lastIndexOf("TOP COLOR:") - 80))?.[1] ?? `patch ${patches.length + 1}`;
     const points = Array.from({ length: 16 }, (_, i): Triple => [values[3 * i], values[3 * i + 1], values[3 * i + 2]]);
     patches.push({ name, from, to: from + match[1].length, points });
   }

@@ -15,7 +15,7 @@ const separators = /[\s,]/;
 /** The text with blanks instead of comments and lines of the preprocessor, so that places stay. */
 function bare(text: string): string {
   const blank = (part: string) => part.replace(/[^\n]/g, " ");
-  return text.replace(/\/\*[^]*?\*\/|\/\/[^\n]*/g, blank).replace(/^[ \t]*#.*$/gm, blank);
+  return text.replace(/\/\*[\s\S]*?\*\/|\/\/[^\n]*/g, blank).replace(/^[ \t]*#.*$/gm, blank);
 }
 
 function countOf(setting: ViewSetting): number {

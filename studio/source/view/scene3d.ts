@@ -3,9 +3,9 @@ import {
   Matrix4,
   OrthographicCamera,
   Scene,
-  Vector2,
+  type Vector2,
   Vector3,
-  Vector4,
+  type Vector4,
   WebGLRenderer,
   WebGLRenderTarget,
   type Camera,
@@ -303,12 +303,23 @@ export class PlantScene {
   request(): void {
     if (this.requested) return;
     this.requested = true;
+    this.noteRest(false);
     requestAnimationFrame(() => {
       this.requested = false;
       if (this.software) this.drawFastThenFine();
-      else this.draw();
+      else this.drawFine();
       this.drawn?.();
     });
+  }
+
+  private drawFine(): void {
+    this.draw();
+    this.noteRest(!this.requested);
+  }
+
+  /** Tells in the page whether the picture is as it will stay. */
+  private noteRest(rests: boolean): void {
+    this.canvas.toggleAttribute("data-draws", !rests);
   }
 
   /** Without a graphics card, smooth edges wait until the picture rests. */
@@ -316,10 +327,10 @@ export class PlantScene {
     this.setRatio(1);
     this.draw();
     clearTimeout(this.restTimer);
-    if (this.steady) return;
+    if (this.steady) return this.noteRest(!this.requested);
     this.restTimer = window.setTimeout(() => {
       this.setRatio(2);
-      this.draw();
+      this.drawFine();
     }, 300);
   }
 

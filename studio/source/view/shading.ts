@@ -25,7 +25,7 @@ import {
 import { mapTexture, type Theme } from "./colours.js";
 
 /** What a pass draws. */
-export const enum Pass {
+export enum Pass {
   picture = 0,
   identity = 1,
   shadow = 2,

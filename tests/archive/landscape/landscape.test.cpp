@@ -137,5 +137,5 @@ TEST_CASE("the internodes of a frame are the plants of a stand: place, radius an
     CHECK(stand[0].radius == Approx(1.25));
     plant.interpretation.geometry.internodes.back().base_radius = 0;
     CHECK_THROWS_WITH(stand_of(recorded(plant)), Contains("no radius"));
-    CHECK_THROWS_WITH(stand_of(RecordedGeometry()), Contains("no plants"));
+    CHECK_THROWS_WITH(stand_of(FrameGeometry()), Contains("no plants"));
 }

@@ -7,7 +7,7 @@
 
 namespace espalier {
 
-inline RecordedGeometry recorded(const HandmadePlant& plant) {
+inline FrameGeometry recorded(const HandmadePlant& plant) {
     RunFolder folder;
     Timeline timeline(folder.path, timeline_table(), 0);
     record(timeline, 0, {&plant});

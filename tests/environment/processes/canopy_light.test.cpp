@@ -22,7 +22,8 @@ Environment light_of(const std::string& lines, const Box& domain = {{0, 0, 0}, {
     EnvironmentContext context;
     context.domain = domain;
     context.plants = 2;
-    return environment_of("[light]\nprocess = \"canopy-light\"\n" + lines, context);
+    const std::string black = "bands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n";
+    return environment_of("[light]\nprocess = \"canopy-light\"\n" + black + lines, context);
 }
 
 double statistic(const Environment& environment, const std::string& name, std::uint32_t plant = 0) {

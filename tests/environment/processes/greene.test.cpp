@@ -2,6 +2,7 @@
 #include "environment/exchange_plants.h"
 #include "environment/shade/exposure.h"
 #include "environment/shapes/tables.h"
+#include "environment/sky/sun.h"
 
 #include <glm/geometric.hpp>
 
@@ -100,9 +101,21 @@ TEST_CASE("the sun stands highest at noon, and its days are long in summer", "[g
         }
         return std::asin(most) * 180 / 3.14159265358979;
     };
-    CHECK(highest(sun_path(50, solstice, 1001, {0, 0, -1})) == Approx(90 - 50 + 23.45).margin(0.01));
-    CHECK(highest(sun_path(50, winter, 1001, {0, 0, -1})) == Approx(90 - 50 - 23.45).margin(0.05));
+    CHECK(highest(sun_path(50, solstice, 1001, {0, 0, -1})) == Approx(90 - 50 + 23.44).margin(0.01));
+    CHECK(highest(sun_path(50, winter, 1001, {0, 0, -1})) == Approx(90 - 50 - 23.44).margin(0.05));
     CHECK(sun_path(80, winter, 100, {0, 0, -1}).empty());  // polar night
+}
+
+TEST_CASE("with a table of the sky, exposure is the share of its photons that are seen", "[greene]") {
+    const std::string sky = "sky = { par = 1000, diffuse = 0.4, sun = [0, 1, 1], radiance = 'uniform', rings = 8 }\n";
+    CHECK(light_at(far_ball, {0, 1, 0}, sky).x == Approx(1));
+    // From the south of the wall the sun and half of the sky are seen, from the north the other half.
+    const double sun = 0.6 / std::sqrt(0.5), whole_sky = 2 * 0.4;  // fluence of the light on level ground
+    const glm::dvec3 south = light_at(wall, {0, 0.001, 0.102}, sky), north = light_at(wall, {0, 0.001, -0.102}, sky);
+    CHECK(south.x == Approx((sun + whole_sky / 2) / (sun + whole_sky)).margin(0.01));
+    CHECK(north.x == Approx(whole_sky / 2 / (sun + whole_sky)).margin(0.01));
+    CHECK(north.y == 0);
+    CHECK(lacks(message_of([&] { light_at(wall, {0, 1, 1}, "sky = { par = 0 }\n"); }), {"without light"}) == "");
 }
 
 TEST_CASE("a vine keeps outside the solid, near its surface and above the ground", "[greene]") {

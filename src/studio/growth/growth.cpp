@@ -1,0 +1,390 @@
+#include "studio/growth/growth.h"
+
+#include "espalier/simulation/simulation.h"
+
+#include "studio/growth/derivation_length.h"
+#include "studio/growth/inquiry.h"
+#include "studio/growth/reuse_plan.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <utility>
+
+namespace espalier::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Diagnostic> said(const std::string& message) {
+    Diagnostic diagnostic;
+    diagnostic.message = message;
+    return {diagnostic};
+}
+
+std::vector<Diagnostic> diagnostics_of(const std::exception& error) {
+    if (const auto* user = dynamic_cast<const UserError*>(&error)) return user->diagnostics();
+    return said(error.what());
+}
+
+std::unique_ptr<Recorder> statistics_of(const World& world, const fs::path& folder) {
+    Settings settings;
+    return registered<RecorderType>().at("statistics")->make(settings, {folder, world.last_step()});
+}
+
+std::string rows_behind(const fs::path& file, std::size_t offset) {
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(static_cast<std::streamoff>(offset));
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Seconds that a growth may go on before it shows a step.
+constexpr double most_unseen = 0.3;
+
+}  // namespace
+
+/// What the growth is at; of its own thread.
+struct Growth::Work {
+    Work(const Scene& grown, const fs::path& folder, std::shared_ptr<Printout> prints)
+        : scene(grown),
+          files(folder),
+          printout(std::move(prints)),
+          world(grown, default_memory(), folder, printout),
+          statistics(statistics_of(world, folder)),
+          statistics_file(folder / "statistics.csv") {}
+
+    /// The rows that the frame adds.
+    std::string record(const Frame& frame) {
+        statistics->record(frame);
+        std::string rows = rows_behind(statistics_file, statistics_read);
+        statistics_read += rows.size();
+        return rows;
+    }
+
+    /// Instead of one that was left in the midst of a step.
+    void renew_world() {
+        world = World(scene, default_memory(), files, printout);
+        at = -1;
+    }
+
+    const Scene& scene;
+    const fs::path files;
+    const std::shared_ptr<Printout> printout;
+    World world;
+    std::unique_ptr<Recorder> statistics;
+    fs::path statistics_file;
+    std::size_t statistics_read = 0;
+    std::shared_ptr<const Origin> origin;  ///< null: what is drawn comes back to the strings
+    int at = -1;                           ///< the step that the world is at
+    int derived = -1;                      ///< the last step that there is
+    int own_steps = 0;                     ///< that were derived here
+    int drawn = -1;                        ///< up to it all steps have been drawn in order, with their statistics
+    int told = -1;                         ///< the last step that the listener knows
+    bool is_ended = false;                 ///< the model has stopped
+    bool told_stop = false;
+    bool is_deriving = false;
+    bool is_whole = true;        ///< the world is not in the midst of a step
+    bool draws_in_order = true;  ///< until it was told to stop while it did
+};
+
+Growth::Growth(GrowthOrder order, GrowthListener& listener, Workers& workers)
+    : order_(std::move(order)),
+      listener_(listener),
+      printed_([this](std::string text) {
+          if (!cancelled_) listener_.printed(number(), std::move(text));
+      }),
+      steps_(std::make_shared<KeptSteps>(order_.number, order_.scratch / fmt::format("growth-{}", order_.number))),
+      fields_(order_.number, order_.scratch / fmt::format("fields-{}", order_.number)),
+      version_(order_.version),
+      wanted_(order_.looked_at),
+      ended_(workers.run([this] { live(); })) {}
+
+Growth::~Growth() {
+    cancel();
+    ended_.wait();
+    std::error_code ignored;
+    fs::remove_all(order_.scratch / fmt::format("files-{}", order_.number), ignored);
+}
+
+std::shared_ptr<const Scene> Growth::scene() const {
+    const std::lock_guard lock(mutex_);
+    return scene_;
+}
+
+double Growth::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void Growth::cancel() {
+    cancelled_ = true;
+    request_.ask();
+    const std::lock_guard lock(mutex_);
+    changed_.notify_all();
+}
+
+bool Growth::extend(int last_step, std::uint64_t version) {
+    if (!may_extend_ || last_step < last_step_) return false;
+    const std::lock_guard lock(mutex_);
+    version_ = version;
+    last_step_ = last_step;
+    stopped_ = false;
+    request_.withdraw();
+    changed_.notify_all();
+    return true;
+}
+
+void Growth::stop() {
+    stopped_ = true;
+    request_.ask(patience_with_steps);
+}
+
+std::vector<std::string> Growth::column_names() const {
+    return studio::column_names(*scene());
+}
+
+std::string Growth::column(int step, const std::string& name) const {
+    return studio::column(*scene(), *steps_, number(), step, name);
+}
+
+Picked Growth::module_info(int step, std::uint32_t module) const {
+    return studio::module_info(*scene(), *steps_, step, module);
+}
+
+void Growth::rest(bool rests) {
+    const std::lock_guard lock(mutex_);
+    rests_ = rests;
+    changed_.notify_all();
+}
+
+void Growth::draw(int step) {
+    const std::lock_guard lock(mutex_);
+    wanted_.insert(step);
+    changed_.notify_all();
+}
+
+void Growth::live() {
+    const StopRequest::Scope scope(&request_);
+    try {
+        const ReadLog reads(std::size_t(64) << 20, order_.unsaved, order_.permission);
+        const Scene scene = order_.read(order_.opened);
+        note_texture_files(scene);
+        GrowthStart start;
+        start.warnings = scene.notes.diagnostics;
+        if (cancelled_) return;
+        const fs::path folder = order_.scratch / fmt::format("files-{}", number());
+        fs::create_directories(folder);
+        Work work(scene, folder, printed_.printout());
+        start.files = reads.files();  // processes have read theirs, such as meshes
+        begin(work, std::move(start));
+        grow(work);
+    } catch (const Stopped&) {
+        printed_.send();
+        if (!cancelled_) listener_.failed(number(), said("it was stopped before the first step"));
+    } catch (const std::bad_alloc&) {
+        if (!cancelled_) listener_.failed(number(), said("the machine has no memory left"));
+    } catch (const std::exception& error) {
+        printed_.send();
+        if (!cancelled_) listener_.failed(number(), diagnostics_of(error));
+    }
+}
+
+void Growth::begin(Work& work, GrowthStart start) {
+    World& world = work.world;
+    last_step_ = world.last_step();
+    may_extend_ = !depends_on_length(world.scene());
+    if (draws_apart(world.scene())) {
+        work.origin = std::make_shared<const Origin>(Origin{world.scene(), start.files, last_step_});
+        steps_->expect(world.scene());
+    }
+    if (may_extend_) world.set_steps(most_steps);
+    if (work.origin && order_.before) work.derived = steps_->inherit(*order_.before, *work.origin);
+    {
+        const std::lock_guard lock(mutex_);
+        scene_ = std::make_shared<const Scene>(world.scene());
+    }
+    for (const Plant& plant : world.scene().plants) start.plants.push_back(plant.name);
+    for (const auto& [name, field] : world.environment().fields().all()) {
+        start.fields.push_back({name, field.unit, field.meaning});
+    }
+    start.last_step = last_step_;
+    start.seed = world.scene().seed;
+    listener_.started(number(), std::move(start));
+    if (work.derived >= 0) go_to(work, work.derived);
+    work.is_ended = world.stopped();
+}
+
+void Growth::grow(Work& work) {
+    while (!cancelled_) {
+        printed_.send();
+        try {
+            if (advance(work)) continue;
+        } catch (const Stopped&) {
+            drop(work);
+            continue;
+        }
+        const bool is_over = work.is_ended || work.derived >= last_step_;
+        if (!is_over && !std::exchange(work.told_stop, true)) listener_.stopped(number());
+        wait_for_more(work);
+    }
+}
+
+// It was meant for other work than what follows; not so a request by cancel().
+void Growth::forget_stop() {
+    request_.withdraw();
+    if (cancelled_) request_.ask();
+}
+
+// The step at hand, or its picture. Of a world with processes nothing remains to go on from.
+void Growth::drop(Work& work) {
+    if (cancelled_) return;
+    forget_stop();
+    if (!std::exchange(work.is_deriving, false)) work.draws_in_order = false;
+    if (work.origin) {
+        work.renew_world();
+        if (may_extend_) work.world.set_steps(most_steps);
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    may_extend_ = work.is_whole = false;
+    stopped_ = true;
+}
+
+bool Growth::may_grow(const Work& work) const {
+    return !stopped_ && !work.is_ended && work.derived < last_step_;
+}
+
+// One piece of work; false if there is none.
+bool Growth::advance(Work& work) {
+    const bool grows = may_grow(work);
+    if (!grows && stopped_) forget_stop();  // what was derived is still drawn
+    if (!work.origin) {
+        forget_wanted();
+        if (grows) step(work);
+        return grows;
+    }
+    const bool is_unseen = work.derived < order_.unseen_to && seconds() < most_unseen;
+    if (grows && (is_unseen || work.drawn == work.derived)) {
+        derive(work);
+        return true;
+    }
+    if (draw_wanted(work)) return true;
+    if (!may_draw_in_order(work)) return false;
+    draw_in_order(work);
+    return true;
+}
+
+void Growth::note_derived(Work& work) {
+    work.at = work.derived = work.world.steps_done();
+    ++work.own_steps;
+    work.is_ended = work.world.stopped();
+    work.told_stop = false;
+    work.draws_in_order = true;
+    if (!may_extend_) last_step_ = work.world.last_step();  // models may change it
+}
+
+void Growth::step(Work& work) {
+    if (work.derived < 0) {
+        work.world.start();
+    } else {
+        work.world.step();
+    }
+    note_derived(work);
+    const Frame frame = work.world.frame();
+    std::string rows = work.record(frame);
+    fields_.add(work.world.environment().fields(), work.at);
+    note_grown(work, steps_->add(frame), std::move(rows));
+}
+
+void Growth::derive(Work& work) {
+    work.is_deriving = true;
+    go_to(work, work.derived);
+    if (work.derived < 0) {
+        work.world.write_axioms();
+    } else {
+        work.world.derive();
+    }
+    work.is_deriving = false;
+    note_derived(work);
+    steps_->add_derived(work.world.derived(), work.origin);
+}
+
+void Growth::go_to(Work& work, int step) {
+    if (work.at != step) work.world.take(steps_->derived(step));
+    work.at = step;
+}
+
+// The steps that pages look at, and the last step.
+bool Growth::draw_wanted(Work& work) {
+    if (const std::optional<int> wanted = next_wanted(work)) {
+        if (!steps_->has_packet(*wanted)) {
+            steps_->add(frame_at(work, *wanted));
+            listener_.drawn(number(), *wanted, "");
+        }
+        return true;
+    }
+    if (!work.draws_in_order || work.told == work.derived || work.drawn + 1 == work.derived) return false;
+    note_grown(work, steps_->add(frame_at(work, work.derived)), "");
+    return true;
+}
+
+// Every step was drawn when it was grown.
+void Growth::forget_wanted() {
+    const std::lock_guard lock(mutex_);
+    wanted_.clear();
+}
+
+std::optional<int> Growth::next_wanted(const Work& work) {
+    const std::lock_guard lock(mutex_);
+    if (!may_grow(work)) wanted_.erase(wanted_.upper_bound(work.derived), wanted_.end());
+    if (wanted_.empty() || *wanted_.begin() > work.derived) return std::nullopt;
+    return wanted_.extract(wanted_.begin()).value();
+}
+
+bool Growth::may_draw_in_order(const Work& work) const {
+    return work.draws_in_order && work.drawn < work.derived && (!rests_ || work.told < work.derived);
+}
+
+void Growth::draw_in_order(Work& work) {
+    const int step = ++work.drawn;
+    const Frame frame = frame_at(work, step);
+    std::string rows = work.record(frame);
+    if (step > work.told) {
+        note_grown(work, steps_->add(frame), std::move(rows));
+    } else {
+        if (!steps_->has_packet(step)) steps_->add(frame);
+        if (!cancelled_) listener_.drawn(number(), step, std::move(rows));
+    }
+}
+
+Frame Growth::frame_at(Work& work, int step) {
+    go_to(work, step);
+    work.world.interpret();
+    work.world.exchange();
+    return work.world.frame();
+}
+
+// The newest step has been drawn.
+void Growth::note_grown(Work& work, std::size_t internodes, std::string statistics) {
+    work.told = work.at;
+    if (!work.origin) work.drawn = work.at;
+    GrownStep step;
+    step.step = work.at;
+    step.last_step = last_step_;
+    step.modules = work.world.modules();
+    step.internodes = internodes;
+    step.derived = work.own_steps;
+    step.seconds = seconds();
+    step.statistics = std::move(statistics);
+    step.is_end = work.is_ended || work.at >= last_step_;
+    if (!cancelled_) listener_.grown(number(), std::move(step));
+}
+
+// An end, or steps to grow or to draw.
+void Growth::wait_for_more(const Work& work) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return cancelled_ || !wanted_.empty() || may_grow(work) || may_draw_in_order(work); });
+}
+
+}  // namespace espalier::studio

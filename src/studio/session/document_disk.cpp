@@ -1,0 +1,150 @@
+#include "studio/session/document_disk.h"
+
+#include "espalier/base/file.h"
+
+#include "base/folder.h"
+#include "studio/document/document_files.h"
+#include "studio/document/plain_name.h"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <system_error>
+#include <utility>
+
+namespace espalier::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds between_looks(500);
+
+}  // namespace
+
+void DocumentDisk::restore() {
+    if (!options_.state.empty() && fs::exists(options_.state)) restore_kept();
+    if (options_.opened.path.empty() || (!options_.is_named && document_.is_open())) return;
+    Opened opened = options_.opened;
+    opened.path = fs::absolute(opened.path).lexically_normal();
+    if (document_.path() == opened.path) return;
+    watch_.forget();
+    document_.open(opened);
+}
+
+void DocumentDisk::restore_kept() {
+    try {
+        const Json state = Json::parse(read_text(options_.state));
+        document_.restore(state);
+        const Json on_disk = state.value("on_disk", Json::object());
+        for (const auto& [file, digest] : on_disk.items()) watch_.know(file, digest);
+    } catch (const std::exception&) {
+        pages_.notify("warning",
+                      fmt::format("what {} kept of the last session cannot be read", options_.state.string()));
+    }
+}
+
+void DocumentDisk::keep() {
+    if (options_.state.empty()) return;
+    try {
+        fs::create_directories(options_.state.parent_path());
+        Json state = document_.to_json();
+        for (const auto& [file, text] : document_.now().unsaved) {
+            if (watch_.knows(file)) state["on_disk"][file.string()] = watch_.digest_of(file);
+        }
+        write_private_text(options_.state, state.dump());
+    } catch (const std::exception& error) {
+        pages_.notify("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
+    }
+}
+
+void DocumentDisk::tick() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - looked_ >= between_looks) {
+        looked_ = now;
+        look();
+    }
+    if (document_.take_unkept()) keep();
+}
+
+// Texts that pages have changed were not read from the disk.
+void DocumentDisk::watch(const DocumentTexts::Files& files) {
+    for (const auto& [file, read] : files) {
+        if (watch_.knows(file)) continue;
+        if (document_.now().unsaved.contains(file)) {
+            watch_.accept(file);
+        } else {
+            watch_.know(file, read.digest);
+        }
+    }
+}
+
+void DocumentDisk::note_saved(const fs::path& file, const std::string& text) {
+    watch_.know(file, digest(text));
+}
+
+void DocumentDisk::look() {
+    if (!document_.is_open() || is_run(document_.path())) return;
+    std::vector<fs::path> unedited;
+    std::set<fs::path> disputed;
+    for (const fs::path& file : watch_.changed()) {
+        const auto unsaved = document_.now().unsaved.find(file);
+        const bool is_edited =
+            unsaved != document_.now().unsaved.end() && digest(unsaved->second) != watch_.digest_of(file);
+        if (is_edited && text_on_disk(file) != unsaved->second) {
+            disputed.insert(file);
+        } else {
+            unedited.push_back(file);
+        }
+    }
+    if (!unedited.empty()) read_again(unedited);
+    document_.set_disputed(std::move(disputed));
+}
+
+// As a change, which can be undone.
+void DocumentDisk::read_again(const std::vector<fs::path>& files) {
+    DocumentState state = document_.now();
+    std::string names;
+    for (const fs::path& file : files) {
+        const DocumentTexts::Files& read_files = document_.texts().files();
+        const auto read = read_files.find(file);
+        const bool is_known =
+            read != read_files.end() && read->second.kept && read->second.digest == watch_.digest_of(file);
+        if (is_known && (is_palette(file) || is_text(read->second.bytes)))
+            document_.keep_text(file, read->second.bytes);
+        state.unsaved.erase(file);
+        watch_.accept(file);
+        names += (names.empty() ? "" : ", ") + file.filename().string();
+    }
+    note_ = pages_.replace_note(note_, "note",
+                                fmt::format("Another program has written {}: it has been read again.", names));
+    document_.apply(std::move(state), fmt::format("read {} again", names), false);
+}
+
+void DocumentDisk::settle(const fs::path& file, bool takes_disk) {
+    std::set<fs::path> disputed = document_.disputed();
+    if (disputed.erase(file) == 0) throw UserError(fmt::format("no other program has written {}", file.string()));
+    watch_.accept(file);
+    document_.set_disputed(std::move(disputed));
+    if (!takes_disk) return;
+    DocumentState state = document_.edited();
+    state.unsaved.erase(file);
+    document_.apply(std::move(state), fmt::format("read {} again", file.filename().string()), false);
+}
+
+fs::path DocumentDisk::below_folder(const fs::path& path) const {
+    if (path.native().find('\0') != std::string::npos) throw UserError("the path holds a zero byte");
+    std::error_code unknown;
+    if (resolved_below(path, options_.folder, unknown).empty()) {
+        throw UserError(fmt::format("{} is not below {}: the studio writes nowhere else. Save it under another name",
+                                    path.string(), options_.folder.string()));
+    }
+    return path.lexically_normal();
+}
+
+fs::path DocumentDisk::writable(const fs::path& path) const {
+    const fs::path place = below_folder(path);
+    require_plain_name(place.lexically_relative(options_.folder));
+    return place;
+}
+
+}  // namespace espalier::studio

@@ -1,0 +1,98 @@
+// The document that the pages of a session share: what is open, its changes, and what pages are told of it.
+#pragma once
+
+#include "espalier/base/error.h"
+#include "espalier/studio/studio.h"
+
+#include "studio/document/document.h"
+#include "studio/growth/plant_source.h"
+#include "studio/session/document_texts.h"
+#include "studio/session/pages.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace espalier::studio {
+
+/// A change of what is open: what grows must follow.
+struct DocumentChange {
+    bool is_other = false;           ///< another document was opened
+    std::optional<int> follow_from;  ///< pages that look at the last step see every one from here on
+};
+
+class OpenDocument {
+public:
+    /// The options and the pages outlive it.
+    OpenDocument(const StudioOptions& options, Pages& pages);
+
+    /// Called after each change; none before it is set.
+    void on_change(std::function<void(const DocumentChange&)> changed) { changed_ = std::move(changed); }
+
+    bool is_open() const { return document_.is_open(); }
+    /// Throws UserError if nothing is open.
+    void require_open() const;
+    bool is_transient() const { return document_.is_transient(); }
+    std::uint64_t version() const { return document_.version(); }
+    const DocumentState& now() const { return document_.now(); }
+    const std::filesystem::path& path() const { return now().opened.path; }
+    /// What a change begins with: of a run, what that grew from. Throws UserError if there is nothing to edit.
+    const DocumentState& edited() const;
+    void require_editable() const { edited(); }
+    std::uint64_t seed() const { return edited().opened.seed.value_or(own_seed_); }
+    int steps() const { return edited().opened.steps.value_or(own_steps_); }
+    const DocumentTexts& texts() const { return texts_; }
+    /// Returns the path. Throws UserError if it is no text that pages may edit.
+    std::filesystem::path require_text(const std::string& path) const;
+
+    void apply(DocumentState state, const std::string& label, bool transient);
+    void undo();
+    void redo();
+    /// Grows to another step: what has grown up to `known` stays, and is not told to have changed if the growth goes
+    /// on.
+    void set_steps(int steps, int known, bool goes_on);
+    /// A file is about to be written: states that rest on what stands in it keep that as unsaved.
+    void keep_text(const std::filesystem::path& file, const std::string& text) { document_.keep_text(file, text); }
+
+    /// A growth has read its files.
+    void note_started(const Opened& grown, const GrowthStart& start);
+    void set_problems(std::vector<Diagnostic> problems);
+    void set_disputed(std::set<std::filesystem::path> files);
+    const std::set<std::filesystem::path>& disputed() const { return disputed_; }
+
+    void broadcast();
+    /// Pages know nothing of another document before its files have been read, or could not be.
+    void broadcast_if_untold();
+    void send_to(Viewer& viewer) const;
+
+    // What the program keeps from one run to the next.
+    Json to_json() const { return document_.to_json(); }
+    void restore(const Json& state) { document_ = Document::from_json(state); }
+    /// Without telling anyone.
+    void open(const Opened& opened);
+    /// True if the newest state has not been kept.
+    bool take_unkept() { return std::exchange(is_unkept_, false); }
+
+private:
+    void note_changed(const std::filesystem::path& before, std::optional<int> follow_from = {});
+    Json message() const;
+    Json problems_message() const;
+
+    const StudioOptions& options_;
+    Pages& pages_;
+    std::function<void(const DocumentChange&)> changed_;
+    Document document_;
+    DocumentTexts texts_;
+    std::optional<DocumentState> recorded_from_;  ///< what the open run grew from
+    std::set<std::filesystem::path> disputed_;    ///< written by another program while they had unsaved changes
+    std::uint64_t own_seed_ = 0;                  ///< what the files say, unless the user says more
+    int own_steps_ = 0;
+    std::vector<Diagnostic> problems_;
+    bool is_told_ = true;  ///< pages know the newest version
+    bool is_unkept_ = false;
+};
+
+}  // namespace espalier::studio

@@ -1,0 +1,30 @@
+// A session by its subjects, as requests use it.
+#pragma once
+
+#include "studio/session/document_disk.h"
+#include "studio/session/growths.h"
+#include "studio/session/handed_files.h"
+#include "studio/session/jobs.h"
+#include "studio/session/open_document.h"
+#include "studio/session/pages.h"
+
+namespace espalier::studio {
+
+struct SessionParts {
+    SessionParts(const StudioOptions& its_options, const Post& post)
+        : options(its_options),
+          document(options, pages),
+          disk(options, pages, document),
+          growths(options, pages, document, disk, files, post),
+          jobs(pages, files, post) {}
+
+    const StudioOptions& options;
+    HandedFiles files;
+    Pages pages;
+    OpenDocument document;
+    DocumentDisk disk;
+    Growths growths;
+    Jobs jobs;
+};
+
+}  // namespace espalier::studio

@@ -1,0 +1,126 @@
+#include "environment/rays/lamp.h"
+
+#include "catch.h"
+#include "environment/lit_leaves.h"
+#include "temporary_folder.h"
+
+#include <glm/geometric.hpp>
+
+using namespace espalier;
+using namespace espalier::environment;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A lamp downwards whose light falls off as the cosine of the angle: Lambert's law.
+const std::string cosine_file = [] {
+    std::string file = "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 1000 1 37 1 1 2 0.1 0.1 0\n1 1 20\n";
+    for (int i = 0; i <= 36; ++i) file += std::to_string(i * 2.5) + (i % 10 == 9 ? "\n" : " ");
+    file += "\n0\n";
+    for (int i = 0; i <= 36; ++i) file += std::to_string(1000 * std::cos(i * 2.5 * pi / 180)) + " ";
+    return file;
+}();
+
+/// What small level leaves absorb (umol m-2 s-1) below lamps, at places.
+std::vector<double> light_below(const std::string& lamps, const std::vector<glm::dvec3>& places, double side = 0.05) {
+    Environment light = light_process("ray-light",
+                                      "paths = 600000\nresidual = 0.01\n"
+                                      "bands.par = { leaf = [0, 0], soil = 0 }\n" +
+                                          lamps);
+    std::vector<Asked> asked;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        asked.push_back({places[i], {0, 0, 0}});
+        asked.push_back({places[i], {0}});
+    }
+    AskingPlants plants;
+    plants.add(asked);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        draw_square(plants.interpretation(0).geometry, std::uint32_t(2 * i + 1), places[i], {1, 0, 0}, {0, 0, 1}, side);
+    }
+    plants.exchange(light);
+    std::vector<double> rates;
+    for (std::size_t i = 0; i < places.size(); ++i) rates.push_back(plants.parameters()[4 * i + 2]);
+    return rates;
+}
+
+}  // namespace
+
+TEST_CASE("below a point lamp light falls with the square of the distance and the cosine", "[ray-light]") {
+    const auto rates = light_below("lamps = [{ at = [0, 2, 0], photons = 400 }]\n", {{0, 1, 0}, {1.5, 0.5, 0}}, 0.2);
+    CHECK(rates[0] == Approx(400 / (4 * pi)).epsilon(0.03));
+    const double square = 1.5 * 1.5 * 2;
+    CHECK(rates[1] == Approx(400 / (4 * pi * square) * std::sqrt(0.5)).epsilon(0.1));
+}
+
+TEST_CASE("a spot lights its cone evenly per angle, and nothing else", "[ray-light]") {
+    const auto rates = light_below("lamps = [{ kind = \"spot\", angle = 30, at = [0, 2, 0], photons = 100 }]\n",
+                                   {{0, 1, 0}, {0.4, 1, 0.1}, {0.8, 1, 0}});
+    const double per_steradian = 100 / (2 * pi * (1 - std::cos(pi / 6)));
+    CHECK(rates[0] == Approx(per_steradian).epsilon(0.02));
+    CHECK(rates[1] == Approx(per_steradian / std::pow(1 + 0.17, 1.5)).epsilon(0.02));
+    CHECK(rates[2] == 0);
+}
+
+TEST_CASE("a panel lights a small leaf as the view factor of a rectangle says", "[ray-light]") {
+    const auto rates =
+        light_below("lamps = [{ kind = \"area\", size = [1, 0.6], at = [0, 1.5, 0], photons = 300 }]\n", {{0, 1, 0}});
+    // Howell, Siegel & Menguc 2010, B-4, four quarters: sides over the distance are 1 and 0.6.
+    const auto quarter = [](double a, double b) {
+        const double p = std::sqrt(1 + a * a), q = std::sqrt(1 + b * b);
+        return (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / (2 * pi);
+    };
+    CHECK(rates[0] == Approx(300 / 0.6 * 4 * quarter(1, 0.6)).epsilon(0.02));
+}
+
+TEST_CASE("a lamp of a maker's file shines as the file says", "[ray-light]") {
+    TemporaryFolder folder;
+    const auto file = folder.write("lamp.ies", cosine_file);
+    const auto rates =
+        light_below("lamps = [{ kind = \"ies\", file = \"" + file.string() + "\", at = [0, 2, 0], photons = 200 }]\n",
+                    {{0, 1, 0}, {1, 1, 0}});
+    CHECK(rates[0] == Approx(200 / pi).epsilon(0.02));
+    CHECK(rates[1] == Approx(200 / pi / 4).epsilon(0.05));
+    const IntensityTable table = IntensityTable::read_ies(file);
+    CHECK(table.per_steradian(0.6, 2) == Approx(std::cos(0.6) / pi).epsilon(0.02));
+    CHECK(table.per_steradian(2, 1) == 0);
+}
+
+TEST_CASE("lamps have light of their own in each band, for so many hours of the day", "[ray-light]") {
+    Environment light = light_process("ray-light",
+                                      "paths = 400000\nlit_hours = 16\nbands.par = { leaf = [0.1, 0.1] }\n"
+                                      "bands.nir = { leaf = [0.4, 0.4] }\n"
+                                      "lamps = [{ at = [0, 2, 0], photons = 400, photons_nir = 50 }]\n");
+    AskingPlants plants;
+    plants.add({{{0, 0, 0}, {0, 0, 0, 0, 0, 0}}, {{0, 0, 0}, {0}}});
+    draw_square(plants.interpretation(0).geometry, 1, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 0.2);
+    plants.exchange(light);
+    const std::vector<double> answered = plants.parameters();
+    CHECK(answered[1] == Approx(answered[2] * 0.04 * 16 * 3600 * 1e-6));
+    CHECK(answered[5] / answered[2] == Approx(0.2 * 50 / (0.8 * 400)).epsilon(0.1));
+    CHECK(statistic(light, "incoming") == Approx(400 / (4 * pi * 4) * 16 * 3600 * 1e-6));
+    CHECK(std::abs(statistic(light, "closure")) < 1e-6);
+    CHECK(std::abs(statistic(light, "closure.nir")) < 1e-6);
+}
+
+TEST_CASE("lamps and their files are refused in words", "[ray-light]") {
+    TemporaryFolder folder;
+    const auto refusal = [&](const std::string& text) {
+        const auto file = folder.write("lamp.ies", text);
+        return message_of([&] { IntensityTable::read_ies(file); });
+    };
+    CHECK(lacks(refusal("hello"), {"lamp.ies", "TILT="}) == "");
+    CHECK(lacks(refusal(cosine_file.substr(0, 200)), {"lamp.ies", "ends before"}) == "");
+    CHECK(lacks(refusal("TILT=NONE\n1 1 1 99999999 1 1 1 0 0 0 1 1 1\n"), {"number of vertical angles"}) == "");
+    CHECK(lacks(refusal("TILT=NONE\n1 1 1 2 1 2 1 0 0 0 1 1 1\n0 90\n0\n1 1\n"), {"type C"}) == "");
+    CHECK(lacks(refusal("TILT=NONE\n1 1 1 2 1 1 1 0 0 0 1 1 1\n90 0\n0\n1 1\n"), {"do not rise"}) == "");
+    CHECK(lacks(refusal("TILT=NONE\n1 1 1 2 1 1 1 0 0 0 1 1 1\n0 90\n0\n0 0\n"), {"no light"}) == "");
+    CHECK(lacks(refusal("TILT=NONE\n1 1 1 2 1 1 1 0 0 0 1 1 1\n0 90\n0\n0 nan\n"), {"'nan' is no number"}) == "");
+    const auto message = [](const std::string& lines) {
+        return message_of([&] { light_process("ray-light", lines); });
+    };
+    CHECK(lacks(message("lamps = [{ at = [0, 2, 0], photons = 0 }]\n"), {"without photons"}) == "");
+    CHECK(
+        lacks(message("lamps = [{ at = [0, 2, 0], photons = 5, kind = \"spot\", angle = 1 }]\nreference = [3, 0, 0]\n"),
+              {"'reference'", "no lamp sends"}) == "");
+}

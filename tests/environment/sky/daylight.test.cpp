@@ -1,0 +1,164 @@
+#include "environment/sky/daylight.h"
+
+#include "espalier/base/file.h"
+
+#include "catch.h"
+#include "environment/exchange_plants.h"
+#include "temporary_folder.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace espalier;
+using namespace espalier::environment;
+
+namespace {
+
+constexpr double least_elevation = 0.0349;
+
+Settings table(const std::string& lines) {
+    return Settings::parse_toml(lines, "scene.toml");
+}
+
+/// A series in a file of its own, and the table that names it.
+struct Measured {
+    TemporaryFolder folder;
+    Settings settings;
+
+    explicit Measured(const std::string& rows, const std::string& lines = "")
+        : settings(table("series = \"" + (folder.path() / "light.csv").string() + "\"\n" + lines)) {
+        write_text(folder.path() / "light.csv", rows);
+    }
+    Daylight over(double elapsed, double days) const {
+        return DaylightSeries(settings, least_elevation).over(elapsed, days);
+    }
+    std::string refusal() const {
+        return message_of([&] { DaylightSeries(settings, least_elevation); });
+    }
+};
+
+double beams_on_ground(const Daylight& light) {
+    double sum = 0;
+    for (const LightBeam& beam : light.beams) sum += beam.photons * beam.towards.y;
+    return sum;
+}
+
+/// Hours from 0 to 24 with a parabola of light from 6 to 18 h.
+std::string parabola(const char* header, double highest) {
+    std::string rows = std::string(header) + "\n";
+    for (int hour = 0; hour <= 24; ++hour) {
+        const double t = (hour - 12) / 6.0;
+        rows += std::to_string(hour) + "," + std::to_string(std::max(0.0, highest * (1 - t * t))) + "\n";
+    }
+    return rows;
+}
+
+}  // namespace
+
+TEST_CASE("a series is interpolated, and integrated over each step", "[sky]") {
+    const Measured measured(parabola("time (h),global (W m-2)", 600), "latitude = 40\nday = 172\n");
+    // Trapezes of the hourly values, exactly: a parabola's are less than its integral by 1 / 72.
+    const double joules = 3600 * 600 * (12 * 2 / 3.0 - 1 / 18.0);
+    const Daylight day = measured.over(0, 1);
+    CHECK(day.energy == Approx(joules).epsilon(1e-9));
+    CHECK(day.on_ground == Approx(joules * 0.5 * 4.57e-6).epsilon(1e-9));
+    CHECK(beams_on_ground(day) == Approx(day.on_ground).epsilon(1e-9));
+    double parts = 0;
+    for (int i = 0; i < 10; ++i) parts += measured.over(i / 10.0, 0.1).energy;
+    CHECK(parts == Approx(joules).epsilon(1e-9));
+    CHECK(measured.over(0, 0.2).energy == 0);
+}
+
+TEST_CASE("columns of a series may stand in any order and in other units, with dates, beside others", "[sky]") {
+    const Measured watts(
+        "wind (m/s),par (W m-2),diffuse (kW m-2),date,global (W/m2)\n"
+        "3,100,0.1,2024-06-20 11:00,200\n2,100,0.1,2024-06-20 12:00,200\n1,100,0.1,2024-06-20 13:00,200\n");
+    const Daylight light = watts.over(0.5 - 1 / 24.0, 1 / 12.0);
+    CHECK(light.energy == Approx(2 * 3600 * 200));
+    CHECK(light.on_ground == Approx(2 * 3600 * 100 * 4.57e-6));
+    double from_sun = 0;
+    for (const LightBeam& beam : light.beams) from_sun += beam.is_sun ? beam.photons * beam.towards.y : 0;
+    CHECK(from_sun == Approx(0.5 * light.on_ground));
+}
+
+TEST_CASE("a step of a week counts every row of it", "[sky]") {
+    std::string rows = "time (d),par (umol m-2 s-1),direct (W m-2)\n";
+    for (int day = 0; day <= 7; ++day) rows += std::to_string(day) + "," + std::to_string(100 * day) + ",0\n";
+    CHECK(Measured(rows, "latitude = 80\nday = 170\n").over(0, 7).on_ground == Approx(86400e-6 * 100 * 24.5));
+}
+
+TEST_CASE("a series that repeats has the same light in every period", "[sky]") {
+    const Measured measured(parabola("time (h),global (W m-2)", 600), "latitude = 0\nday = 80\nrepeat = true\n");
+    CHECK(measured.over(5, 1).energy == Approx(measured.over(0, 1).energy).epsilon(0.01));
+    const Measured once(parabola("time (h),global (W m-2)", 600), "latitude = 0\nday = 80\n");
+    CHECK(lacks(message_of([&] { once.over(1.5, 1); }), {"light.csv", "36 to 60", "repeat"}) == "");
+}
+
+TEST_CASE("a series that cannot be is refused with file and line, in one line", "[sky]") {
+    const std::string head = "time (h),global (W m-2)\n";
+    CHECK(lacks(Measured(head + "0,0\n1,nan\n2,5\n").refusal(), {"light.csv:3:2", "'nan'", "no holes"}) == "");
+    CHECK(lacks(Measured(head + "0,0\n1,\n2,5\n").refusal(), {"light.csv:3:2"}) == "");
+    CHECK(lacks(Measured(head + "0,0\n1,-4\n2,5\n").refusal(), {"light.csv:3:2", "below 0"}) == "");
+    CHECK(lacks(Measured(head + "0,1\n1,1\n5,1\n6,1\n").refusal(), {"light.csv:4", "gap in time", "4 hours"}) == "");
+    CHECK(lacks(Measured(head + "0,1\n1,1\n1,1\n").refusal(), {"light.csv:4", "not after"}) == "");
+    CHECK(lacks(Measured(head + "0,0\n1,0\n").refusal(), {"no light in any row"}) == "");
+    CHECK(lacks(Measured(head + "0,1\n").refusal(), {"two rows"}) == "");
+    CHECK(lacks(Measured(head + "0,1\n1,1,1\n").refusal(), {"light.csv:3", "3 cells"}) == "");
+    CHECK(lacks(Measured("time (h),global (lux)\n0,1\n1,1\n").refusal(), {"light.csv:1:2", "lux", "W m-2"}) == "");
+    CHECK(lacks(Measured("time,global (W m-2)\n0,1\n1,1\n").refusal(), {"light.csv:1:1", "time (h)"}) == "");
+    CHECK(lacks(Measured("time (h),glbal (W m-2)\n0,1\n1,1\n").refusal(), {"neither 'global"}) == "");
+    CHECK(lacks(Measured("global (W m-2)\n1\n1\n").refusal(), {"no column 'time (h)'"}) == "");
+    CHECK(lacks(Measured("date,par (umol m-2 s-1)\n2024-02-30 10:00,1\n").refusal(), {"light.csv:2:1", "no date"}) ==
+          "");
+    CHECK(lacks(Measured("time (h),global (W m-2),diffuse (W m-2)\n12,100,200\n13,1,1\n").refusal(),
+                {"light.csv:2", "more than all"}) == "");
+    CHECK(lacks(Measured(head + "0,300\n1,300\n", "latitude = 50\nday = 172\n").refusal(),
+                {"light.csv:2", "below the horizon", "longitude and zone"}) == "");
+}
+
+TEST_CASE("a sky without light is refused", "[sky]") {
+    const auto refusal = [](const std::string& lines) {
+        return message_of([&] { DaylightSeries(table(lines), least_elevation); });
+    };
+    for (const char* key : {"par", "global", "clearness"}) {
+        CHECK(lacks(refusal(std::string(key) + " = 0\n"), {"scene.toml:1", key, "without light"}) == "");
+    }
+    CHECK(lacks(refusal("par = 1\nglobal = 1\n"), {"given twice"}) == "");
+    CHECK(lacks(refusal("integration = \"adaptive\"\nhours = [12]\n"), {"leave 'hours' out"}) == "");
+}
+
+TEST_CASE("light in watts is that in photons, over 4.57 umol per joule and the share of PAR", "[sky]") {
+    const Daylight watts = DaylightSeries(table("global = 500\n"), least_elevation).over(0, 1);
+    CHECK(watts.energy == Approx(500 * 86400));
+    CHECK(watts.on_ground == Approx(500 * 86400 * 0.5 * 4.57e-6));
+}
+
+TEST_CASE("as many hours as the day's light needs give the integral from sunrise to sunset", "[sky]") {
+    for (const double latitude : {-35.0, 0.0, 50.0, 75.0}) {
+        for (const double day : {20.0, 172.0, 300.0}) {
+            const std::string lines =
+                "latitude = " + std::to_string(latitude) + "\nday = " + std::to_string(day) + "\ndiffuse = 0.3\n";
+            std::string fine = "hours = [";
+            for (int i = 0; i < 2400; ++i) fine += std::to_string(0.005 + i / 100.0) + (i < 2399 ? "," : "]\n");
+            const double adaptive =
+                DaylightSeries(table(lines + "integration = \"adaptive\"\n"), least_elevation).over(0, 1).on_ground;
+            const double exact = DaylightSeries(table(lines + fine), least_elevation).over(0, 1).on_ground;
+            CAPTURE(latitude, day);
+            CHECK(adaptive == Approx(exact).epsilon(3e-3).margin(1e-6));
+        }
+    }
+}
+
+TEST_CASE("bands have photons by their wavelength, and a share of daylight", "[sky]") {
+    CHECK(photons_per_joule(550) == Approx(4.5977).epsilon(1e-4));  // 550 nm over 119.627 nm umol/J
+    const LightBand red = read_light_band("red", table("")), far_red = read_light_band("far-red", table(""));
+    CHECK(red.share * red.photons / (far_red.share * far_red.photons) == Approx(1.19));
+    const LightBand blue = read_light_band("blue", table("share = 0.1\nwavelength = 450\n"));
+    CHECK(blue.photons == Approx(450 / 119.627).epsilon(1e-4));
+    CHECK(lacks(message_of([] { read_light_band("blue", table("")); }), {"'blue' needs share"}) == "");
+    CHECK(lacks(message_of([] { read_light_band("par", table("share = 0.4")); }), {"sky.par_share"}) == "");
+    const Daylight light = DaylightSeries(table("global = 1000\n"), least_elevation).over(0, 1);
+    CHECK(light.joules(read_light_band("nir", table(""))) == Approx(0.5 * light.energy));
+    CHECK(light.joules(read_light_band("par", table(""))) == Approx(0.5 * light.energy));
+}
