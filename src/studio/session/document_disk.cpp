@@ -28,13 +28,13 @@ void DocumentDisk::restore() {
     opened.path = fs::absolute(opened.path).lexically_normal();
     if (document_.path() == opened.path) return;
     watch_.forget();
-    document_.open(opened);
+    document_.history().change({opened, {}}, fmt::format("open {}", opened.path.filename().string()), false);
 }
 
 void DocumentDisk::restore_kept() {
     try {
         const Json state = Json::parse(read_text(options_.state));
-        document_.restore(state);
+        document_.history() = Document::from_json(state);
         const Json on_disk = state.value("on_disk", Json::object());
         for (const auto& [file, digest] : on_disk.items()) watch_.know(file, digest);
     } catch (const std::exception&) {
@@ -47,7 +47,7 @@ void DocumentDisk::keep() {
     if (options_.state.empty()) return;
     try {
         fs::create_directories(options_.state.parent_path());
-        Json state = document_.to_json();
+        Json state = document_.history().to_json();
         for (const auto& [file, text] : document_.now().unsaved) {
             if (watch_.knows(file)) state["on_disk"][file.string()] = watch_.digest_of(file);
         }
@@ -110,7 +110,7 @@ void DocumentDisk::read_again(const std::vector<fs::path>& files) {
         const bool is_known =
             read != read_files.end() && read->second.kept && read->second.digest == watch_.digest_of(file);
         if (is_known && (is_palette(file) || is_text(read->second.bytes)))
-            document_.keep_text(file, read->second.bytes);
+            document_.history().keep_text(file, read->second.bytes);
         state.unsaved.erase(file);
         watch_.accept(file);
         names += (names.empty() ? "" : ", ") + file.filename().string();

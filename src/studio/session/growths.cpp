@@ -17,7 +17,6 @@ namespace {
 constexpr double patience_with_edits = 0.7;
 /// While something is dragged, a growth may take so long before the next change replaces it.
 constexpr double least_growth = 0.4;
-constexpr std::chrono::milliseconds between_tellings(40);
 
 }  // namespace
 
@@ -33,28 +32,24 @@ Growths::Growths(const StudioOptions& options, Pages& pages, OpenDocument& docum
 
 void Growths::begin(const DocumentChange& change) {
     follow_from_ = change.follow_from.value_or(change.is_other ? 0 : INT_MAX);
-    begin_again();
-}
-
-void Growths::begin_again() {
     waits_ = true;
     begin_next();
 }
 
 void Growths::tick() {
     begin_next();
-    forget_ended();
+    retired_.forget_ended();
 }
 
 void Growths::begin_next() {
     if (!waits_ || !document_.is_open()) return;
     // A drag shows what it passes, even if it changes faster than the plant grows.
     const PlantSource* const latest = next_ ? next_.get() : shown_ ? &shown_->source() : nullptr;
-    if (document_.is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
+    if (document_.history().is_transient() && latest && is_busy_ && latest->seconds() < least_growth) return;
     waits_ = false;
     is_busy_ = true;
-    forget_ended();
-    retire(std::move(next_));
+    retired_.forget_ended();
+    retired_.add(std::move(next_));
     GrowthOrder order = next_order();
     if (is_run(document_.path())) {
         next_ = std::make_unique<Recording>(std::move(order), listener_, workers_);
@@ -82,7 +77,7 @@ void Growths::grow_to(int step) {
     if (!shown_) throw UserError("nothing grows");
     const int known = newest_step();
     const bool is_present = !next_ && !waits_ && shown_->source().version() == document_.version();
-    document_.require_editable();
+    document_.edited();
     const bool goes_on = is_present && step > known && shown_->source().extend(step, document_.version() + 1);
     document_.set_steps(step, known, goes_on);
     if (!goes_on) return;
@@ -108,11 +103,6 @@ void Growths::show(Viewer& viewer) const {
     shown_->send_when_drawn(viewer, std::min(viewer.step.value_or(newest_step()), newest_step()), files_);
 }
 
-void Growths::look(Viewer& viewer, std::optional<int> step, std::optional<std::uint32_t> held) const {
-    viewer.step = step;
-    if (!held || !is_shown(*held)) show(viewer);
-}
-
 void Growths::send_to(Viewer& viewer) const {
     if (!shown_) return;
     Pages::send(viewer, shown_->progress_message(progress_));
@@ -125,7 +115,7 @@ void Growths::send_to(Viewer& viewer) const {
 
 void Growths::note_started(std::uint32_t growth, GrowthStart start) {
     if (!next_ || next_->number() != growth) return;
-    if (shown_) retire(shown_->release());
+    if (shown_) retired_.add(shown_->release());
     shown_.emplace(std::move(next_), std::move(start));
     disk_.watch(shown_->start().files);
     printed_.clear();
@@ -151,7 +141,7 @@ void Growths::note_grown(std::uint32_t growth, const GrownStep& step) {
     progress_.state = step.is_end ? "done" : "growing";
     statistics_.add(step.statistics);
     if (step.is_end) is_busy_ = false;
-    if (is_time_to_tell(step.is_end)) {
+    if (pace_.lets_through(step.is_end)) {
         broadcast_progress();
         broadcast_statistics();
     }
@@ -169,18 +159,11 @@ void Growths::show_step(const GrownStep& step) {
     }
 }
 
-bool Growths::is_time_to_tell(bool is_last) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!is_last && now - told_ <= between_tellings) return false;
-    told_ = now;
-    return true;
-}
-
 // A step that had to wait for the newest.
 void Growths::note_drawn(std::uint32_t growth, int step, const std::string& statistics) {
     if (!is_shown(growth)) return;
     statistics_.add(statistics);
-    if (is_time_to_tell(step == newest_step())) broadcast_statistics();
+    if (pace_.lets_through(step == newest_step())) broadcast_statistics();
     for (const auto& viewer : pages_.all()) {
         if (viewer->awaits.contains(step)) shown_->send(*viewer, step, files_);
     }
@@ -204,7 +187,7 @@ void Growths::note_stopped(std::uint32_t growth) {
 void Growths::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& why) {
     is_busy_ = false;
     if (next_ && next_->number() == growth) {
-        retire(std::move(next_));
+        retired_.add(std::move(next_));
         if (shown_) shown_->source().rest(false);
         document_.broadcast_if_untold();
         document_.set_problems(why);
@@ -219,16 +202,6 @@ void Growths::note_failed(std::uint32_t growth, const std::vector<Diagnostic>& w
 
 void Growths::broadcast_statistics() {
     if (statistics_.has_untold()) pages_.broadcast(statistics_.take_untold(shown_->number()));
-}
-
-void Growths::retire(std::unique_ptr<PlantSource> growth) {
-    if (!growth) return;
-    growth->cancel();
-    retired_.push_back(std::move(growth));
-}
-
-void Growths::forget_ended() {
-    std::erase_if(retired_, [](const auto& growth) { return growth->has_ended(); });
 }
 
 }  // namespace espalier::studio

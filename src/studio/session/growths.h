@@ -7,13 +7,14 @@
 #include "studio/session/document_disk.h"
 #include "studio/session/handed_files.h"
 #include "studio/session/open_document.h"
+#include "studio/session/pace.h"
 #include "studio/session/pages.h"
 #include "studio/session/posted_listener.h"
 #include "studio/session/printed_note.h"
+#include "studio/session/retired_growths.h"
 #include "studio/session/shown_growth.h"
 #include "studio/session/statistics.h"
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,10 +29,8 @@ public:
     Growths(const StudioOptions& options, Pages& pages, OpenDocument& document, DocumentDisk& disk, HandedFiles& files,
             Post post);
 
-    /// The document has changed.
+    /// The document has changed, or a file that it may read.
     void begin(const DocumentChange& change);
-    /// A file has come that the document may read.
-    void begin_again();
     void tick();
     /// Grows on to a step, with what has grown if that can be.
     void grow_to(int step);
@@ -46,8 +45,6 @@ public:
     const ShownGrowth& shown(std::uint32_t number) const;
     /// Sends the step that a page looks at.
     void show(Viewer& viewer) const;
-    /// A page looks at a step, none: at the last, and has its packet if it holds one of this growth.
-    void look(Viewer& viewer, std::optional<int> step, std::optional<std::uint32_t> held) const;
     /// What a new page is told.
     void send_to(Viewer& viewer) const;
 
@@ -63,12 +60,8 @@ private:
     GrowthOrder next_order();
     bool is_shown(std::uint32_t growth) const { return shown_ && shown_->number() == growth; }
     void show_step(const GrownStep& step);
-    /// At most 25 times a second, unless it is the last.
-    bool is_time_to_tell(bool is_last);
     void broadcast_progress() const { pages_.broadcast(shown_->progress_message(progress_)); }
     void broadcast_statistics();
-    void retire(std::unique_ptr<PlantSource> growth);
-    void forget_ended();
 
     const StudioOptions& options_;
     Pages& pages_;
@@ -80,12 +73,12 @@ private:
     PrintedNote printed_;
     Workers workers_;
     std::uint32_t last_number_ = 0;
-    bool waits_ = false;                                 ///< a growth of the newest version is to begin
-    std::unique_ptr<PlantSource> next_;                  ///< reads its files; the present growth goes on if it cannot
-    std::optional<ShownGrowth> shown_;                   ///< the one that pages see
-    std::vector<std::unique_ptr<PlantSource>> retired_;  ///< end after their step
+    bool waits_ = false;                 ///< a growth of the newest version is to begin
+    std::unique_ptr<PlantSource> next_;  ///< reads its files; the present growth goes on if it cannot
+    std::optional<ShownGrowth> shown_;   ///< the one that pages see
+    RetiredGrowths retired_;
     GrowthProgress progress_;
-    std::chrono::steady_clock::time_point told_{};
+    Pace pace_;
     int follow_from_ = 0;   ///< pages that look at the last step see every one from here on
     bool is_busy_ = false;  ///< the newest growth has not come to its end
 };

@@ -107,12 +107,10 @@ void OpenDocument::note_changed(const fs::path& before, std::optional<int> follo
 }
 
 void OpenDocument::note_started(const Opened& grown, const GrowthStart& start) {
-    const std::uint64_t seed = grown.seed ? own_seed_ : start.seed;
-    const int steps = grown.steps ? own_steps_ : start.last_step;
-    const bool is_new = texts_.learn(start.files) || own_seed_ != seed || own_steps_ != steps;
+    const OwnValues own{grown.seed ? own_.seed : start.seed, grown.steps ? own_.steps : start.last_step};
+    const bool is_new = texts_.learn(start.files) || own != own_;
     recorded_from_ = start.recorded_from;
-    own_seed_ = seed;
-    own_steps_ = steps;
+    own_ = own;
     if (is_new || !is_told_) broadcast();
     set_problems(start.warnings);
 }
@@ -140,10 +138,6 @@ void OpenDocument::send_to(Viewer& viewer) const {
     Pages::send(viewer, problems_message());
 }
 
-void OpenDocument::open(const Opened& opened) {
-    document_.change({opened, {}}, fmt::format("open {}", opened.path.filename().string()), false);
-}
-
 Json OpenDocument::message() const {
     DocumentMessage shown;
     shown.version = version();
@@ -152,13 +146,13 @@ Json OpenDocument::message() const {
     shown.folder = options_.folder.string();
     shown.undo = document_.undo_label();
     shown.redo = document_.redo_label();
-    shown.seed = own_seed_;
-    shown.steps = own_steps_;
+    shown.seed = own_.seed;
+    shown.steps = own_.steps;
     if (is_open()) shown.kind = kind_of(path());
     const bool is_edited = is_open() && (*shown.kind != "run" || recorded_from_);
     if (is_edited) {
-        shown.seed = now().opened.seed.value_or(own_seed_);
-        shown.steps = now().opened.steps.value_or(own_steps_);
+        shown.seed = now().opened.seed.value_or(own_.seed);
+        shown.steps = now().opened.steps.value_or(own_.steps);
         shown.texts = shown_texts(texts_, edited(), disputed_);
         shown.settings = shown_settings(texts_, edited());
         shown.graphs = shown_graphs(texts_, edited());

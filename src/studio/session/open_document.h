@@ -24,6 +24,13 @@ struct DocumentChange {
     std::optional<int> follow_from;  ///< pages that look at the last step see every one from here on
 };
 
+/// What the files say, unless the user says more.
+struct OwnValues {
+    std::uint64_t seed = 0;
+    int steps = 0;
+    bool operator==(const OwnValues&) const = default;
+};
+
 class OpenDocument {
 public:
     /// The options and the pages outlive it.
@@ -35,15 +42,15 @@ public:
     bool is_open() const { return document_.is_open(); }
     /// Throws UserError if nothing is open.
     void require_open() const;
-    bool is_transient() const { return document_.is_transient(); }
+    /// For the disk: what the program keeps and restores, and texts that are about to be written. Pages are not told.
+    Document& history() { return document_; }
     std::uint64_t version() const { return document_.version(); }
     const DocumentState& now() const { return document_.now(); }
     const std::filesystem::path& path() const { return now().opened.path; }
     /// What a change begins with: of a run, what that grew from. Throws UserError if there is nothing to edit.
     const DocumentState& edited() const;
-    void require_editable() const { edited(); }
-    std::uint64_t seed() const { return edited().opened.seed.value_or(own_seed_); }
-    int steps() const { return edited().opened.steps.value_or(own_steps_); }
+    std::uint64_t seed() const { return edited().opened.seed.value_or(own_.seed); }
+    int steps() const { return edited().opened.steps.value_or(own_.steps); }
     const DocumentTexts& texts() const { return texts_; }
     /// Returns the path. Throws UserError if it is no text that pages may edit.
     std::filesystem::path require_text(const std::string& path) const;
@@ -54,8 +61,6 @@ public:
     /// Grows to another step: what has grown up to `known` stays, and is not told to have changed if the growth goes
     /// on.
     void set_steps(int steps, int known, bool goes_on);
-    /// A file is about to be written: states that rest on what stands in it keep that as unsaved.
-    void keep_text(const std::filesystem::path& file, const std::string& text) { document_.keep_text(file, text); }
 
     /// A growth has read its files.
     void note_started(const Opened& grown, const GrowthStart& start);
@@ -68,11 +73,6 @@ public:
     void broadcast_if_untold();
     void send_to(Viewer& viewer) const;
 
-    // What the program keeps from one run to the next.
-    Json to_json() const { return document_.to_json(); }
-    void restore(const Json& state) { document_ = Document::from_json(state); }
-    /// Without telling anyone.
-    void open(const Opened& opened);
     /// True if the newest state has not been kept.
     bool take_unkept() { return std::exchange(is_unkept_, false); }
 
@@ -88,8 +88,7 @@ private:
     DocumentTexts texts_;
     std::optional<DocumentState> recorded_from_;  ///< what the open run grew from
     std::set<std::filesystem::path> disputed_;    ///< written by another program while they had unsaved changes
-    std::uint64_t own_seed_ = 0;                  ///< what the files say, unless the user says more
-    int own_steps_ = 0;
+    OwnValues own_;
     std::vector<Diagnostic> problems_;
     bool is_told_ = true;  ///< pages know the newest version
     bool is_unkept_ = false;

@@ -99,7 +99,9 @@ Nothing stop(SessionParts& session, Viewer&, const Nothing&) {
 }
 
 NewestStep look(SessionParts& session, Viewer& viewer, const LookRequest& request) {
-    session.growths.look(viewer, request.step, request.held.value_or(Nullable<std::uint32_t>()));
+    viewer.step = request.step;
+    const std::optional<std::uint32_t> held = request.held.value_or(Nullable<std::uint32_t>());
+    if (!held || held != session.growths.number()) session.growths.show(viewer);
     return {session.growths.newest_step()};
 }
 

@@ -77,7 +77,7 @@ NewFile new_file(SessionParts& session, Viewer&, const NewFileRequest& request) 
     if (request.content.size() > most_text) throw UserError("the text is too long");
     if (fs::exists(path)) throw UserError(fmt::format("{} is there already", path.string()));
     write_text(path, bytes_of(path, request.content));
-    session.growths.begin_again();
+    session.growths.begin({});
     return {path.string()};
 }
 
@@ -94,7 +94,8 @@ std::vector<fs::path> save_changes(SessionParts& session) {
             fmt::format("another program has written {}: say first which text is to stay", file.filename().string()));
     }
     for (const fs::path& file : written) {
-        if (const std::optional<std::string> before = text_on_disk(file)) session.document.keep_text(file, *before);
+        if (const std::optional<std::string> before = text_on_disk(file))
+            session.document.history().keep_text(file, *before);
         write_text(file, unsaved.at(file));
         session.disk.note_saved(file, unsaved.at(file));
     }
