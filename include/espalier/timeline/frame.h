@@ -31,8 +31,8 @@ struct Frame {
     int step = 0;     ///< frame k is k derivations
     double time = 0;  ///< scene's unit
     std::vector<PlantFrame> plants;
-    const Fields* fields = nullptr;  ///< as they are until the next step
-    bool is_last = false;            ///< no step follows in this run
+    const Fields* fields = nullptr;            ///< as they are until the next step
+    bool is_last = false;                      ///< no step follows in this run
     const Environment* environment = nullptr;  ///< knows what organs have met, until the next step; null: nothing
 };
 
