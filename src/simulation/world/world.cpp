@@ -218,8 +218,7 @@ void World::record() {
 }
 
 Frame World::frame() const {
-    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end(),
-                state_->environment.get()};
+    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end(), state_->environment.get()};
     frame.plants.reserve(size());
     for (const GrowingPlant& plant : state_->plants) {
         frame.plants.push_back(plant.frame(state_->environment->statistics(plant.number)));
