@@ -27,13 +27,19 @@ struct PlantFrame {
     const Background* background = nullptr;  ///< what stands around it in pictures; null: nothing
 };
 
+/// A quantity of the environment for the modules of each plant of the frame; null where there is none.
+struct OrganColumn {
+    OrganQuantity quantity;
+    std::vector<std::shared_ptr<const std::vector<float>>> of_plants;
+};
+
 struct Frame {
     int step = 0;     ///< frame k is k derivations
     double time = 0;  ///< scene's unit
     std::vector<PlantFrame> plants;
-    const Fields* fields = nullptr;            ///< as they are until the next step
-    bool is_last = false;                      ///< no step follows in this run
-    const Environment* environment = nullptr;  ///< knows what organs have met, until the next step; null: nothing
+    const Fields* fields = nullptr;     ///< as they are until the next step
+    bool is_last = false;               ///< no step follows in this run
+    std::vector<OrganColumn> organs{};  ///< all that processes know of organs; values of those the scene asks for
 };
 
 }  // namespace espalier::timeline
@@ -41,6 +47,7 @@ struct Frame {
 namespace espalier {
 
 using timeline::Frame;
+using timeline::OrganColumn;
 using timeline::PlantFrame;
 
 }  // namespace espalier

@@ -217,12 +217,29 @@ void World::record() {
     for (Recorder* recorder : state_->recorders) recorder->record(now);
 }
 
+namespace {
+
+void add_organs(Frame& frame, const Environment& environment, const std::vector<std::string>& wanted) {
+    for (OrganQuantity& quantity : environment.organ_quantities()) {
+        OrganColumn& column = frame.organs.emplace_back(OrganColumn{std::move(quantity), {}});
+        const std::string& name = column.quantity.name;
+        if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+        for (const PlantFrame& plant : frame.plants) {
+            column.of_plants.push_back(environment.organ_values(name, plant.plant));
+        }
+    }
+}
+
+}  // namespace
+
 Frame World::frame() const {
-    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end(), state_->environment.get()};
+    Frame frame{state_->step, state_->time(), {}, &state_->environment->fields(), at_end()};
     frame.plants.reserve(size());
     for (const GrowingPlant& plant : state_->plants) {
         frame.plants.push_back(plant.frame(state_->environment->statistics(plant.number)));
     }
+    const std::vector<std::string> wanted = state_->scene.timeline.texts_or("organs", {});
+    if (!wanted.empty()) add_organs(frame, *state_->environment, wanted);
     return frame;
 }
 

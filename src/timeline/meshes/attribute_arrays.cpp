@@ -158,19 +158,18 @@ void AttributeArrays::add_parameters(OwnerArrays& arrays, const Owners& owners) 
     }
 }
 
-void AttributeArrays::add_organs(OwnerArrays& arrays, const Owners& owners, const Environment& environment,
-                                 std::span<const OrganQuantity> quantities) const {
-    for (const OrganQuantity& quantity : quantities) {
-        const auto components = static_cast<std::size_t>(quantity.components);
-        std::vector<std::shared_ptr<const std::vector<float>>> known;
-        for (const Plant& plant : plants_) known.push_back(environment.organ_values(quantity.name, plant.frame->plant));
-        const auto values = arrays.append<float>(quantity.name, owners, quantity.components);
+void AttributeArrays::add_organs(OwnerArrays& arrays, const Owners& owners,
+                                 std::span<const OrganColumn* const> columns) const {
+    for (const OrganColumn* const column : columns) {
+        const auto components = static_cast<std::size_t>(column->quantity.components);
+        const auto values = arrays.append<float>(column->quantity.name, owners, column->quantity.components);
         for_each_owner(owners, [&](std::size_t i, const Owner& owner) {
-            const std::vector<float>* const of_plant = known[owner.plant].get();
+            const std::vector<float>* const known =
+                owner.plant < column->of_plants.size() ? column->of_plants[owner.plant].get() : nullptr;
             for (std::size_t k = 0; k < components; ++k) {
                 const std::size_t at = components * owner.module + k;
-                const bool has_value = of_plant && at < of_plant->size();
-                values.put(components * i + k, has_value ? (*of_plant)[at] : std::numeric_limits<float>::quiet_NaN());
+                const bool has_value = known && at < known->size();
+                values.put(components * i + k, has_value ? (*known)[at] : std::numeric_limits<float>::quiet_NaN());
             }
         });
     }

@@ -80,8 +80,7 @@ public:
     /// The chosen parameters, as doubles; NaN where a module has none.
     void add_parameters(OwnerArrays& arrays, const Owners& owners) const;
     /// What the processes of the environment know of the organs; NaN where they know nothing.
-    void add_organs(OwnerArrays& arrays, const Owners& owners, const Environment& environment,
-                    std::span<const OrganQuantity> quantities) const;
+    void add_organs(OwnerArrays& arrays, const Owners& owners, std::span<const OrganColumn* const> columns) const;
 
 private:
     struct Plant {

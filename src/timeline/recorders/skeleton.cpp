@@ -183,13 +183,12 @@ private:
         data_.cell_owners.end();
     }
 
-    /// What the environment calls the organs' quantities that the scene asks for.
+    /// The columns that the scene asks for.
     void find_organs(const Frame& frame) {
-        if (organ_names_.size() == organs_known_.size()) return;
-        const std::vector<OrganQuantity> known =
-            frame.environment ? frame.environment->organ_quantities() : std::vector<OrganQuantity>();
+        organs_wanted_.clear();
+        data_.organ_units.clear();
         std::vector<std::string> names;
-        for (const OrganQuantity& quantity : known) names.push_back(quantity.name);
+        for (const OrganColumn& column : frame.organs) names.push_back(column.quantity.name);
         for (const std::string& name : organ_names_) {
             const auto found = std::find(names.begin(), names.end(), name);
             if (found == names.end()) {
@@ -199,10 +198,9 @@ private:
                                 names.empty() ? "canopy-light and ray-light know what organs absorb"
                                               : fmt::format("there are: {}", fmt::join(names, ", "))));
             }
-            organs_known_.push_back(known[static_cast<std::size_t>(found - names.begin())]);
-        }
-        for (const OrganQuantity& quantity : organs_known_) {
-            data_.organ_units.push_back(quantity.name + ": " + (quantity.unit.empty() ? "1" : quantity.unit));
+            organs_wanted_.push_back(&frame.organs[static_cast<std::size_t>(found - names.begin())]);
+            const std::string& unit = organs_wanted_.back()->quantity.unit;
+            data_.organ_units.push_back(name + ": " + (unit.empty() ? "1" : unit));
         }
     }
 
@@ -224,7 +222,7 @@ private:
         arrays.add_attributes(data_.of_points, of_points);
         arrays.add_colours(data_.of_points, of_points);
         arrays.add_parameters(data_.of_points, of_points);
-        if (!organs_known_.empty()) arrays.add_organs(data_.of_points, of_points, *frame.environment, organs_known_);
+        arrays.add_organs(data_.of_points, of_points, organs_wanted_);
         arrays.add_attributes(data_.of_cells, data_.cell_owners);
         arrays.add_looks(data_.of_cells, data_.cell_owners, scene_folder_, texture_files_);
         arrays.add_colours(data_.of_cells, data_.cell_owners);
@@ -278,7 +276,7 @@ private:
     std::vector<ChosenParameter> chosen_;
     std::vector<std::string> organ_names_;
     Place organ_place_;
-    std::vector<OrganQuantity> organs_known_;
+    std::vector<const OrganColumn*> organs_wanted_;  ///< of the frame that is being recorded
     bool shows_queries_;
     mutable SurfaceSizes surface_sizes_;
     SymbolNumbers symbols_;
