@@ -23,7 +23,7 @@ std::vector<StandPlant> stand_of(const RecordedGeometry& geometry);
 /// A recorded plant in its own space: it stands at the origin.
 struct LandscapeSpecies {
     std::string name;
-    int number;                     ///< its colour in the stand
+    int number;                     ///< its colour in the stand, which several individuals of a species have
     double radius;                  ///< radius of its crown, metres
     double height;                  ///< metres
     std::size_t triangles;          ///< triangles of all its detail
@@ -68,8 +68,8 @@ struct PlantedLandscape {
     std::size_t triangles_in_full() const;
 };
 
-/// Puts the stand onto the terrain: each plant as large as its crown says, turned by chance, with the level of its
-/// distance from the eye. Throws UserError for a species that is not there.
+/// Puts the stand onto the terrain: each plant as large as its crown says, an individual of its species and turned by
+/// chance, with the level of its distance from the eye. Throws UserError for a species that is not there.
 PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species, const std::vector<StandPlant>& stand,
                          const glm::dvec3& eye, const LevelDistances& distances, std::uint64_t seed);
 
