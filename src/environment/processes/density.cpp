@@ -67,16 +67,22 @@ public:
 private:
     static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
 
+    double density(const glm::dvec2& at) const { return density(at, occupants_.size()); }
+
     // In cpfg the asker itself adds nothing.
     double density_for(const glm::dvec2& asker, const glm::dvec2& at) const {
         if (!as_cpfg_) return density(at);
-        const glm::dvec2 away = at - asker;
-        return density(at) - 1 / (1 + glm::dot(away, away));
+        const auto itself = std::find_if(occupants_.begin(), occupants_.end(), [&](const Occupant& other) {
+            return !other.is_source && other.place == asker;
+        });
+        return density(at, static_cast<std::size_t>(itself - occupants_.begin()));
     }
 
-    double density(const glm::dvec2& at) const {
+    double density(const glm::dvec2& at, std::size_t left_out) const {
         double sum = 0;
-        for (const Occupant& other : occupants_) {
+        for (std::size_t i = 0; i < occupants_.size(); ++i) {
+            if (i == left_out) continue;
+            const Occupant& other = occupants_[i];
             const double apart = glm::distance(other.place, at);
             sum += other.is_source ? other.strength / (1 + apart) : 1 / (1 + apart * apart);
         }
