@@ -116,7 +116,8 @@ holton() { # NAME [OPTIONS]
 holton holton-fir
 holton holton-pine --define CROWN=5 --define LENGTH=0.9 --define LEAST_BRANCH=0.8 --define STRANDS=900 \
     --define SHARE_0=0.97 --define ANGLE_0=70 --define CROWN_SHARE_0=0.6
-holton holton-broadleaf --define CROWN=0 --define LENGTH=1 --define STRANDS=900
+holton holton-broadleaf --define CROWN=0 --define LENGTH=1.2 --define STRANDS=1500 --define THICKNESS=0.008 \
+    --define CROWN_DIVERGENCE=100 --define CROWN_ANGLE_1=55 --define LEAVES=4
 grow sierpinski environments/sierpinski-triangle.toml
 for step in 6 32; do
     render "sierpinski-$step.png" sierpinski --step $step --size 260x260 --azimuth 0 --elevation 90 --no-ground
