@@ -114,8 +114,9 @@ holton() { # NAME [OPTIONS]
     render "$1.png" "$1" --size 220x260
 }
 holton holton-fir
-holton holton-pine --define CROWN=5 --define LENGTH=0.9 --define LEAST_BRANCH=0.8 --define STRANDS=900 \
-    --define SHARE_0=0.97 --define ANGLE_0=70 --define CROWN_SHARE_0=0.6
+holton holton-pine --define CROWN=7 --define LENGTH=1 --define LEAST_BRANCH=0.8 --define LEAST_DRAWN=0.6 --define STRANDS=2000 \
+    --define THICKNESS=0.008 --define SHARE_0=0.93 --define ANGLE_0=80 --define CROWN_SHARE_0=0.62 \
+    --define CROWN_ANGLE_1=60 --define CROWN_DIVERGENCE=110
 holton holton-broadleaf --define CROWN=0 --define LENGTH=1.2 --define STRANDS=1500 --define THICKNESS=0.008 \
     --define CROWN_DIVERGENCE=100 --define CROWN_ANGLE_1=55 --define LEAVES=4
 grow sierpinski environments/sierpinski-triangle.toml
