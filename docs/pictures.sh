@@ -156,8 +156,15 @@ grow stand environments/self-thinning.toml --every 1000000 --set plant.0.define.
 grow black-oak models/species/black-oak.species --every 1000000
 grow european-larch models/species/european-larch.species --every 1000000
 grow bush models/pgraph/bush.pgraph --every 1000000
+grow black-oak-2 models/species/black-oak.species --seed 2 --every 1000000
+grow european-larch-2 models/species/european-larch.species --seed 2 --every 1000000
+grow bush-2 models/pgraph/bush.pgraph --seed 2 --every 1000000
+grow tufts models/herbs/grass.l --define TUFTS=6 --define SIDE=0.7 --every 1000000
 "$espalier" landscape environments/landscapes/hills.toml --set stand.run="$work/stand" \
-    --set species.0.run="$work/black-oak" --set species.1.run="$work/european-larch" --set species.2.run="$work/bush" \
+    --set species.0.run="$work/black-oak" --set species.1.run="$work/black-oak-2" \
+    --set species.2.run="$work/european-larch" --set species.3.run="$work/european-larch-2" \
+    --set species.4.run="$work/bush" --set species.5.run="$work/bush-2" --set cover.0.run="$work/tufts" \
+    --set cover.0.distance=250 --set cover.0.density=0.6 \
     --set camera.eye=[0,45,1000] --set camera.target=[0,20,500] --size 960x540 --output "$work/landscape.png" --quiet
 with_palette landscape.png
 printf 'click 350 490\ndrag 500 300 530 290\n' >"$work/window.txt"

@@ -64,7 +64,9 @@ void read_covers(const Settings& settings, SpeciesOfFile& of_file, std::vector<S
         const double density = entry.number("density", Range::positive());
         const double distance = entry.number_or("distance", 60, Range::positive());
         const double size = entry.number_or("size", 1, Range::positive());
+        const double cards = entry.number_or("cards", 12, Range::not_negative());
         of_file.read(entry, number, distances);
+        of_file.species.back().cards = cards;
         const Cover cover{number, density, distance, size * of_file.species.back().radius};
         const auto plants = blamed_on(entry, "density", [&] { return plants_of(cover, eye, seed); });
         stand.insert(stand.end(), plants.begin(), plants.end());

@@ -118,7 +118,9 @@ PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species,
         const LandscapeSpecies& kind = landscape.species[one];
         const double scale = plant.radius / kind.radius;
         const glm::dvec3 foot(plant.place.x, landscape.terrain.height(plant.place.x, plant.place.y), plant.place.y);
-        const std::size_t level = distances.level(glm::distance(foot, eye) / scale);
+        const double distance = glm::distance(foot, eye) / scale;
+        const bool is_card = kind.cards && distance >= *kind.cards;
+        const std::size_t level = is_card ? kind.levels.size() : distances.level(distance);
         landscape.plants.push_back(
             {foot, static_cast<float>(scale), one,
              level < kind.levels.size() ? static_cast<std::uint16_t>(level) : PlantedPlant::card_level, turn});
@@ -128,7 +130,7 @@ PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species,
 
 LandscapeSpecies species_of(const RecordedGeometry& geometry, const std::string& name, int number,
                             std::optional<double> radius, const LevelDistances& distances) {
-    LandscapeSpecies species{name, number, 0, 0, 0, {}};
+    LandscapeSpecies species{name, number, 0, 0, 0, {}, {}};
     glm::vec3 foot(0);
     for (const double distance : distances.levels) {
         MeshOptions options;

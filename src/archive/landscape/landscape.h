@@ -5,6 +5,7 @@
 #include "archive/landscape/terrain.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct LandscapeSpecies {
     double height;                  ///< metres
     std::size_t triangles;          ///< triangles of all its detail
     std::vector<FrameMesh> levels;  ///< the nearest first, then coarser
+    std::optional<double> cards;    ///< distance from which on it is a card, if it has its own
 };
 
 /// Seen from an eye at this distance (by the plant's own size: the distance by the scale) a plant has the level that

@@ -102,13 +102,14 @@ private:
     /// middle ones of its 6 x 6 places.
     glm::dvec2 downhill_at(const glm::dvec2& at) const {
         if (as_cpfg_ && !at_the_point_) {
-            const double corner = density(at + glm::dvec2(0.1));
-            return glm::dvec2(density(at + glm::dvec2(-0.1, 0.1)) - corner,
-                              density(at + glm::dvec2(0.1, -0.1)) - corner) /
+            const double corner = density_for(at, at + glm::dvec2(0.1));
+            return glm::dvec2(density_for(at, at + glm::dvec2(-0.1, 0.1)) - corner,
+                              density_for(at, at + glm::dvec2(0.1, -0.1)) - corner) /
                    6.0;
         }
         const glm::dvec2 right(0.5, 0), above(0, 0.5);
-        return {density(at - right) - density(at + right), density(at - above) - density(at + above)};
+        return {density_for(at, at - right) - density_for(at, at + right),
+                density_for(at, at - above) - density_for(at, at + above)};
     }
 
     void answer_one(const glm::dvec2& at, Answer answer) const {
