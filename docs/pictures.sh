@@ -46,10 +46,12 @@ for preset in decurrent excurrent weeping shrub gnarly flat orchard; do
     "$espalier" tree --preset "$preset" --run "$work/$preset" --output "$work/$preset.obj" --quiet
     render "tree-$preset.png" "$preset" --size 320x320 --azimuth 20 --ground
 done
-for scene in hedge ivy root-flare; do
+for scene in hedge ivy; do
     grow "$scene" "environments/$scene.toml"
     render "$scene.png" "$scene" --size 320x300 --azimuth 15
 done
+grow root-flare environments/root-flare.toml
+render root-flare.png root-flare --size 320x300 --azimuth 15 --elevation 20
 for scene in cohen cohen-vertical cohen-sources aono-kunii-field; do
     grow "$scene" "environments/$scene.toml"
     render "$scene.png" "$scene" --size 320x300
@@ -83,7 +85,7 @@ species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a
 for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir european-larch sassafras; do
     species "$plant"
 done
-species black-oak --define ScaleV=3
+species black-oak
 species weeping-willow --define Branches_3=60 --define QUALITY=0.5
 grow wind environments/wind.toml
 render wind.png wind --sheet 4x1 --size 220x280
