@@ -46,10 +46,12 @@ for preset in decurrent excurrent weeping shrub gnarly flat orchard; do
     "$espalier" tree --preset "$preset" --run "$work/$preset" --output "$work/$preset.obj" --quiet
     render "tree-$preset.png" "$preset" --size 320x320 --azimuth 20 --ground
 done
-for scene in hedge ivy root-flare; do
+for scene in hedge ivy; do
     grow "$scene" "environments/$scene.toml"
     render "$scene.png" "$scene" --size 320x300 --azimuth 15
 done
+grow root-flare environments/root-flare.toml
+render root-flare.png root-flare --size 320x300 --azimuth 15 --elevation 20
 for scene in cohen cohen-vertical cohen-sources aono-kunii-field; do
     grow "$scene" "environments/$scene.toml"
     render "$scene.png" "$scene" --size 320x300
@@ -83,7 +85,7 @@ species() { # NAME [OPTIONS]; the last step alone, because the whole growth of a
 for plant in quaking-aspen black-tupelo lombardy-poplar coconut-palm balsam-fir european-larch sassafras; do
     species "$plant"
 done
-species black-oak --define ScaleV=3
+species black-oak
 species weeping-willow --define Branches_3=60 --define QUALITY=0.5
 grow wind environments/wind.toml
 render wind.png wind --sheet 4x1 --size 220x280
@@ -114,9 +116,11 @@ holton() { # NAME [OPTIONS]
     render "$1.png" "$1" --size 220x260
 }
 holton holton-fir
-holton holton-pine --define CROWN=5 --define LENGTH=0.9 --define LEAST_BRANCH=0.8 --define STRANDS=900 \
-    --define SHARE_0=0.97 --define ANGLE_0=70 --define CROWN_SHARE_0=0.6
-holton holton-broadleaf --define CROWN=0 --define LENGTH=1 --define STRANDS=900
+holton holton-pine --define CROWN=7 --define LENGTH=1 --define LEAST_BRANCH=0.8 --define LEAST_DRAWN=0.6 --define STRANDS=2000 \
+    --define THICKNESS=0.008 --define SHARE_0=0.93 --define ANGLE_0=80 --define CROWN_SHARE_0=0.62 \
+    --define CROWN_ANGLE_1=60 --define CROWN_DIVERGENCE=110
+holton holton-broadleaf --define CROWN=0 --define LENGTH=1.2 --define STRANDS=1500 --define THICKNESS=0.008 \
+    --define CROWN_DIVERGENCE=100 --define CROWN_ANGLE_1=55 --define LEAVES=4
 grow sierpinski environments/sierpinski-triangle.toml
 for step in 6 32; do
     render "sierpinski-$step.png" sierpinski --step $step --size 260x260 --azimuth 0 --elevation 90 --no-ground
@@ -154,8 +158,15 @@ grow stand environments/self-thinning.toml --every 1000000 --set plant.0.define.
 grow black-oak models/species/black-oak.species --every 1000000
 grow european-larch models/species/european-larch.species --every 1000000
 grow bush models/pgraph/bush.pgraph --every 1000000
+grow black-oak-2 models/species/black-oak.species --seed 2 --every 1000000
+grow european-larch-2 models/species/european-larch.species --seed 2 --every 1000000
+grow bush-2 models/pgraph/bush.pgraph --seed 2 --every 1000000
+grow tufts models/herbs/grass.l --define TUFTS=6 --define SIDE=0.7 --every 1000000
 "$espalier" landscape environments/landscapes/hills.toml --set stand.run="$work/stand" \
-    --set species.0.run="$work/black-oak" --set species.1.run="$work/european-larch" --set species.2.run="$work/bush" \
+    --set species.0.run="$work/black-oak" --set species.1.run="$work/black-oak-2" \
+    --set species.2.run="$work/european-larch" --set species.3.run="$work/european-larch-2" \
+    --set species.4.run="$work/bush" --set species.5.run="$work/bush-2" --set cover.0.run="$work/tufts" \
+    --set cover.0.distance=250 --set cover.0.density=0.6 \
     --set camera.eye=[0,45,1000] --set camera.target=[0,20,500] --size 960x540 --output "$work/landscape.png" --quiet
 with_palette landscape.png
 printf 'click 350 490\ndrag 500 300 530 290\n' >"$work/window.txt"

@@ -13,14 +13,32 @@
 namespace espalier::analysis {
 namespace {
 
-/// True for the internodes above a fork; for all, if there is neither a fork nor a leaf.
-std::vector<bool> in_crown(const BranchTree& tree, const Children& children, bool has_leaves) {
+/// True for the internodes below the foot of a plant that rises above it.
+std::vector<bool> roots_of(const BranchTree& tree) {
+    std::vector<bool> is_root(tree.size(), false);
+    const auto rises = [&](const glm::dvec3& tip) { return tip.y > tree.bases[0].y; };
+    if (std::none_of(tree.tips.begin(), tree.tips.end(), rises)) return is_root;
+    for (std::size_t i = 0; i < tree.size(); ++i) {
+        const auto [low, high] = std::minmax(tree.bases[i].y, tree.tips[i].y);
+        is_root[i] = high <= tree.bases[0].y && low < tree.bases[0].y;
+    }
+    return is_root;
+}
+
+/// True for the internodes above a fork of the shoot; for all, if there is neither a fork nor a leaf.
+std::vector<bool> in_crown(const BranchTree& tree, const Children& children, const std::vector<bool>& is_root,
+                           bool has_leaves) {
     std::vector<bool> inside(tree.size(), false);
     bool any = has_leaves;
     for (std::size_t i = 0; i < tree.size(); ++i) {
+        if (is_root[i]) continue;
         const std::int32_t parent = tree.parents[i];
         const bool below_is_inside = parent != BranchTree::ground && inside[static_cast<std::size_t>(parent)];
-        inside[i] = below_is_inside || children.of(parent).size() > 1;
+        const auto beside = children.of(parent);
+        const auto shoots = std::count_if(beside.begin(), beside.end(), [&](std::int32_t child) {
+            return !is_root[static_cast<std::size_t>(child)];
+        });
+        inside[i] = below_is_inside || shoots > 1;
         any = any || inside[i];
     }
     if (!any) inside.assign(tree.size(), true);
@@ -34,12 +52,13 @@ double asymmetry(const std::vector<glm::dvec3>& places, const glm::dvec3& foot, 
     return places.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(places.size());
 }
 
-std::vector<glm::dvec3> ends_of(const BranchTree& tree, const Children& children, const Leaves& leaves) {
+std::vector<glm::dvec3> ends_of(const BranchTree& tree, const Children& children, const std::vector<bool>& is_root,
+                                const Leaves& leaves) {
     std::vector<glm::dvec3> ends;
     for (const Leaf& leaf : leaves.leaves) ends.push_back(leaf.position);
     if (!ends.empty()) return ends;
     for (std::size_t i = 0; i < tree.size(); ++i) {
-        if (children.of(static_cast<std::int32_t>(i)).empty()) ends.push_back(tree.tips[i]);
+        if (!is_root[i] && children.of(static_cast<std::int32_t>(i)).empty()) ends.push_back(tree.tips[i]);
     }
     return ends;
 }
@@ -48,7 +67,8 @@ std::vector<glm::dvec3> ends_of(const BranchTree& tree, const Children& children
 
 Crown measure_crown(const BranchTree& tree, const Leaves& leaves, double voxel) {
     const Children children(tree);
-    const std::vector<bool> inside = in_crown(tree, children, !leaves.leaves.empty());
+    const std::vector<bool> is_root = roots_of(tree);
+    const std::vector<bool> inside = in_crown(tree, children, is_root, !leaves.leaves.empty());
     std::vector<glm::dvec3> points = leaves.corners;
     for (std::size_t i = 0; i < tree.size(); ++i) {
         if (inside[i]) points.push_back(tree.bases[i]), points.push_back(tree.tips[i]);
@@ -83,7 +103,7 @@ Crown measure_crown(const BranchTree& tree, const Leaves& leaves, double voxel) 
         }
         crown.occupied = static_cast<double>(voxels.count()) * crown.voxel * crown.voxel * crown.voxel;
     }
-    const std::vector<glm::dvec3> ends = ends_of(tree, children, leaves);
+    const std::vector<glm::dvec3> ends = ends_of(tree, children, is_root, leaves);
     crown.asymmetry_x = asymmetry(ends, foot, 0);
     crown.asymmetry_z = asymmetry(ends, foot, 2);
     return crown;

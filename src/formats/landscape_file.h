@@ -25,7 +25,7 @@ struct LandscapeFile {
     const PlantedLandscape& landscape;
     const std::vector<std::vector<CardImage>>& cards;  ///< cards of each species by turn
     glm::dvec3 eye;                                    ///< to which cards turn
-    Rgb ground;
+    GroundColour ground;
     const RecordedRun& run;  ///< says what materials emit
 };
 

@@ -1,4 +1,5 @@
 /** The picture of a graph of components: boxes in layers, from the camera downwards, joined by arrows. */
+import { componentSymbols } from "./component-symbols.js";
 import type { ComponentGraph, GraphLink } from "./protocol.js";
 
 const space = "http://www.w3.org/2000/svg";
@@ -89,6 +90,11 @@ function arrowHead(): SVGElement {
   return element("defs", {}, marker);
 }
 
+function symbol(type: string): SVGElement[] {
+  const outline = componentSymbols[type];
+  return outline ? [element("path", { d: outline, class: "graph-symbol", transform: `translate(${box.width - 28} 6)` })] : [];
+}
+
 export function graphPicture(graph: ComponentGraph, chosen: string | null, choose: (name: string) => void): SVGSVGElement {
   const layers = layersOf(graph);
   const width = Math.max(300, ...layers.map((layer) => layer.length * (box.width + box.across) + 40));
@@ -118,8 +124,9 @@ export function graphPicture(graph: ComponentGraph, chosen: string | null, choos
         "aria-pressed": String(name === chosen),
       },
       element("rect", { width: box.width, height: box.height, rx: 7 }),
-      text(name.length > 15 ? `${name.slice(0, 14)}…` : name, { x: 9, y: 15, class: "graph-name" }),
+      text(name.length > 12 ? `${name.slice(0, 11)}…` : name, { x: 9, y: 15, class: "graph-name" }),
       text(type, { x: 9, y: 29, class: "graph-type" }),
+      ...symbol(type),
     );
     group.addEventListener("click", () => choose(name));
     group.addEventListener("keydown", (event) => {

@@ -251,6 +251,7 @@ describe("editors of side files", () => {
     await page.locator('.card[title$="/bush.pgraph"]').click();
     await page.waitForFunction(() => document.title.startsWith("bush.pgraph"));
     await grown();
+    assert.equal(await page.locator(".graph-box .graph-symbol").count(), await page.locator(".graph-box").count());
     await explains("Phiball fork", /Phiball/);
     await explains("recursion 5", /recursion/);
     await page.getByRole("button", { name: "Gallery", exact: true }).click();

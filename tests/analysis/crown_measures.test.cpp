@@ -235,6 +235,22 @@ TEST_CASE("internode lengths: moments and a histogram", "[analysis]") {
     CHECK(std::isnan(length_distribution({}).mean));
 }
 
+TEST_CASE("roots below the foot are no part of the crown, and a root system alone is its own", "[analysis]") {
+    const Crown bare = measure_crown(binary_tree(4), {});
+    BranchTree rooted = binary_tree(4), roots;
+    for (const double x : {-3.0, 2.0, 5.0}) {
+        rooted.add(BranchTree::ground, {0, 0, 0}, {x, -1, 0.3 * x}, 0.1, 0.1);
+        roots.add(BranchTree::ground, {0, 0, 0}, {x, -1, 0.3 * x}, 0.1, 0.1);
+    }
+    const Crown crown = measure_crown(rooted, {}), below = measure_crown(roots, {});
+    CHECK(crown.base == bare.base);
+    CHECK(crown.width_x == bare.width_x);
+    CHECK(crown.projection == bare.projection);
+    CHECK(crown.asymmetry_x == bare.asymmetry_x);
+    CHECK(below.base == -1);
+    CHECK(below.width_x == 8);
+}
+
 TEST_CASE("sums: a frustum has its lateral surface and volume", "[analysis]") {
     BranchTree tree;
     tree.add(BranchTree::ground, {0, 0, 0}, {0, 4, 0}, 4, 1);

@@ -68,6 +68,25 @@ TEST_CASE("landscape draws and exports the plants of a stand, and says how many 
     CHECK(place.bytes("made/a.png") != place.bytes("made/c.png"));
 }
 
+TEST_CASE("landscape covers the ground around the eye, and names individuals of a species by numbers", "[landscape]") {
+    LandscapePlace place;
+    place.landscape("[[cover]]\nrun = 'bush'\ndensity = 0.05\ndistance = 40\nsize = 0.3\n");
+    const Outcome outcome = place.run(
+        "landscape land.toml --output a.png --output a.usda --cards cards --size 40x30 --json --set "
+        "terrain.second_share='x > 0 ? 1 : 0' --set camera.eye=[0,3,10]");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto json = nlohmann::json::parse(outcome.out);
+    CHECK(json["plants"] > 100);
+    CHECK(json["species"][0]["species"] == "bush");
+    CHECK(json["species"][1]["species"] == "bush-2");
+    CHECK(json["species"][2]["species"] == "bush-3");
+    CHECK_THAT(place.run("landscape land.toml --output b.png --set species.0.colour=7").err,
+               Contains("there are 7, 2"));
+    CHECK_THAT(place.run("landscape land.toml --output b.png --set cover.0.density=1e9").err,
+               Contains("--set cover.0.density") && Contains("plants"));
+}
+
 TEST_CASE("landscape says what is wrong, and where", "[landscape]") {
     LandscapePlace place;
     const auto message = [&](const std::string& options) {

@@ -5,10 +5,12 @@
 #include "program.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -90,6 +92,54 @@ std::set<std::array<float, 3>> nodes(const fs::path& folder) {
 }
 
 }  // namespace
+
+namespace {
+
+/// The last step of `espalier analyse`.
+json measures_of(const Workplace& place, const std::string& folder) {
+    REQUIRE(place.run("analyse " + folder + " --step last --no-picture --format json").code == 0);
+    return json::parse(text_of(place.path() / folder / "analysis/analysis.json"))["frames"].back()["plants"][0];
+}
+
+}  // namespace
+
+TEST_CASE_METHOD(Workplace, "trees of all presets have branching ratios from 3 to 5 and pipe exponents from 1.8 to 2.3",
+                 "[tree]") {
+    int seed = 90;
+    for (const char* preset : {"decurrent", "excurrent", "flat", "gnarly", "orchard", "shrub", "weeping"}) {
+        INFO(preset << ", seed " << ++seed);
+        REQUIRE(
+            run(fmt::format("tree --preset {0} --leaves 0 --seed {1} --run {0} --output {0}.stl --quiet", preset, seed))
+                .code == 0);
+        const json measures = measures_of(*this, preset);
+        CHECK(measures["branching_ratio"] >= 3);
+        CHECK(measures["branching_ratio"] <= 5);
+        CHECK(measures["pipe_exponent"] >= 1.8);
+        CHECK(measures["pipe_exponent"] <= 2.3);
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "in a decurrent crown no axis is longer than 40 % of the crown's height", "[tree]") {
+    for (const int seed : {101, 102, 103}) {
+        INFO("seed " << seed);
+        const std::string name = std::to_string(seed);
+        REQUIRE(
+            run("tree --preset decurrent --leaves 0 --seed " + name + " --run " + name + " --output " + name + ".stl")
+                .code == 0);
+        const json measures = measures_of(*this, name);
+        const double base = measures["crown_base"], height = measures["height"];
+        CHECK(base == Approx(2).margin(0.3));  // the stem's length
+        const espalier::RecordedRun recorded(path() / name);
+        std::map<std::uint32_t, double> length;
+        for (const auto& one : internodes_of(recorded.geometry(recorded.frames().back()))) {
+            if (one.base.y > base - 0.01) length[one.axis] += glm::distance(one.base, one.tip);
+        }
+        double longest = 0;
+        for (const auto& [axis, metres] : length) longest = std::max(longest, metres);
+        CHECK(longest <= 0.4 * (height - base));
+        CHECK(longest > 1);
+    }
+}
 
 TEST_CASE_METHOD(Nursery, "the settings of the model are options, in groups, with range, unit and default", "[tree]") {
     const Outcome help = run("tree --help");

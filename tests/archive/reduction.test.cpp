@@ -102,3 +102,29 @@ TEST_CASE("what bears others goes after them", "[archive]") {
         }
     }
 }
+
+TEST_CASE("half of the triangles of smooth branches leave all of them in their wood", "[archive]") {
+    espalier::FrameAttributes of_points;
+    of_points.colours.assign(1, 0);
+    std::vector<PlannedTube> whole;
+    for (int i = 0; i < 60; ++i) {
+        std::vector<glm::vec3> twig;
+        const float turn = 2.4f * static_cast<float>(i), bend = 0.05f + 0.002f * static_cast<float>(i);
+        for (int k = 0; k <= 16; ++k) {
+            const float part = static_cast<float>(k) / 16;
+            const float aside = bend * std::sin(3.1416f * part);
+            twig.push_back({aside * std::cos(turn), 0.6f * part + static_cast<float>(i), aside * std::sin(turn)});
+        }
+        whole.push_back(tube(twig, 0.01f, true));
+        whole.back().sides = 3;
+    }
+    std::vector<PlannedTube> tubes = whole;
+    espalier::archive::FrameMesh organs;
+    reduce(tubes, organs, of_points, triangles_of(whole) / 2);
+    CHECK(triangles_of(tubes) <= triangles_of(whole) / 2);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        REQUIRE(tubes[i].sides == 3);
+        for (const TubeNode& node : whole[i].line.nodes)
+            CHECK(distance_to(tubes[i].line, node.position) < 0.6 * node.radius);
+    }
+}

@@ -95,7 +95,7 @@ TEST_CASE("cards go as wholes, and those that stay cover as much", "[export][red
     const ObjFile before(ExportedPlant(tree.plant, "obj").files.at(0).path);
     CHECK(count_of_group(before, "polygon") == 2 * tree.cards);
     bool some_went = false;
-    for (const double share : {0.5, 0.2, 0.1, 0.05}) {
+    for (const double share : {0.5, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02}) {
         const auto wanted = static_cast<std::size_t>(share * static_cast<double>(before.faces.size()));
         const ObjFile after(reduced(tree.plant, wanted).files.at(0).path);
         const std::size_t left = count_of_group(after, "polygon");

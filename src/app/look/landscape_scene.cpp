@@ -1,6 +1,7 @@
 #include "landscape_scene.h"
 
 #include "archive/meshes/texture_file.h"
+#include "landscape_species.h"
 #include "language/vector_field.h"
 #include "picture/stage/daylight.h"
 #include "picture_options.h"
@@ -16,34 +17,6 @@ namespace espalier::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Where and what is said of it, if something is wrong with what a key names.
-template <class Work>
-auto blamed_on(const Settings& settings, const char* key, const Work& work) {
-    try {
-        return work();
-    } catch (const UserError& error) {
-        if (!error.diagnostics().empty() && error.diagnostics().front().place.known()) throw;
-        throw UserError(settings.place(key), error.what());
-    }
-}
-
-/// The run that a key names, and the last frame of its plants.
-struct LastFrame {
-    RecordedRun run;
-    FrameGeometry geometry;
-};
-LastFrame last_frame(const Settings& settings) {
-    return blamed_on(settings, "run", [&]() -> LastFrame {
-        RecordedRun run(settings.path("run"));
-        const auto& frames = run.frames();
-        const auto drawn = std::find_if(frames.rbegin(), frames.rend(),
-                                        [](const RecordedFrame& frame) { return !frame.plants.empty(); });
-        if (drawn == frames.rend()) throw UserError(fmt::format("{}: no plants were recorded", run.folder().string()));
-        FrameGeometry geometry = run.geometry(*drawn);
-        return {std::move(run), std::move(geometry)};
-    });
-}
 
 Rgb colour_setting(const Settings& settings, const char* key, const std::string& usual) {
     const std::string text = settings.text_or(key, usual);
@@ -62,6 +35,26 @@ LevelDistances distances_of(const Settings& detail) {
     return distances;
 }
 
+/// An expression of x and z, which are metres.
+std::function<double(double, double)> expression_of(const Settings& settings, const char* key,
+                                                    const std::string& text) {
+    const auto field = blamed_on(settings, key, [&] { return VectorField::parse(fmt::format("0, {}, 0", text)); });
+    return [field](double x, double z) {
+        const auto vector = field.at({x, 0, z});
+        return vector ? vector->y : std::numeric_limits<double>::quiet_NaN();
+    };
+}
+
+GroundColour ground_of(const Settings& terrain) {
+    GroundColour ground{colour_setting(terrain, "colour", "#70744a")};
+    const std::string share = terrain.text_or("second_share", "");
+    if (!share.empty()) {
+        ground.second = colour_setting(terrain, "second_colour", "#4f5f36");
+        ground.share = expression_of(terrain, "second_share", share);
+    }
+    return ground;
+}
+
 /// By how much of its size the terrain goes on around a stand.
 constexpr double margin_share = 0.5;
 
@@ -78,12 +71,7 @@ std::function<double(double, double)> heights_of(const Settings& terrain, const 
         const double low = terrain.number("low"), high = terrain.number("high");
         return blamed_on(terrain, "picture", [&] { return heights_of_picture(*picture, lower, upper, low, high); });
     }
-    const std::string text = terrain.text_or("heights", "0");
-    const auto field = blamed_on(terrain, "heights", [&] { return VectorField::parse(fmt::format("0, {}, 0", text)); });
-    return [field](double x, double z) {
-        const auto vector = field.at({x, 0, z});
-        return vector ? vector->y : std::numeric_limits<double>::quiet_NaN();
-    };
+    return expression_of(terrain, "heights", terrain.text_or("heights", "0"));
 }
 
 Terrain terrain_of(const Settings& settings, const std::vector<StandPlant>& stand) {
@@ -121,17 +109,6 @@ std::shared_ptr<const OpacityPicture> texture_picture(const std::string& file) {
     return std::make_shared<const OpacityPicture>(std::move(picture));
 }
 
-/// Textures by paths that hold wherever one stands.
-void find_textures(LandscapeSpecies& species, const fs::path& run) {
-    std::error_code ignored;
-    for (FrameMesh& mesh : species.levels) {
-        for (MeshMaterial& material : mesh.materials) {
-            const fs::path beside = run / material.texture;
-            if (!material.texture.empty() && fs::is_regular_file(beside, ignored)) material.texture = beside.string();
-        }
-    }
-}
-
 LandscapeView view_of(const Settings& camera, const Terrain& terrain) {
     const glm::dvec2 middle = (terrain.lower() + terrain.upper()) / 2.0, size = terrain.upper() - terrain.lower();
     const auto over_ground = [&](const glm::dvec3& place) {
@@ -147,6 +124,26 @@ LandscapeView view_of(const Settings& camera, const Terrain& terrain) {
     return view;
 }
 
+LandscapeLook look_of(const Settings& settings) {
+    const Settings light = settings.table("light"), detail = settings.table("detail");
+    LandscapeLook look;
+    look.ground = ground_of(settings.table("terrain"));
+    look.visibility = light.number_or("visibility", 3000, Range::positive());
+    look.samples = static_cast<int>(detail.integer_or("samples", 3, Range::between(1, 16)));
+    look.texture_of = texture_picture;
+    return look;
+}
+
+/// Two plants of one colour are individuals of one species.
+SpeciesOfFile species_in(const Settings& settings, const LevelDistances& distances) {
+    SpeciesOfFile of_file;
+    for (const Settings& entry : settings.tables("species")) {
+        of_file.read(entry, static_cast<int>(entry.integer("colour", Range::between(0, 65535))), distances);
+    }
+    if (of_file.first_run) return of_file;
+    throw UserError(settings.place(), "a landscape needs at least one [[species]] with `colour` and `run`");
+}
+
 }  // namespace
 
 LandscapeScene read_landscape(const fs::path& file, const LandscapeOverrides& overrides) {
@@ -155,46 +152,29 @@ LandscapeScene read_landscape(const fs::path& file, const LandscapeOverrides& ov
     const Settings stand_settings = settings.table("stand"), light = settings.table("light"),
                    detail = settings.table("detail");
     const LevelDistances distances = distances_of(detail);
-    const std::vector<StandPlant> stand = [&] {
+    std::vector<StandPlant> stand = [&] {
         const LastFrame frame = last_frame(stand_settings);
         return blamed_on(stand_settings, "run", [&] { return stand_of(frame.geometry); });
     }();
-    const Settings ground = settings.table("terrain");
-    Terrain terrain = terrain_of(ground, stand);
-    std::vector<LandscapeSpecies> species;
-    std::optional<RecordedRun> first;
-    for (const Settings& entry : settings.tables("species")) {
-        LastFrame plant = last_frame(entry);
-        const std::string name = entry.text_or("name", plant.run.folder().filename().string());
-        const double radius = entry.number_or("radius", 0, Range::not_negative());
-        const auto number = static_cast<int>(entry.integer("colour", Range::between(0, 65535)));
-        species.push_back(blamed_on(entry, "run", [&] {
-            return species_of(plant.geometry, name, number, radius > 0 ? std::optional(radius) : std::nullopt,
-                              distances);
-        }));
-        find_textures(species.back(), plant.run.folder());
-        if (!first) first = std::move(plant.run);
-    }
-    if (!first) throw UserError(settings.place(), "a landscape needs at least one [[species]] with `colour` and `run`");
+    Terrain terrain = terrain_of(settings.table("terrain"), stand);
+    SpeciesOfFile of_file = species_in(settings, distances);
     const LandscapeView view = view_of(settings.table("camera"), terrain);
     const auto seed = static_cast<std::uint64_t>(settings.integer_or("seed", 0, Range::between(0, 1e15)));
+    read_covers(settings, of_file, stand, view.eye, distances, seed);
     const glm::vec3 sun = picture::direction_at(light.number_or("azimuth", -60, Range::between(-360, 360)),
                                                 light.number_or("elevation", 40, Range::between(1, 90)));
-    LandscapeLook look;
-    look.ground = colour_setting(ground, "colour", "#70744a");
-    look.visibility = light.number_or("visibility", 3000, Range::positive());
-    look.samples = static_cast<int>(detail.integer_or("samples", 3, Range::between(1, 16)));
-    look.texture_of = texture_picture;
+    LandscapeLook look = look_of(settings);
     const auto card_pixels = static_cast<std::size_t>(detail.integer_or("card_pixels", 192, Range::between(8, 4096)));
     settings.reject_unread();
     return {
-        blamed_on(stand_settings, "run",
-                  [&] { return planted(std::move(terrain), std::move(species), stand, view.eye, distances, seed); }),
+        blamed_on(
+            stand_settings, "run",
+            [&] { return planted(std::move(terrain), std::move(of_file.species), stand, view.eye, distances, seed); }),
         view,
         {sun},
         std::move(look),
         card_pixels,
-        std::move(*first)};
+        std::move(*of_file.first_run)};
 }
 
 }  // namespace espalier::app

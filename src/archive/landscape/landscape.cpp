@@ -41,6 +41,16 @@ glm::vec3 foot_of(const FrameGeometry& geometry, const FrameMesh& mesh) {
     return *std::min_element(mesh.points.begin(), mesh.points.end(), lower);
 }
 
+UserError no_species(int number, const std::vector<LandscapeSpecies>& species) {
+    std::vector<int> known;
+    for (const LandscapeSpecies& one : species) {
+        if (one.number >= 0) known.push_back(one.number);  // those of covers are below
+    }
+    return UserError(
+        fmt::format("the stand has plants of colour {}, and no [[species]] has this `colour`; there are {}", number,
+                    fmt::join(known, ", ")));
+}
+
 }  // namespace
 
 std::vector<StandPlant> stand_of(const FrameGeometry& geometry) {
@@ -87,34 +97,32 @@ std::size_t PlantedLandscape::triangles_in_full() const {
 
 PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species, const std::vector<StandPlant>& stand,
                          const glm::dvec3& eye, const LevelDistances& distances, std::uint64_t seed) {
-    std::map<int, std::uint16_t> place_of;
-    std::vector<int> known;
+    std::map<int, std::vector<std::uint16_t>> individuals;
     for (std::size_t i = 0; i < species.size(); ++i) {
-        place_of[species[i].number] = static_cast<std::uint16_t>(i);
-        known.push_back(species[i].number);
+        individuals[species[i].number].push_back(static_cast<std::uint16_t>(i));
     }
     PlantedLandscape landscape{std::move(terrain), std::move(species), {}};
     const RandomKey key(seed, 0, Stream::placement, salt);
     for (std::size_t i = 0; i < stand.size(); ++i) {
         const StandPlant& plant = stand[i];
-        const auto found = place_of.find(plant.species);
-        if (found == place_of.end()) {
-            throw UserError(
-                fmt::format("the stand has plants of colour {}, and no [[species]] has this `colour`; "
-                            "there are {}",
-                            plant.species, fmt::join(known, ", ")));
-        }
+        const auto found = individuals.find(plant.species);
+        if (found == individuals.end()) throw no_species(plant.species, landscape.species);
         if (!landscape.terrain.holds(plant.place.x, plant.place.y)) {
             ++landscape.outside;
             continue;
         }
-        const LandscapeSpecies& kind = landscape.species[found->second];
+        RandomSamples samples(key, i, 0);
+        const auto turn = static_cast<std::uint16_t>(card_turns * samples.uniform());
+        const std::vector<std::uint16_t>& alike = found->second;
+        const std::uint16_t one = alike[static_cast<std::size_t>(samples.uniform() * double(alike.size()))];
+        const LandscapeSpecies& kind = landscape.species[one];
         const double scale = plant.radius / kind.radius;
         const glm::dvec3 foot(plant.place.x, landscape.terrain.height(plant.place.x, plant.place.y), plant.place.y);
-        const std::size_t level = distances.level(glm::distance(foot, eye) / scale);
-        const auto turn = static_cast<std::uint16_t>(card_turns * RandomSamples(key, i, 0).uniform());
+        const double distance = glm::distance(foot, eye) / scale;
+        const bool is_card = kind.cards && distance >= *kind.cards;
+        const std::size_t level = is_card ? kind.levels.size() : distances.level(distance);
         landscape.plants.push_back(
-            {foot, static_cast<float>(scale), found->second,
+            {foot, static_cast<float>(scale), one,
              level < kind.levels.size() ? static_cast<std::uint16_t>(level) : PlantedPlant::card_level, turn});
     }
     return landscape;
@@ -122,7 +130,7 @@ PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species,
 
 LandscapeSpecies species_of(const FrameGeometry& geometry, const std::string& name, int number,
                             std::optional<double> radius, const LevelDistances& distances) {
-    LandscapeSpecies species{name, number, 0, 0, 0, {}};
+    LandscapeSpecies species{name, number, 0, 0, 0, {}, {}};
     glm::vec3 foot(0);
     for (const double distance : distances.levels) {
         MeshOptions options;

@@ -5,6 +5,7 @@
 #include "archive/landscape/terrain.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,12 @@ std::vector<StandPlant> stand_of(const FrameGeometry& geometry);
 /// A recorded plant in its own space: it stands at the origin.
 struct LandscapeSpecies {
     std::string name;
-    int number;                     ///< its colour in the stand
+    int number;                     ///< its colour in the stand, which several individuals of a species have
     double radius;                  ///< radius of its crown, metres
     double height;                  ///< metres
     std::size_t triangles;          ///< triangles of all its detail
     std::vector<FrameMesh> levels;  ///< the nearest first, then coarser
+    std::optional<double> cards;    ///< distance from which on it is a card, if it has its own
 };
 
 /// Seen from an eye at this distance (by the plant's own size: the distance by the scale) a plant has the level that
@@ -68,8 +70,8 @@ struct PlantedLandscape {
     std::size_t triangles_in_full() const;
 };
 
-/// Puts the stand onto the terrain: each plant as large as its crown says, turned by chance, with the level of its
-/// distance from the eye. Throws UserError for a species that is not there.
+/// Puts the stand onto the terrain: each plant as large as its crown says, an individual of its species and turned by
+/// chance, with the level of its distance from the eye. Throws UserError for a species that is not there.
 PlantedLandscape planted(Terrain terrain, std::vector<LandscapeSpecies> species, const std::vector<StandPlant>& stand,
                          const glm::dvec3& eye, const LevelDistances& distances, std::uint64_t seed);
 

@@ -13,6 +13,8 @@
 namespace espalier::archive {
 namespace {
 
+constexpr int shades = 24;
+
 /// A place among `count` values side by side: the value before it, and how far it lies towards the next.
 struct Between {
     Between(double place, std::size_t count) {
@@ -69,9 +71,8 @@ double Terrain::height(double x, double z) const {
                             [&](std::size_t column, std::size_t row) { return at(column, row); });
 }
 
-FrameMesh Terrain::mesh(const Rgb& colour) const {
+FrameMesh Terrain::mesh(const GroundColour& ground) const {
     FrameMesh mesh;
-    mesh.materials.push_back({colour, ""});
     const glm::dvec2 step = (upper_ - lower_) / glm::dvec2(double(grid_.columns - 1), double(grid_.rows - 1));
     for (std::size_t row = 0; row < grid_.rows; ++row) {
         for (std::size_t column = 0; column < grid_.columns; ++column) {
@@ -81,7 +82,6 @@ FrameMesh Terrain::mesh(const Rgb& colour) const {
             mesh.points.emplace_back(here.x, at(column, row), here.y);
             mesh.normals.emplace_back(glm::normalize(glm::dvec3(-along_x / (2 * step.x), 1, -along_z / (2 * step.y))));
             mesh.uvs.emplace_back((here - lower_) / (upper_ - lower_));
-            mesh.rgb.push_back(colour);
         }
     }
     const auto columns = static_cast<std::uint32_t>(grid_.columns);
@@ -92,8 +92,32 @@ FrameMesh Terrain::mesh(const Rgb& colour) const {
             mesh.triangles.push_back({b, c, d});
         }
     }
-    mesh.material_of.assign(mesh.triangles.size(), 0);
+    add_shades(mesh, ground);
     return mesh;
+}
+
+void Terrain::add_shades(FrameMesh& mesh, const GroundColour& ground) const {
+    const int steps = ground.share ? shades - 1 : 0;
+    for (int shade = 0; shade <= steps; ++shade) {
+        Rgb rgb = ground.colour;
+        for (std::size_t k = 0; k < 3 && steps > 0; ++k) {
+            const double mixed = std::lerp(double(ground.colour[k]), double(ground.second[k]), double(shade) / steps);
+            rgb[k] = static_cast<std::uint8_t>(std::lround(mixed));
+        }
+        mesh.materials.push_back({rgb, ""});
+    }
+    const auto shade_at = [&](double x, double z) {
+        const double share = ground.share ? ground.share(x, z) : 0;
+        if (!std::isfinite(share)) {
+            throw UserError(fmt::format("the ground has no colour at x = {:.6g}, z = {:.6g}", x, z));
+        }
+        return static_cast<std::uint32_t>(std::lround(steps * std::clamp(share, 0.0, 1.0)));
+    };
+    for (const glm::vec3& point : mesh.points) mesh.rgb.push_back(mesh.materials[shade_at(point.x, point.z)].rgb);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const glm::vec3 middle = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0F;
+        mesh.material_of.push_back(shade_at(middle.x, middle.z));
+    }
 }
 
 std::function<double(double x, double z)> heights_of_picture(const std::filesystem::path& file, const glm::dvec2& lower,

@@ -12,6 +12,13 @@
 
 namespace espalier::archive {
 
+/// One colour, or a mixture of two.
+struct GroundColour {
+    Rgb colour{112, 116, 74};
+    Rgb second = colour;
+    std::function<double(double x, double z)> share = {};  ///< of the second colour, 0 to 1
+};
+
 class Terrain {
 public:
     /// Columns along x and rows along z of places where the height is known, two of each at least.
@@ -29,13 +36,14 @@ public:
     bool holds(double x, double z) const;
     /// Returns the height at the nearest place of the terrain.
     double height(double x, double z) const;
-    /// Two triangles between four neighbouring places.
-    FrameMesh mesh(const Rgb& colour) const;
+    /// Two triangles between four neighbouring places, in one of a few shades each.
+    FrameMesh mesh(const GroundColour& ground) const;
 
 private:
     double& at(std::size_t column, std::size_t row) { return heights_[row * grid_.columns + column]; }
     double at(std::size_t column, std::size_t row) const { return heights_[row * grid_.columns + column]; }
     glm::dvec2 place(std::size_t column, std::size_t row) const;
+    void add_shades(FrameMesh& mesh, const GroundColour& ground) const;
 
     glm::dvec2 lower_, upper_;
     Grid grid_;
@@ -51,6 +59,7 @@ std::function<double(double x, double z)> heights_of_picture(const std::filesyst
 
 namespace espalier {
 
+using archive::GroundColour;
 using archive::heights_of_picture;
 using archive::Terrain;
 

@@ -3,6 +3,7 @@
 #include "espalier/base/random.h"
 
 #include "archive/meshes/organ_levels.h"
+#include "archive/meshes/outline_cost.h"
 
 #include <glm/geometric.hpp>
 
@@ -20,6 +21,7 @@ namespace {
 
 constexpr double slack = 0.05;  ///< by how much fewer triangles there may be than asked for
 constexpr double longest_growth = 2;
+constexpr double side_of_outline = 0.2;  ///< a tube of fewer sides is as wide in the mean: its outline hardly changes
 constexpr int fewest_sides = 3, sides_of_line = 2;
 
 /// Returns the mean width of a polygon within a circle of radius 1, over all directions (Cauchy: the perimeter by pi).
@@ -32,14 +34,9 @@ double outline_error(double area) {
     return std::sqrt(area) / 2;
 }
 
-/// Returns the area of a tube seen from its side.
-double outline_area(const TubeLine& line) {
-    double area = 0;
-    for (std::size_t i = 1; i < line.nodes.size(); ++i) {
-        const TubeNode &from = line.nodes[i - 1], &to = line.nodes[i];
-        area += glm::distance(from.position, to.position) * (double(from.radius) + to.radius);
-    }
-    return area;
+/// The same for an area that is changed for a number of triangles: a card of two has its own area.
+double outline_error(double area, std::size_t triangles) {
+    return outline_error(2 * area / static_cast<double>(std::max<std::size_t>(1, triangles)));
 }
 
 struct PositionOrder {
@@ -63,15 +60,13 @@ std::vector<std::size_t> bearers(const std::vector<PlannedTube>& tubes) {
     return result;
 }
 
-/// The outline of each tube with all that stand on it.
-std::vector<double> borne_areas(const std::vector<PlannedTube>& tubes) {
+/// The outline of all that stands on each tube.
+std::vector<double> borne_areas(const std::vector<PlannedTube>& tubes, const std::vector<std::size_t>& bearer) {
     constexpr int most_orders = 100;  // most orders of branching: crossing lines may seem to bear each other
-    const std::vector<std::size_t> bearer = bearers(tubes);
     std::vector<double> areas(tubes.size(), 0);
     for (std::size_t i = 0; i < tubes.size(); ++i) {
         const double own = outline_area(tubes[i].line);
         std::size_t at = i;
-        areas[at] += own;
         for (int order = 0; order < most_orders && bearer[at] != at; ++order) areas[at = bearer[at]] += own;
     }
     return areas;
@@ -92,13 +87,18 @@ public:
     struct Limits {
         int fewest_sides;
         double longest_growth;  ///< longest growth of organs that stay
-        bool keeps_bearers;     ///< an axis counts for all that stands on it
+        bool keeps_outline;     ///< what counts is the area that changes, and an axis goes after what stands on it
     };
 
     Reduction(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
               const Limits& limits)
         : tubes_(tubes), organs_(organs), limits_(limits) {
-        const std::vector<double> areas = limits_.keeps_bearers ? borne_areas(tubes_) : std::vector<double>();
+        if (limits_.keeps_outline) {
+            bearer_ = bearers(tubes_);
+            borne_.assign(tubes_.size(), 0);
+            for (std::size_t i = 0; i < tubes_.size(); ++i) borne_[bearer_[i]] += bearer_[i] != i;
+        }
+        const std::vector<double> areas = limits_.keeps_outline ? borne_areas(tubes_, bearer_) : std::vector<double>();
         for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points, areas);
         for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
         add_removals();
@@ -111,7 +111,7 @@ public:
             const Move move = moves_.top();
             moves_.pop();
             const std::size_t saving = saving_of(move);
-            if (saving == 0 || count_ - saving < fewest) continue;
+            if (saving == 0 || count_ - saving < fewest || has_become_worse(move)) continue;
             count_ -= saving;
             apply(move);
         }
@@ -146,6 +146,7 @@ private:
         std::size_t nodes;
         int sides;  ///< at first
         float thickest;
+        double area, changed = 0;  ///< outline, and what has left its place
     };
     struct OrganState {
         const std::vector<OrganLevel>* levels;
@@ -163,19 +164,20 @@ private:
         state.gone.assign(state.nodes, false);
         state.thickest = 0;
         for (const TubeNode& node : line.nodes) state.thickest = std::max(state.thickest, node.radius);
-        const std::vector<double> errors = node_errors(line, of_points);
-        // A bearer that leaves its place by its own width leaves all that stands on it in the air.
-        const auto weighed = [&](double error) {
-            if (borne.empty()) return error;
-            return std::max(error, outline_error(borne[i] * std::min(1.0, error / (2 * state.thickest))));
-        };
-        for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(weighed(errors[k]), k);
-        std::sort(state.leaving.rbegin(), state.leaving.rend());
+        state.area = outline_area(line);
+        if (limits_.keeps_outline) {
+            state.leaving = leaving_nodes(line, of_points, borne[i]);
+            std::reverse(state.leaving.begin(), state.leaving.end());
+        } else {
+            const std::vector<double> errors = node_errors(line, of_points);
+            for (std::size_t k = 1; k + 1 < state.nodes; ++k) state.leaving.emplace_back(errors[k], k);
+            std::sort(state.leaving.rbegin(), state.leaving.rend());
+        }
         count_ += triangles_of_tube(i);
         if (tubes_[i].caps == Caps::round) push(0, Effect::caps, i);
         push_node(i);
         push_side(i);
-        push(outline_error(borne.empty() ? outline_area(line) : borne[i]), Effect::tube, i);
+        push_tube(i);
     }
 
     void add_organ(std::size_t i) {
@@ -211,14 +213,38 @@ private:
     void push(double error, Effect effect, std::size_t index) { moves_.push({error, mix(index), effect, index}); }
 
     void push_node(std::size_t i) {
-        if (!states_[i].leaving.empty()) push(states_[i].leaving.back().first, Effect::node, i);
+        if (states_[i].leaving.empty()) return;
+        const double change = states_[i].leaving.back().first;
+        const auto saving = 2 * static_cast<std::size_t>(tubes_[i].sides);
+        push(limits_.keeps_outline ? outline_error(change, saving) : change, Effect::node, i);
+    }
+
+    void push_tube(std::size_t i) {
+        if (!limits_.keeps_outline || borne_[i] == 0) push(error_of_tube(i), Effect::tube, i);
+    }
+
+    // Half of what has changed is where the tube is no longer.
+    double error_of_tube(std::size_t i) const {
+        const TubeState& state = states_[i];
+        if (!limits_.keeps_outline) return outline_error(state.area);
+        return outline_error(std::max(0.0, state.area - state.changed / 2), triangles_of_tube(i));
+    }
+
+    // A tube that has lost nodes saves fewer triangles than when its move was made.
+    bool has_become_worse(const Move& move) {
+        if (move.effect != Effect::tube || !(error_of_tube(move.index) > move.error)) return false;
+        push_tube(move.index);
+        return true;
     }
 
     // A polygon of one corner less lies so far inside the circle.
     void push_side(std::size_t i) {
         const int sides = tubes_[i].sides - 1;
         if (sides < limits_.fewest_sides) return;
-        push(states_[i].thickest * (1 - std::cos(std::numbers::pi / sides)), Effect::side, i);
+        const double inside = 1 - std::cos(std::numbers::pi / sides);
+        push(limits_.keeps_outline ? outline_error(side_of_outline * inside * states_[i].area, 2 * states_[i].nodes)
+                                   : inside * states_[i].thickest,
+             Effect::side, i);
     }
 
     void push_level(std::size_t i) {
@@ -256,6 +282,7 @@ private:
             tubes_[i].caps = Caps::lean;
         } else if (move.effect == Effect::node) {
             states_[i].gone[states_[i].leaving.back().second] = true;
+            states_[i].changed += states_[i].leaving.back().first;
             states_[i].leaving.pop_back();
             --states_[i].nodes;
             push_node(i);
@@ -264,6 +291,7 @@ private:
             push_side(i);
         } else if (move.effect == Effect::tube) {
             tubes_[i].sides = 0;
+            if (limits_.keeps_outline && bearer_[i] != i && --borne_[bearer_[i]] == 0) push_tube(bearer_[i]);
         } else if (move.effect == Effect::level) {
             organ_states_[i].triangles = level(i).triangles.size();
             ++organ_states_[i].next;
@@ -354,6 +382,7 @@ private:
     Limits limits_;
     OrganLevels shapes_;
     std::vector<TubeState> states_;
+    std::vector<std::size_t> bearer_, borne_;  ///< the tube that each stands on, and how many stand on it
     std::vector<OrganState> organ_states_;
     std::priority_queue<Move> moves_;
     std::size_t count_ = 0;

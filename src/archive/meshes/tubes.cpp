@@ -45,11 +45,6 @@ void mark(const std::vector<TubeNode>& nodes, std::size_t first, std::size_t las
     }
 }
 
-bool same_look(const FrameAttributes& of, std::int32_t a, std::int32_t b) {
-    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
-    return of.colours[i] == of.colours[k] && (of.rgb.empty() || of.rgb[i] == of.rgb[k]);
-}
-
 std::vector<TubeNode> simplified(const std::vector<TubeNode>& nodes, const FrameAttributes& of, double tolerance) {
     std::vector<bool> keep(nodes.size(), false);
     keep.front() = keep.back() = true;
@@ -177,6 +172,11 @@ float radius_of(const FrameGeometry& geometry, std::size_t row, float thinnest) 
 }
 
 }  // namespace
+
+bool same_look(const FrameAttributes& of, std::int32_t a, std::int32_t b) {
+    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
+    return of.colours[i] == of.colours[k] && (of.rgb.empty() || of.rgb[i] == of.rgb[k]);
+}
 
 TubeLine tube_line(const FrameGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
                    float thinnest) {

@@ -38,6 +38,9 @@ struct TubeLine {
 TubeLine tube_line(const FrameGeometry& geometry, std::span<const std::int32_t> points, double tolerance,
                    float thinnest);
 
+/// Whether two rows have one colour.
+bool same_look(const FrameAttributes& of, std::int32_t a, std::int32_t b);
+
 /// How far middle line and radius stray once a node and all that stray less have left; infinite at both ends. Where the
 /// colour changes it is the radius at least.
 std::vector<double> node_errors(const TubeLine& line, const FrameAttributes& of_points);

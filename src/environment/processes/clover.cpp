@@ -117,8 +117,9 @@ remove_old_leaves  false: leaves remain until they are removed; true: each step 
 z_is_up        true: the ground is x and y; false: x and z
 parameters     a file with these keys in words, as cpfg's program clover reads it
 numbers        "exact", or "cpfg" (default with `parameters` and in .e files): a leaf covers every cell that its disc
-               touches, at most 255 lie over each other, there is no red without a picture, the picture is stretched from corner cell to corner cell, and
-               leaves are added and removed in string order by queries that get no answer
+               touches by more than 0.03 of its width, at most 255 lie over each other, there is no red without a picture,
+               the picture is stretched from corner cell to corner cell, and leaves are added and removed in string
+               order by queries that get no answer
 
 A leaf covers the cells whose centres are inside its disc. Statistics of a plant: mean, min, max of the light, queries.
 )",

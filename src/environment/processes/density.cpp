@@ -67,16 +67,22 @@ public:
 private:
     static glm::dvec2 place(const Query& query) { return glm::dvec2(query.pose.position.x, query.pose.position.y); }
 
+    double density(const glm::dvec2& at) const { return density(at, occupants_.size()); }
+
     // In cpfg the asker itself adds nothing.
     double density_for(const glm::dvec2& asker, const glm::dvec2& at) const {
         if (!as_cpfg_) return density(at);
-        const glm::dvec2 away = at - asker;
-        return density(at) - 1 / (1 + glm::dot(away, away));
+        const auto itself = std::find_if(occupants_.begin(), occupants_.end(), [&](const Occupant& other) {
+            return !other.is_source && other.place == asker;
+        });
+        return density(at, static_cast<std::size_t>(itself - occupants_.begin()));
     }
 
-    double density(const glm::dvec2& at) const {
+    double density(const glm::dvec2& at, std::size_t left_out) const {
         double sum = 0;
-        for (const Occupant& other : occupants_) {
+        for (std::size_t i = 0; i < occupants_.size(); ++i) {
+            if (i == left_out) continue;
+            const Occupant& other = occupants_[i];
             const double apart = glm::distance(other.place, at);
             sum += other.is_source ? other.strength / (1 + apart) : 1 / (1 + apart * apart);
         }
@@ -96,13 +102,14 @@ private:
     /// middle ones of its 6 x 6 places.
     glm::dvec2 downhill_at(const glm::dvec2& at) const {
         if (as_cpfg_ && !at_the_point_) {
-            const double corner = density(at + glm::dvec2(0.1));
-            return glm::dvec2(density(at + glm::dvec2(-0.1, 0.1)) - corner,
-                              density(at + glm::dvec2(0.1, -0.1)) - corner) /
+            const double corner = density_for(at, at + glm::dvec2(0.1));
+            return glm::dvec2(density_for(at, at + glm::dvec2(-0.1, 0.1)) - corner,
+                              density_for(at, at + glm::dvec2(0.1, -0.1)) - corner) /
                    6.0;
         }
         const glm::dvec2 right(0.5, 0), above(0, 0.5);
-        return {density(at - right) - density(at + right), density(at - above) - density(at + above)};
+        return {density_for(at, at - right) - density_for(at, at + right),
+                density_for(at, at - above) - density_for(at, at + above)};
     }
 
     void answer_one(const glm::dvec2& at, Answer answer) const {

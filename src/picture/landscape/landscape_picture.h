@@ -30,7 +30,7 @@ struct LandscapeLook {
     PictureSize size{1200, 675};
     int samples = 3;           ///< along both sides of a pixel
     double visibility = 3000;  ///< metres after which haze leaves 1/e of the colour
-    Rgb ground{112, 116, 74};
+    GroundColour ground;
     std::size_t memory = 0;  ///< bytes that meshes may take; 0: any
     TextureOf texture_of;
 };

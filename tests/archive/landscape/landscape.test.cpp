@@ -1,5 +1,6 @@
 #include "espalier/base/error.h"
 
+#include "archive/landscape/cover.h"
 #include "archive/landscape/planted.h"
 #include "catch.h"
 
@@ -42,7 +43,7 @@ TEST_CASE("a terrain goes straight from place to place, and its mesh lies on it"
     CHECK(terrain.height(100, 0) == Approx(plane(30, 0)));
     CHECK(terrain.holds(30, 20));
     CHECK_FALSE(terrain.holds(30.1, 0));
-    const FrameMesh mesh = terrain.mesh({1, 2, 3});
+    const FrameMesh mesh = terrain.mesh({{1, 2, 3}});
     CHECK(mesh.triangles.size() == 2 * 4 * 8);
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -52,6 +53,76 @@ TEST_CASE("a terrain goes straight from place to place, and its mesh lies on it"
     }
     CHECK(area == Approx(40 * 40));
     for (const glm::vec3& point : mesh.points) CHECK(point.y == Approx(plane(point.x, point.z)));
+}
+
+TEST_CASE("a ground of two colours has shades between them, as its share says", "[landscape]") {
+    const Terrain terrain({-10, -10}, {10, 10}, {41, 3}, [](double, double) { return 0; });
+    CHECK(terrain.mesh({{1, 2, 3}}).materials.size() == 1);
+    const auto share = [](double x, double) { return x < -5 ? -3 : x > 5 ? 3 : (x + 5) / 10; };
+    const FrameMesh mesh = terrain.mesh({{0, 100, 40}, {200, 0, 40}, share});
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto [a, b, c] = mesh.triangles[i];
+        const double x = (mesh.points[a].x + mesh.points[b].x + mesh.points[c].x) / 3;
+        const double second = std::clamp((x + 5) / 10, 0.0, 1.0);
+        const Rgb& rgb = mesh.materials[mesh.material_of[i]].rgb;
+        CHECK(rgb[0] == Approx(200 * second).margin(5));
+        CHECK(rgb[1] == Approx(100 - 100 * second).margin(3));
+        CHECK(rgb[2] == 40);
+    }
+    const auto root = [](double x, double) { return std::sqrt(x); };
+    CHECK_THROWS_WITH(terrain.mesh({{0, 0, 0}, {9, 9, 9}, root}), Contains("no colour at x = -10"));
+}
+
+TEST_CASE("species of one colour are individuals, each as likely as the others", "[landscape]") {
+    std::vector<StandPlant> stand;
+    for (int i = 0; i < 3000; ++i) stand.push_back({{i % 60 - 30.0, i / 60 - 25.0}, 1, i % 2 ? 1 : 5});
+    const std::vector<LandscapeSpecies> species{small_species(1), small_species(5), small_species(1), small_species(1)};
+    const PlantedLandscape landscape = planted(flat_terrain(), species, stand, {0, 2, 400}, few_levels, 3);
+    std::vector<int> count(4);
+    for (std::size_t i = 0; i < stand.size(); ++i) {
+        const std::uint16_t one = landscape.plants[i].species;
+        CHECK(species[one].number == stand[i].species);
+        ++count[one];
+    }
+    for (const int one : {0, 2, 3}) CHECK(count[std::size_t(one)] == Approx(500).margin(4 * std::sqrt(333)));
+    CHECK(count[1] == 1500);
+}
+
+TEST_CASE("a cover has its density near the eye, less beyond half of its distance, and stays where it is",
+          "[landscape]") {
+    for (const std::uint64_t seed : {1u, 17u, 23456u}) {
+        const Cover cover{-1, 4, 40, 0.5};
+        const glm::dvec3 eye(100.3, 7, -60.7);
+        std::vector<int> in_ring(4);
+        double radii = 0;
+        const auto plants = plants_of(cover, eye, seed);
+        for (const StandPlant& plant : plants) {
+            const double away = glm::distance(plant.place, glm::dvec2(eye.x, eye.z));
+            REQUIRE(away < 40);
+            ++in_ring[static_cast<std::size_t>(away / 10)];
+            radii += plant.radius;
+            CHECK(plant.radius >= 0.3);
+            CHECK(plant.radius <= 0.7);
+            CHECK(plant.species == -1);
+        }
+        CHECK(radii / double(plants.size()) == Approx(0.5).epsilon(0.02));
+        const double area = std::numbers::pi * 100;
+        CHECK(in_ring[0] == Approx(4 * area).epsilon(0.06));
+        CHECK(in_ring[1] == Approx(4 * 3 * area).epsilon(0.04));
+        CHECK(in_ring[2] < 0.85 * 4 * 5 * area);
+        CHECK(in_ring[3] < 0.35 * 4 * 7 * area);
+        // a step aside, the plants near both eyes are the same
+        std::size_t same = 0, near = 0;
+        const auto moved = plants_of(cover, eye + glm::dvec3(5, 0, 0), seed);
+        for (const StandPlant& plant : plants) {
+            if (glm::distance(plant.place, glm::dvec2(eye.x, eye.z)) > 14) continue;
+            ++near;
+            same += std::any_of(moved.begin(), moved.end(),
+                                [&](const StandPlant& other) { return other.place == plant.place; });
+        }
+        CHECK(same == near);
+    }
+    CHECK_THROWS_WITH(plants_of({-1, 100, 1000, 1}, {0, 0, 0}, 0), Contains("a cover of 3.14e+08 plants"));
 }
 
 TEST_CASE("a terrain without a height somewhere, or too large, is refused", "[landscape]") {

@@ -116,8 +116,8 @@ TEST_CASE(
             for (std::size_t k = 0; k < leaves.size(); ++k) {
                 if (k == 0 || k == 2 || k == 3) continue;  // one goes before it came, one comes and goes
                 const glm::dvec3& at = leaves[k].position;
-                const double across = at.x - std::clamp(at.x, double(i), i + 1.0);
-                const double along = at.y - std::clamp(at.y, double(j), j + 1.0);
+                const double across = at.x - std::clamp(at.x, i + 0.03, i + 0.97);
+                const double along = at.y - std::clamp(at.y, j + 0.03, j + 0.97);
                 const bool touches = across * across + along * along <= leaves[k].parameters[1] / std::numbers::pi;
                 if (touches) light /= 2;
             }
@@ -130,6 +130,19 @@ TEST_CASE(
     const std::vector<double> exact = ask(ours, questions);
     CHECK(std::count(exact.begin() + 10, exact.end(), 1) > std::count(expected.begin() + 10, expected.end(), 1));
     CHECK(exact[0] == 1);
+}
+
+TEST_CASE("with the numbers of cpfg, a leaf leaves out a cell that it touches by 0.02 of its width", "[clover]") {
+    Environment environment = environment_of(
+        "[light]\nprocess = \"clover\"\nnumbers = \"cpfg\"\ngrid_size = [100, 100]\ngrid_range = [100, 100]\n"
+        "transmittance = 0.5\n");
+    const double area = std::numbers::pi * 2.670 * 2.670;
+    const std::vector<double> light = ask(environment, {{{51.352, 8.032, 0}, {1, area}},
+                                                        {{54.5, 8.5, 0}, {0}},
+                                                        {{53.5, 8.5, 0}, {0}},
+                                                        {{48.5, 8.5, 0}, {0}},
+                                                        {{47.5, 8.5, 0}, {0}}});
+    CHECK(std::vector<double>(light.begin() + 2, light.end()) == std::vector<double>{1, 0.5, 0.5, 1});
 }
 
 TEST_CASE("with the numbers of cpfg, the picture is stretched from corner cell to corner cell", "[clover]") {

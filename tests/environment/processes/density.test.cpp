@@ -58,7 +58,11 @@ TEST_CASE("the least of the unit square is less than at the middle, where the qu
 
 TEST_CASE("with the numbers of cpfg, the asker adds nothing, and directions are from 0 to 360", "[density]") {
     const std::string as_cpfg = "numbers = \"cpfg\"\n";
-    CHECK(density(as_cpfg, {{{3, 4, 0}, {7, 7, 7}}}) == std::vector<double>{0, 90, 0});
+    RandomSamples places({5, 2, Stream::process}, 3, 4);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 place(40 * places.uniform() - 20, 40 * places.uniform() - 20, 0);
+        CHECK(density(as_cpfg, {{place, {7, 7, 7}}}) == std::vector<double>{0, 90, 0});
+    }
     CHECK(density(as_cpfg + "one_point_value = true\n", {{{3, 4, 0}, {7, 7, 7}}}) == std::vector<double>{0, 90, 0});
     CHECK(density(as_cpfg + "return_vector = true\n", {{{3, 4, 0}, {7, 7, 7}}}) == std::vector<double>{0, 90, 0});
     const std::vector<Asked> questions{{{0, 0, 0}, {0, 0, 0}}, {{0.7, 2, 0}, {1, 1}}, {{-1, 1, 0}, {3}}};
