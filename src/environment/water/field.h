@@ -12,7 +12,7 @@ namespace espalier::environment {
 
 class WaterField {
 public:
-    WaterField(std::string name, std::string unit, const WaterGrid& grid);
+    WaterField(std::string name, std::string unit, const WaterGrid& grid, std::string meaning = "content of the soil");
 
     /// The voxels that are free from now on; the others are inactive and 0.
     void set_faces(const WaterFaces& faces);
@@ -25,7 +25,7 @@ public:
 private:
     std::shared_ptr<const FieldGrid> current();
 
-    std::string name_, unit_;
+    std::string name_, unit_, meaning_;
     WaterGrid grid_;
     std::shared_ptr<FieldGrid> topology_;  ///< active voxels without values
     std::shared_ptr<FieldGrid> published_;
