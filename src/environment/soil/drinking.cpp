@@ -34,7 +34,7 @@ std::vector<double> Richards::share(std::span<const WaterWish> wishes) {
             head_[c] = layout_.kind(c).head_at(content_[c]);
         }
     });
-    balance_.drunk += result.taken * edge_;
+    balance_.flown.drunk += result.taken * edge_;
     measure();
     return std::move(result.obtained);
 }
@@ -51,19 +51,26 @@ void Richards::save(std::ostream& out) const {
     for (const WaterBrick* brick : {&head_, &content_, &rate_, &ponding_}) {
         write_doubles(out, {brick->data(), brick->size()});
     }
-    const double numbers[] = {day_, next_substep_, has_rate_ ? 1.0 : 0.0};
+    const double numbers[] = {day_, next_substep_, last_days_, has_rate_ ? 1.0 : 0.0, smooth_ ? 1.0 : 0.0};
     write_doubles(out, numbers);
     out.write(reinterpret_cast<const char*>(&balance_), sizeof balance_);
+    out.write(reinterpret_cast<const char*>(&rates_), sizeof rates_);
+    out.write(reinterpret_cast<const char*>(&forcing_), sizeof forcing_);
 }
 
 void Richards::restore(std::istream& in) {
     for (WaterBrick* brick : {&head_, &content_, &rate_, &ponding_}) read_doubles(in, {brick->data(), brick->size()});
-    double numbers[3];
+    double numbers[5];
     read_doubles(in, numbers);
     day_ = numbers[0];
     next_substep_ = numbers[1];
-    has_rate_ = numbers[2] != 0;
+    last_days_ = numbers[2];
+    has_rate_ = numbers[3] != 0;
+    smooth_ = numbers[4] != 0;
     in.read(reinterpret_cast<char*>(&balance_), sizeof balance_);
+    in.read(reinterpret_cast<char*>(&rates_), sizeof rates_);
+    in.read(reinterpret_cast<char*>(&forcing_), sizeof forcing_);
+    measure();
 }
 
 }  // namespace espalier::environment

@@ -11,7 +11,7 @@
 namespace espalier::environment {
 namespace {
 
-constexpr int lowest_octave = -60, highest_octave = 30;
+constexpr int lowest_octave = -10, highest_octave = 30;
 constexpr int parts_bits = 6;  // 64 parts of an octave
 constexpr int shift = 52 - parts_bits;
 constexpr std::uint64_t first_bits = std::uint64_t(1023 + lowest_octave) << parts_bits;
@@ -95,12 +95,21 @@ void SoilHydraulics::limit_slopes() {
     }
 }
 
-SoilPoint SoilHydraulics::at(double head) const {
+/// Between the table and full soil, a thousandth of a centimetre, all curves are straight: where n < 2 the conductivity
+/// falls infinitely steeply from its value in full soil, which Newton's method would never settle at.
+SoilPoint SoilHydraulics::nearly_full(double head) const {
     const Node& wettest = nodes_.front();
-    if (!(head < -wettest.suction)) {
-        const double ks = soil_.conductivity;
-        return {head, soil_.saturated, 0, ks, 0, wettest.potential + ks * (head + wettest.suction)};
-    }
+    const double width = wettest.suction, ks = soil_.conductivity;
+    const double slope = (ks - wettest.conductivity) / width;
+    const double full = wettest.potential + 0.5 * width * (ks + wettest.conductivity);
+    if (!(head < 0)) return {head, soil_.saturated, 0, ks, 0, full + ks * head};
+    const double capacity = (soil_.saturated - soil_.residual) * (1 - wettest.saturation) / width;
+    return {head,  soil_.saturated + capacity * head,      capacity, ks + slope * head,
+            slope, full + head * (ks + 0.5 * slope * head)};
+}
+
+SoilPoint SoilHydraulics::at(double head) const {
+    if (!(head < -nodes_.front().suction)) return nearly_full(head);
     const double s = std::min(-head, nodes_.back().suction * (1 - 1e-15));
     const std::size_t i = (std::bit_cast<std::uint64_t>(s) >> shift) - first_bits;
     const Node &a = nodes_[i], &b = nodes_[i + 1];
@@ -122,23 +131,33 @@ double SoilHydraulics::least_content() const {
 }
 
 double SoilHydraulics::head_at(double content) const {
-    const double wanted = (content - soil_.residual) / (soil_.saturated - soil_.residual);
-    if (wanted >= nodes_.front().saturation) return 0;
-    if (wanted <= nodes_.back().saturation) return -nodes_.back().suction * (1 - 1e-15);
+    const double saturation = (content - soil_.residual) / (soil_.saturated - soil_.residual);
+    return -suction_at(saturation, 1, &Node::saturation, &Node::saturation_slope);
+}
+
+double SoilHydraulics::head_of_conductivity(double value) const {
+    return -suction_at(value, soil_.conductivity, &Node::conductivity, &Node::conductivity_slope);
+}
+
+double SoilHydraulics::suction_at(double wanted, double full, double Node::*value, double Node::*slope) const {
+    const Node &wettest = nodes_.front(), &driest = nodes_.back();
+    if (wanted >= full) return 0;
+    if (wanted >= wettest.*value) return wettest.suction * (full - wanted) / (full - wettest.*value);
+    if (wanted <= driest.*value) return driest.suction * (1 - 1e-15);
     const auto after =
-        std::partition_point(nodes_.begin(), nodes_.end(), [&](const Node& node) { return node.saturation > wanted; });
+        std::partition_point(nodes_.begin(), nodes_.end(), [&](const Node& node) { return node.*value > wanted; });
     const Node &a = *(after - 1), &b = *after;
     const double width = b.suction - a.suction;
-    double low = 0, high = 1, t = (a.saturation - wanted) / (a.saturation - b.saturation);
+    double low = 0, high = 1, t = (a.*value - wanted) / (a.*value - b.*value);
     for (int i = 0; i < 60; ++i) {  // Newton between bounds
-        const Cubic s = cubic(t, width, a.saturation, b.saturation, a.saturation_slope, b.saturation_slope);
-        (s.value > wanted ? low : high) = t;
-        double next = s.slope < 0 ? t - (s.value - wanted) / (s.slope * width) : 2;
+        const Cubic at = cubic(t, width, a.*value, b.*value, a.*slope, b.*slope);
+        (at.value > wanted ? low : high) = t;
+        double next = at.slope < 0 ? t - (at.value - wanted) / (at.slope * width) : 2;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
         if (std::abs(next - t) <= 1e-14) break;
         t = next;
     }
-    return -(a.suction + t * width);
+    return a.suction + t * width;
 }
 
 }  // namespace espalier::environment

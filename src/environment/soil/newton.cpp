@@ -7,9 +7,11 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double newton_tolerance = 1e-9;  ///< m3/m3: what a voxel may gain or lose unaccounted in a substep
+constexpr double newton_tolerance = 1e-7;  ///< m3/m3: what a voxel may carry over to the next substep
 constexpr int most_newton_steps = 25;
 constexpr double wet = 0.9;  ///< effective saturation above which a voxel is changed by its head
+
+constexpr double just_full = 5e-4;  ///< cm: below saturation, where the curves are straight
 
 }  // namespace
 
@@ -21,11 +23,12 @@ bool Richards::newton(double days, std::span<SoilSink* const> sinks) {
         ++newton_steps_;
         if (system_.solve(fluxes_, residual_, 1e-5, change_) < 0) return false;
         before_ = trial_;
-        double part = 1, best = norm;
+        double part = 1;
+        const double worst = 10 * norm;  // a residual may grow while a front enters the next voxel
         for (int halving = 0;; ++halving) {
             update(part);
             norm = evaluate(days, sinks);
-            if (norm < best || halving == 6) break;
+            if (norm < worst || halving == 6) break;
             trial_ = before_;
             evaluate(days, {});
             part *= 0.5;
@@ -101,11 +104,11 @@ SoilFlux Richards::floor_flux(std::size_t cell) const {
         case SoilFloor::Kind::free_drainage:
             return {-point.conductivity, -point.slope, 0};
         case SoilFloor::Kind::flux:
-            return {floor_flux_, 0, 0};
+            return {forcing_.floor_flux, 0, 0};
         case SoilFloor::Kind::head:
         case SoilFloor::Kind::seepage: {
             const bool seeps = parameters_.floor.kind == SoilFloor::Kind::seepage;
-            const SoilFlux down = flux_down(point, layout_.kind(cell).at(seeps ? 0 : floor_head_), 0.5 * edge_);
+            const SoilFlux down = flux_down(point, layout_.kind(cell).at(seeps ? 0 : forcing_.floor_head), 0.5 * edge_);
             if (seeps && down.flux <= 0) return {};
             return {-down.flux, -down.by_first, 0};
         }
@@ -127,14 +130,14 @@ void Richards::find_boundary_fluxes(std::size_t row, double days) {
         const SoilSurface::Kind kind = parameters_.surface.kind;
         surface = {};
         if (!layout_.free(cell)) {  // rain runs off a stone
-            if (kind == SoilSurface::Kind::atmosphere) surface.runoff = weather_.rain;
+            if (kind == SoilSurface::Kind::atmosphere) surface.runoff = forcing_.weather.rain;
         } else if (kind == SoilSurface::Kind::atmosphere) {
-            surface = exchange_at_surface(layout_.kind(cell), points_[cell], 0.5 * edge_, weather_,
+            surface = exchange_at_surface(layout_.kind(cell), points_[cell], 0.5 * edge_, forcing_.weather,
                                           ponding_[column + x], days);
         } else if (kind == SoilSurface::Kind::flux) {
-            surface.into.flux = surface_flux_;
+            surface.into.flux = forcing_.surface_flux;
         } else if (kind == SoilSurface::Kind::head) {
-            surface.into = flux_down(layout_.kind(cell).at(surface_head_), points_[cell], 0.5 * edge_);
+            surface.into = flux_down(layout_.kind(cell).at(forcing_.surface_head), points_[cell], 0.5 * edge_);
         }
     }
 }
@@ -180,7 +183,7 @@ double Richards::find_residuals(std::size_t row, double days) {
         }
         out += edge_ * (uptake_[c] - inflow_[c]);
         by_head += edge_ * uptake_by_head_[c];
-        residual_[c] = -(edge_ * (point.content - content_[c]) / days + out);
+        residual_[c] = -(edge_ * (point.content - start_[c]) / days + out);
         // Soil that is full everywhere stores nothing: a trace of storage chooses one of its heads.
         diagonal = edge_ * std::max(point.capacity, 1e-12) / days + by_head;
         const double miss = std::abs(residual_[c]) * days / edge_;
@@ -198,16 +201,26 @@ void Richards::update(double part) {
     });
 }
 
+namespace {
+
+/// Wet soil is changed by its conductivity, in which the fluxes are nearly linear where the head's are steep.
+double updated_wet_head(const SoilPoint& point, const SoilHydraulics& kind, double change) {
+    if (point.head >= 0) return std::max(point.head + change, -just_full);
+    const double full = kind.soil().conductivity;
+    const double goal = point.conductivity + point.slope * change;
+    if (goal >= full) return std::max(point.head + change, 0.0);
+    return kind.head_of_conductivity(std::max(goal, 0.3 * point.conductivity));
+}
+
+}  // namespace
+
 double Richards::updated_head(std::size_t cell, double change) const {
     const SoilPoint& point = points_[cell];
     const SoilHydraulics& kind = layout_.kind(cell);
     const SoilKind& soil = kind.soil();
     const double range = soil.saturated - soil.residual;
     const double saturation = (point.content - soil.residual) / range;
-    if (saturation >= wet) {
-        // Nearly full soil holds so little less at a lower head that a step may go much too far.
-        return std::max(point.head + change, 10 * std::min(point.head, 0.0) - 20);
-    }
+    if (saturation >= wet) return updated_wet_head(point, kind, change);
     const double goal = saturation + point.capacity * change / range;
     if (goal >= 0.99) return std::max(kind.head_at(soil.residual + 0.99 * range), point.head);
     return kind.head_at(soil.residual + range * std::max(goal, 0.1 * saturation));

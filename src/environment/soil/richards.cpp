@@ -12,15 +12,15 @@
 namespace espalier::environment {
 namespace {
 
-constexpr double tolerance = 1e-9;  ///< m3/m3: what a voxel may gain or lose unaccounted in a substep
 constexpr double shortest_substep = 1e-9, first_substep = 1e-5;  ///< days
 
 }  // namespace
 
 double SoilBalance::relative_error() const {
-    const double missing = start + rain + top + bottom + added - evaporation - runoff - drunk - stored;
-    const double largest =
-        std::max({start, rain, evaporation, runoff, std::abs(top), std::abs(bottom), added, drunk, stored});
+    const SoilRates& f = flown;
+    const double missing = start + f.rain + f.top + f.bottom + f.added - f.evaporation - f.runoff - f.drunk - stored;
+    double largest = std::max(start, stored);
+    for (const double SoilRates::*amount : SoilRates::all) largest = std::max(largest, std::abs(f.*amount));
     return largest > 0 ? missing / largest : 0;
 }
 
@@ -33,8 +33,8 @@ Richards::Richards(const SoilLayout& layout, const SoilParameters& parameters)
       row_norm_(grid_.rows()),
       row_sum_(grid_.rows()),
       system_(layout) {
-    for (WaterBrick* brick :
-         {&head_, &content_, &trial_, &rate_, &uptake_, &uptake_by_head_, &inflow_, &residual_, &change_, &before_}) {
+    for (WaterBrick* brick : {&head_, &content_, &trial_, &rate_, &uptake_, &uptake_by_head_, &inflow_, &residual_,
+                              &change_, &before_, &start_}) {
         brick->assign(grid_.cells(), 0.0);
     }
     for (FaceFluxes& axis : fluxes_) axis.resize(grid_.cells());
@@ -82,6 +82,9 @@ void Richards::begin() {
     }
     measure();
     balance_.start = balance_.stored;
+    trial_ = head_;
+    find_points();
+    layout_.for_rows([&](std::size_t row) { find_fluxes(row); });
 }
 
 double Richards::flux(std::size_t cell, int axis) const {
@@ -146,19 +149,54 @@ void Richards::advance(double days, std::span<SoilSink* const> sinks) {
 Richards::Outcome Richards::substep(double days, std::span<SoilSink* const> sinks, double& error) {
     const SoilSurface& surface = parameters_.surface;
     const double middle = day_ + 0.5 * days;
-    weather_ = {0.1 * surface.rain.at(middle), 0.1 * surface.evaporation.at(middle), surface.dry_limit,
-                0.1 * surface.ponding};
-    surface_flux_ = 0.1 * surface.flux.at(middle);
-    surface_head_ = surface.head.at(middle);
-    floor_flux_ = 0.1 * parameters_.floor.flux.at(middle);
-    floor_head_ = parameters_.floor.table ? 100 * (*parameters_.floor.table - grid_.lower().y)
-                                          : parameters_.floor.head.at(middle);
-    if (!newton(days, sinks)) return Outcome::failed;
+    const SoilForcing now{
+        {0.1 * surface.rain.at(middle), 0.1 * surface.evaporation.at(middle), surface.dry_limit, 0.1 * surface.ponding},
+        0.1 * surface.flux.at(middle),
+        surface.head.at(middle),
+        0.1 * parameters_.floor.flux.at(middle),
+        parameters_.floor.table ? 100 * (*parameters_.floor.table - grid_.lower().y)
+                                : parameters_.floor.head.at(middle)};
+    if (!(now == forcing_)) smooth_ = false;
+    forcing_ = now;
+    const double weight = choose_start(days);
+    if (!newton(weight * days, sinks) || (weight < 1 && stands_on_surface())) {
+        if (weight == 1) return Outcome::failed;
+        smooth_ = false;  // once more as an implicit Euler step
+        return substep(days, sinks, error);
+    }
     error = has_rate_ ? error_of(days) : 0;
     if (error > 4 * parameters_.accuracy && days > 100 * shortest_substep) return Outcome::too_long;
-    account(days);
-    for (SoilSink* sink : sinks) sink->accept(days);
+    account(days, weight);
+    for (SoilSink* sink : sinks) sink->accept(days, weight);
     return Outcome::good;
+}
+
+bool Richards::stands_on_surface() const {
+    return std::any_of(surface_.begin(), surface_.end(), [](const SurfaceExchange& at) { return at.ponding > 0; });
+}
+
+/// The second-order backward difference (BDF2), written as an implicit Euler step of a part of the substep that begins
+/// from contents already moved on: the part is returned. It is 1, implicit Euler, at first, after a jump of the
+/// weather, with water on the surface, and where a content would leave its range.
+double Richards::choose_start(double days) {
+    start_ = content_;
+    if (!has_rate_ || !smooth_ || last_days_ <= 0) return 1;
+    if (std::any_of(ponding_.begin(), ponding_.end(), [](double depth) { return depth > 0; })) return 1;
+    const double ratio = days / last_days_;
+    const double onward = ratio * ratio / (1 + 2 * ratio) * last_days_;
+    for (std::size_t row = 0; row < grid_.rows(); ++row) {
+        for (int x = 0; x < grid_.size().x; ++x) {
+            const std::size_t c = grid_.row_begin(row) + x;
+            if (!layout_.free(c)) continue;
+            start_[c] = content_[c] + onward * rate_[c];
+            const SoilKind& soil = layout_.kind(c).soil();
+            if (start_[c] <= soil.saturated && start_[c] > soil.residual + 0.5 * (content_[c] - soil.residual))
+                continue;
+            start_ = content_;
+            return 1;
+        }
+    }
+    return (1 + ratio) / (1 + 2 * ratio);
 }
 
 /// Half the change of the rate, over the substep.
@@ -175,36 +213,42 @@ double Richards::error_of(double days) const {
     return error;
 }
 
-void Richards::account(double days) {
-    double drunk = 0, added = 0;
+void Richards::account(double days, double weight) {
+    SoilRates now;
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
         for (int x = 0; x < grid_.size().x; ++x) {
             const std::size_t c = grid_.row_begin(row) + x;
             if (!layout_.free(c)) continue;
-            rate_[c] = (points_[c].content - content_[c]) / days;
-            content_[c] = points_[c].content;
+            // What Newton's method left over is carried on, so that nothing is lost.
+            const double content = points_[c].content + residual_[c] * weight * days / edge_;
+            rate_[c] = (content - content_[c]) / days;
+            content_[c] = content;
             head_[c] = trial_[c];
-            drunk += uptake_[c];
-            added += inflow_[c];
+            now.drunk += uptake_[c] * edge_;
+            now.added += inflow_[c] * edge_;
         }
     }
-    has_rate_ = true;
-    ++substeps_;
-    balance_.drunk += drunk * days * edge_;
-    balance_.added += added * days * edge_;
     const bool atmosphere = parameters_.surface.kind == SoilSurface::Kind::atmosphere;
     for (std::size_t column = 0; column < ponding_.size(); ++column) {
         const SurfaceExchange& surface = surface_[column];
-        balance_.bottom += floor_[column].flux * days;
+        now.bottom += floor_[column].flux;
         if (atmosphere) {
-            balance_.rain += weather_.rain * days;
-            balance_.evaporation += surface.evaporation * days;
-            balance_.runoff += surface.runoff * days;
+            now.rain += forcing_.weather.rain;
+            now.evaporation += surface.evaporation;
+            now.runoff += surface.runoff;
             ponding_[column] = surface.ponding;
         } else {
-            balance_.top += surface.into.flux * days;
+            now.top += surface.into.flux;
         }
     }
+    for (double SoilRates::*rate : SoilRates::all) {
+        // What moved the contents on is a part of the rate before.
+        rates_.*rate = weight * (now.*rate) + (1 - weight) * (rates_.*rate);
+        balance_.flown.*rate += rates_.*rate * days;
+    }
+    has_rate_ = smooth_ = true;
+    last_days_ = days;
+    ++substeps_;
 }
 
 void Richards::give_up(double days) const {

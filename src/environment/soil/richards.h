@@ -14,17 +14,33 @@
 
 namespace espalier::environment {
 
-/// In cm of water over the surface times columns; all but what is stored add up from the beginning.
-struct SoilBalance {
-    double start = 0, stored = 0;  ///< in the soil and on it
+/// What passes, in cm of water over the surface times columns: amounts, or amounts per day.
+struct SoilRates {
     double rain = 0, evaporation = 0, runoff = 0;
     double top = 0;     ///< into the soil through a surface of given flux or head
     double bottom = 0;  ///< net, into the soil; what drains is negative
     double added = 0;   ///< by sources
     double drunk = 0;   ///< by queries and roots
 
+    static constexpr double SoilRates::*all[] = {&SoilRates::rain, &SoilRates::evaporation, &SoilRates::runoff,
+                                                 &SoilRates::top,  &SoilRates::bottom,      &SoilRates::added,
+                                                 &SoilRates::drunk};
+};
+
+struct SoilBalance {
+    double start = 0, stored = 0;  ///< in the soil and on it
+    SoilRates flown;               ///< since the beginning
+
     /// What the account misses, relative to its largest entry.
     double relative_error() const;
+};
+
+/// What acts on the soil's surface and floor during a substep, in cm and days.
+struct SoilForcing {
+    SurfaceWeather weather;
+    double surface_flux = 0, surface_head = 0, floor_flux = 0, floor_head = 0;
+
+    friend bool operator==(const SoilForcing&, const SoilForcing&) = default;
 };
 
 /// d content / dt = div(K (grad h + e_y)) - uptake, in mixed form and implicit (Celia et al. 1990), by Newton's method
@@ -71,7 +87,9 @@ private:
     void update(double part);
     double updated_head(std::size_t cell, double change) const;
     double error_of(double days) const;
-    void account(double days);
+    double choose_start(double days);
+    bool stands_on_surface() const;
+    void account(double days, double weight);
     double longest_substep(double end) const;
     [[noreturn]] void give_up(double days) const;
     WaterBrick available() const;
@@ -86,16 +104,17 @@ private:
     std::array<FaceFluxes, 3> fluxes_;
     std::vector<SoilFlux> floor_;           ///< upwards through the lowest faces, per column
     std::vector<SurfaceExchange> surface_;  ///< per column
-    WaterBrick uptake_, uptake_by_head_, inflow_, residual_, change_, before_;
+    WaterBrick uptake_, uptake_by_head_, inflow_, residual_, change_, before_, start_;
     std::vector<double> row_norm_, row_sum_;
     SoilLinearSystem system_;
-    SurfaceWeather weather_;
-    double surface_flux_ = 0, surface_head_ = 0, floor_flux_ = 0, floor_head_ = 0;  ///< of the substep
+    SoilForcing forcing_;
 
     WaterBrick ponding_;
     SoilBalance balance_;
     double day_ = 0, next_substep_ = 0;
-    bool has_rate_ = false;
+    SoilRates rates_;       ///< of the last substep, per day
+    double last_days_ = 0;  ///< its length
+    bool has_rate_ = false, smooth_ = false;
     std::size_t substeps_ = 0, newton_steps_ = 0;
 };
 

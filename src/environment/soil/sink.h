@@ -19,8 +19,9 @@ public:
     /// from `day` on. `points` are a Newton step's guess of the soil at the end of that time.
     virtual void draw(std::span<const SoilPoint> points, double day, double days, WaterBrick& uptake,
                       WaterBrick& by_head) = 0;
-    /// The last draw holds: the soil has come to the end of that time.
-    virtual void accept(double days) = 0;
+    /// The last draw holds: the soil has come on by `days`. Of the rate over that time it is the part `weight`; the
+    /// rest is the rate over the time before.
+    virtual void accept(double days, double weight) = 0;
 };
 
 }  // namespace espalier::environment

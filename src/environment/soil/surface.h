@@ -10,6 +10,8 @@ struct SurfaceWeather {
     double rain = 0, evaporation = 0;  ///< potential
     double dry_limit = -10000;         ///< cm
     double most_ponding = 0;           ///< cm
+
+    friend bool operator==(const SurfaceWeather&, const SurfaceWeather&) = default;
 };
 
 struct SurfaceExchange {
