@@ -181,7 +181,6 @@ bool Richards::stands_on_surface() const {
 double Richards::choose_start(double days) {
     start_ = content_;
     if (!has_rate_ || !smooth_ || last_days_ <= 0) return 1;
-    if (std::any_of(ponding_.begin(), ponding_.end(), [](double depth) { return depth > 0; })) return 1;
     const double ratio = days / last_days_;
     const double onward = ratio * ratio / (1 + 2 * ratio) * last_days_;
     for (std::size_t row = 0; row < grid_.rows(); ++row) {
@@ -229,6 +228,7 @@ void Richards::account(double days, double weight) {
         }
     }
     const bool atmosphere = parameters_.surface.kind == SoilSurface::Kind::atmosphere;
+    bool ponded = false;
     for (std::size_t column = 0; column < ponding_.size(); ++column) {
         const SurfaceExchange& surface = surface_[column];
         now.bottom += floor_[column].flux;
@@ -236,6 +236,7 @@ void Richards::account(double days, double weight) {
             now.rain += forcing_.weather.rain;
             now.evaporation += surface.evaporation;
             now.runoff += surface.runoff;
+            ponded = ponded || ponding_[column] > 0 || surface.ponding > 0;
             ponding_[column] = surface.ponding;
         } else {
             now.top += surface.into.flux;
@@ -246,7 +247,8 @@ void Richards::account(double days, double weight) {
         rates_.*rate = weight * (now.*rate) + (1 - weight) * (rates_.*rate);
         balance_.flown.*rate += rates_.*rate * days;
     }
-    has_rate_ = smooth_ = true;
+    has_rate_ = true;
+    smooth_ = !ponded;
     last_days_ = days;
     ++substeps_;
 }
