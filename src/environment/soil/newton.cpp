@@ -21,7 +21,7 @@ bool Richards::newton(double days, std::span<SoilSink* const> sinks) {
     for (int step = 0; step < most_newton_steps; ++step) {
         if (norm <= newton_tolerance) return true;
         ++newton_steps_;
-        if (system_.solve(fluxes_, residual_, 1e-5, change_) < 0) return false;
+        if (system_.solve(fluxes_, residual_, 1e-3, change_) < 0) return false;
         before_ = trial_;
         double part = 1;
         const double worst = 10 * norm;  // a residual may grow while a front enters the next voxel
