@@ -113,21 +113,28 @@ void Richards::measure() {
     balance_.stored = cells * edge_ + ponding;
 }
 
-double Richards::longest_substep(double end) const {
+double Richards::longest_substep(double end, std::span<SoilSink* const> sinks) const {
     double longest = std::min(parameters_.max_substep, end - day_);
     const SoilSurface& surface = parameters_.surface;
     for (const SoilSeries* series : {&surface.rain, &surface.evaporation, &surface.flux, &surface.head,
                                      &parameters_.floor.flux, &parameters_.floor.head}) {
         longest = std::min(longest, series->next_change(day_) - day_);
     }
+    for (const SoilSink* sink : sinks) longest = std::min(longest, sink->longest_substep(day_));
     return longest;
+}
+
+void Richards::show_to(std::span<SoilSink* const> sinks) {
+    trial_ = head_;
+    find_points();
+    for (SoilSink* sink : sinks) sink->draw(points_, day_, 0, uptake_, uptake_by_head_);
 }
 
 void Richards::advance(double days, std::span<SoilSink* const> sinks) {
     const double end = day_ + days;
     while (end - day_ > 1e-12 * (1 + std::abs(end))) {
         end_if_asked();
-        const double longest = longest_substep(end);
+        const double longest = longest_substep(end, sinks);
         double substep_days = std::min(next_substep_, longest);
         if (substep_days > 0.6 * longest && substep_days < longest) substep_days = 0.5 * longest;  // no crumb is left
         double error = 0;

@@ -63,6 +63,9 @@ public:
     /// Lets so many days pass. Throws RunError, naming place and time, where no substep is short enough.
     void advance(double days, std::span<SoilSink* const> sinks);
 
+    /// Lets the sinks draw from the soil as it is; no time passes.
+    void show_to(std::span<SoilSink* const> sinks);
+
     /// Takes what the wishes obtain together, in content times voxels, down to the wilting point.
     std::vector<double> share(std::span<const WaterWish> wishes);
     std::vector<double> lend(std::span<const WaterWish> wishes) const;
@@ -90,7 +93,7 @@ private:
     double choose_start(double days);
     bool stands_on_surface() const;
     void account(double days, double weight);
-    double longest_substep(double end) const;
+    double longest_substep(double end, std::span<SoilSink* const> sinks) const;
     [[noreturn]] void give_up(double days) const;
     WaterBrick available() const;
 

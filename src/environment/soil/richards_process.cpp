@@ -41,7 +41,7 @@ WaterGrid layer_on(const WaterGrid& soil) {
     return WaterGrid(box, soil.voxel(), soil.flat());
 }
 
-class RichardsSoil final : public EnvironmentProcess {
+class RichardsSoil final : public EnvironmentProcess, public SharedSoil {
 public:
     RichardsSoil(Settings& settings, const EnvironmentContext& context, Fields& fields)
         : parameters_(read_soil_parameters(settings, context)),
@@ -59,7 +59,9 @@ public:
             throw RunError(
                 "a shape in the soil has moved: stones and pots of model = \"richards\" stay where they are");
         }
-        if (world.step > 0) soil_.advance(world.dt * parameters_.days, {});
+        for (SoilSink* sink : sinks_) sink->begin(world, layout_);
+        if (world.step > 0) soil_.advance(world.dt * parameters_.days, sinks_);
+        soil_.show_to(sinks_);
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
@@ -116,6 +118,10 @@ public:
                 {"substeps", static_cast<double>(soil_.substeps())}};
     }
 
+    void attach(SoilSink& sink) override { sinks_.push_back(&sink); }
+    const SoilLayout& layout() const override { return layout_; }
+    double days_per_unit() const override { return parameters_.days; }
+
     std::pair<int, int> query_arity() const override { return {1, 100}; }
 
     ProcessMemory memory() const override {
@@ -140,7 +146,7 @@ private:
                               std::function<const WaterBrick&()> values) {
             WaterField& field = shown_.emplace_back(name + part, unit, grid_, meaning);
             field.set_faces(layout_.faces());
-            field.provide(std::move(values), fields);
+            field.provide(std::move(values), fields, this);
         };
         shown_.reserve(6);
         show("", "m3/m3", "water content of the soil", [this]() -> const WaterBrick& { return soil_.contents(); });
@@ -190,6 +196,7 @@ private:
     WaterSolids solids_;
     SoilLayout layout_;
     Richards soil_;
+    std::vector<SoilSink*> sinks_;
     std::vector<WaterField> shown_;
     WaterBrick shown_values_;            ///< of the field that is being made
     std::vector<double> uptake_, wish_;  ///< per plant, this step

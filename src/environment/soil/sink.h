@@ -13,6 +13,8 @@ class SoilSink {
 public:
     virtual ~SoilSink() = default;
 
+    /// How long a substep that begins at `day` may be.
+    virtual double longest_substep(double day) const = 0;
     /// A step begins: the plants are as they are in `world`.
     virtual void begin(const WorldView& world, const SoilLayout& layout) = 0;
     /// Adds what is taken from each cell, content per day, and how that changes with the cell's head, during `days`
@@ -22,6 +24,15 @@ public:
     /// The last draw holds: the soil has come on by `days`. Of the rate over that time it is the part `weight`; the
     /// rest is the rate over the time before.
     virtual void accept(double days, double weight) = 0;
+};
+
+/// A soil as other processes find it: the source of its fields.
+class SharedSoil : public FieldSource {
+public:
+    /// From now on `sink` takes water in every step; it lives as long as the soil.
+    virtual void attach(SoilSink& sink) = 0;
+    virtual const SoilLayout& layout() const = 0;
+    virtual double days_per_unit() const = 0;
 };
 
 }  // namespace espalier::environment

@@ -66,9 +66,9 @@ void WaterField::set_faces(const WaterFaces& faces) {
     stale_ = true;
 }
 
-void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fields) {
+void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fields, FieldSource* source) {
     contents_ = std::move(contents);
-    fields.provide({name_, unit_, meaning_, current(), true, [this] { return current(); }});
+    fields.provide({name_, unit_, meaning_, current(), true, [this] { return current(); }, source});
 }
 
 std::shared_ptr<const FieldGrid> WaterField::current() {

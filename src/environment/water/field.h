@@ -18,7 +18,7 @@ public:
     void set_faces(const WaterFaces& faces);
     /// Provides the contents as a grid, made or written over when it is asked for. A kept pointer keeps its
     /// values.
-    void provide(std::function<const WaterBrick&()> contents, Fields& fields);
+    void provide(std::function<const WaterBrick&()> contents, Fields& fields, FieldSource* source = nullptr);
     /// The contents are others now.
     void change() { stale_ = true; }
 
