@@ -14,6 +14,7 @@
 #include <cmath>
 #include <istream>
 #include <ostream>
+#include <utility>
 
 namespace espalier::environment {
 namespace {
@@ -91,6 +92,11 @@ public:
 
     double longest_substep(double day) const override { return collar_.longest_span(day); }
 
+    bool has_jumped(double day) override {
+        const double before = std::exchange(level_, collar_.level(day));
+        return before != level_;
+    }
+
     void draw(std::span<const SoilPoint> points, double day, double days, WaterBrick& uptake,
               WaterBrick& by_head) override {
         const double volume = std::pow(shared_.layout().edge(), 3);
@@ -155,6 +161,7 @@ public:
     std::pair<int, int> query_arity() const override { return {1, 5}; }
 
     void save(std::ostream& out) const override {
+        write_doubles(out, {&level_, 1});
         for (const Transpired& plant : transpired_) {
             const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total, plant.rate};
             write_doubles(out, numbers);
@@ -162,6 +169,7 @@ public:
     }
 
     void restore(std::istream& in) override {
+        read_doubles(in, {&level_, 1});
         for (Transpired& plant : transpired_) {
             double numbers[4];
             read_doubles(in, numbers);
@@ -220,6 +228,7 @@ private:
     RootCollar collar_;
     FeddesHeads feddes_;
     bool zone_;
+    double level_ = 0;                   ///< of the collar, in the last substep
     std::vector<std::uint32_t> plants_;  ///< of this step, and their roots
     std::vector<PlantUptake> roots_;
     std::vector<Transpired> transpired_;  ///< by plant

@@ -39,9 +39,16 @@ RootCollar RootCollar::read(const Settings& settings) {
 }
 
 double RootCollar::mean_demand(double day, double days) const {
-    const double demand = this->demand.at(day + 0.5 * days);
-    if (!by_day || !(days > 0)) return demand;
-    return demand * (passed_by(day + days) - passed_by(day)) / days;
+    const double potential = demand.at(day + 0.5 * days);
+    if (!by_day || !(days > 0)) return potential;
+    return potential * (passed_by(day + days) - passed_by(day)) / days;
+}
+
+double RootCollar::level(double day) const {
+    if (held) return head.at(day);
+    const double hour = day - std::floor(day);
+    const bool dark = by_day && (hour < 0.25 - 1e-9 || hour >= 0.75 - 1e-9);
+    return dark ? -1 : demand.at(day);
 }
 
 double RootCollar::longest_span(double day) const {

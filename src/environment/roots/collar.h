@@ -17,6 +17,8 @@ struct RootCollar {
     static RootCollar read(const Settings& settings);
     /// The mean demand of a span of time, cm3/d.
     double mean_demand(double day, double days) const;
+    /// What jumps where the demand or the held head does: at sunrise and sunset, and where a series changes.
+    double level(double day) const;
     /// The longest span that shows how the demand changes.
     double longest_span(double day) const;
 };

@@ -164,6 +164,9 @@ Richards::Outcome Richards::substep(double days, std::span<SoilSink* const> sink
         parameters_.floor.table ? 100 * (*parameters_.floor.table - grid_.lower().y)
                                 : parameters_.floor.head.at(middle)};
     if (!(now == forcing_)) smooth_ = false;
+    for (SoilSink* sink : sinks) {
+        if (sink->has_jumped(day_)) smooth_ = false;
+    }
     forcing_ = now;
     const double weight = choose_start(days);
     if (!newton(weight * days, sinks) || (weight < 1 && stands_on_surface())) {

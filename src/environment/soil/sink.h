@@ -15,6 +15,8 @@ public:
 
     /// How long a substep that begins at `day` may be.
     virtual double longest_substep(double day) const = 0;
+    /// Whether what it would take has jumped since it was asked before, so that rates of the past tell nothing.
+    virtual bool has_jumped(double day) = 0;
     /// A step begins: the plants are as they are in `world`.
     virtual void begin(const WorldView& world, const SoilLayout& layout) = 0;
     /// Adds what is taken from each cell, content per day, and how that changes with the cell's head, during `days`
