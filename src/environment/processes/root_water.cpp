@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <istream>
+#include <limits>
 #include <ostream>
 #include <utility>
 
@@ -47,7 +48,9 @@ FeddesHeads read_feddes(const Settings& settings, UptakeModel model) {
 /// Amounts of a plant, cm3, of the step and since the beginning.
 struct Transpired {
     double in_step = 0, wanted_in_step = 0, total = 0;
-    double rate = 0;  ///< of the last substep, cm3/d
+    double taken = 0, taken_depth = 0;                        ///< from the soil in the step, and times the depth in cm
+    double rate = 0;                                          ///< of the last substep, cm3/d
+    double lowest = std::numeric_limits<double>::infinity();  ///< head at the collar in the step, cm
 };
 
 class RootWater final : public EnvironmentProcess, public SoilSink {
@@ -87,7 +90,10 @@ public:
             roots_.back().add_lengths(lengths_);
         }
         for (PlantUptake& roots : roots_) roots.surround(lengths_, zone_ && model_ == UptakeModel::network);
-        for (Transpired& plant : transpired_) plant.in_step = plant.wanted_in_step = 0;
+        for (Transpired& plant : transpired_) {
+            plant.in_step = plant.wanted_in_step = plant.taken = plant.taken_depth = 0;
+            plant.lowest = std::numeric_limits<double>::infinity();
+        }
     }
 
     double longest_substep(double day) const override { return collar_.longest_span(day); }
@@ -97,10 +103,12 @@ public:
         return before != level_;
     }
 
-    void draw(std::span<const SoilPoint> points, double day, double days, WaterBrick& uptake,
+    void draw(std::span<const SoilPoint> points, double day, double days, double weight, WaterBrick& uptake,
               WaterBrick& by_head) override {
         const double volume = std::pow(shared_.layout().edge(), 3);
-        const double demand = collar_.held ? 0 : collar_.mean_demand(day, days);
+        // The demand over the substep is met exactly: what the substep before adds to it is made up for.
+        mean_demand_ = collar_.held ? 0 : collar_.mean_demand(day, days);
+        const double demand = std::max(0.0, (mean_demand_ - (1 - weight) * last_demand_) / weight);
         const double held = collar_.held ? collar_.head.at(day + 0.5 * days) : 0;
         for (PlantUptake& plant : roots_) {
             plant.solve(points, model_, collar_, feddes_, demand, held);
@@ -120,8 +128,16 @@ public:
             plant.rate = weight * roots_[i].water().transpiration() + (1 - weight) * plant.rate;
             plant.in_step += plant.rate * days;
             plant.total += plant.rate * days;
-            if (!collar_.held) plant.wanted_in_step += roots_[i].water().demand * days;
+            plant.wanted_in_step += mean_demand_ * days;
+            const std::vector<double>& uptake = roots_[i].water().uptake;
+            for (std::size_t piece = 0; piece < uptake.size(); ++piece) {
+                const double taken = std::max(0.0, uptake[piece]) * days;
+                plant.taken += taken;
+                plant.taken_depth += taken * roots_[i].roots().depths[piece];
+            }
+            plant.lowest = std::min(plant.lowest, roots_[i].water().collar);
         }
+        last_demand_ = mean_demand_;
     }
 
     void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
@@ -143,37 +159,38 @@ public:
         const PlantUptake* roots =
             at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
         const bool any = roots && !roots->roots().pieces.empty();
-        double depth = 0, sum = 0;
-        for (std::size_t i = 0; any && i < roots->water().uptake.size(); ++i) {
-            const double taken = std::max(0.0, roots->water().uptake[i]);
-            depth += taken * roots->roots().depths[i];
-            sum += taken;
-        }
         const double nothing = std::nan("");
         return {{"transpiration", water.in_step, "cm3"},
                 {"potential", collar_.held ? nothing : water.wanted_in_step, "cm3"},
                 {"total", water.total, "cm3"},
-                {"collar", any && model_ != UptakeModel::feddes ? roots->water().collar : nothing, "cm"},
-                {"depth", sum > 0 ? depth / sum : nothing, "cm"},
+                {"collar",
+                 any && model_ != UptakeModel::feddes ? std::min(water.lowest, roots->water().collar) : nothing, "cm"},
+                {"depth", water.taken > 0 ? water.taken_depth / water.taken : nothing, "cm"},
                 {"conductance", any ? roots->water().conductance : 0, "cm2/d"}};
     }
 
     std::pair<int, int> query_arity() const override { return {1, 5}; }
 
     void save(std::ostream& out) const override {
-        write_doubles(out, {&level_, 1});
+        const double common[] = {level_, last_demand_};
+        write_doubles(out, common);
         for (const Transpired& plant : transpired_) {
-            const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total, plant.rate};
+            const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total,      plant.rate,
+                                      plant.lowest,  plant.taken,          plant.taken_depth};
             write_doubles(out, numbers);
         }
     }
 
     void restore(std::istream& in) override {
-        read_doubles(in, {&level_, 1});
+        double common[2];
+        read_doubles(in, common);
+        level_ = common[0];
+        last_demand_ = common[1];
         for (Transpired& plant : transpired_) {
-            double numbers[4];
-            read_doubles(in, numbers);
-            plant = {numbers[0], numbers[1], numbers[2], numbers[3]};
+            for (double* number : {&plant.in_step, &plant.wanted_in_step, &plant.total, &plant.rate, &plant.lowest,
+                                   &plant.taken, &plant.taken_depth}) {
+                read_doubles(in, {number, 1});
+            }
         }
     }
 
@@ -228,8 +245,9 @@ private:
     RootCollar collar_;
     FeddesHeads feddes_;
     bool zone_;
-    double level_ = 0;                   ///< of the collar, in the last substep
-    std::vector<std::uint32_t> plants_;  ///< of this step, and their roots
+    double level_ = 0;                          ///< of the collar, in the last substep
+    double mean_demand_ = 0, last_demand_ = 0;  ///< over this substep and the one before, cm3/d
+    std::vector<std::uint32_t> plants_;         ///< of this step, and their roots
     std::vector<PlantUptake> roots_;
     std::vector<Transpired> transpired_;  ///< by plant
     WaterBrick lengths_;                  ///< of roots in each voxel, cm
@@ -259,7 +277,7 @@ model          "network" (default); "feddes": the demand shared by length of roo
                          uniform soil
 
 Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each plant: transpiration and potential (cm3, in the
-step), total (cm3), collar (cm), depth of the uptake (cm), conductance of the root system (Krs, cm2/d).)";
+step), total (cm3), collar (cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs, cm2/d).)";
 
 const Registered<ProcessType> entry{{"root-water",
                                      "water in roots: potentials, uptake and transpiration in soil with pressure", help,

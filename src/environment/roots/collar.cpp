@@ -40,7 +40,11 @@ RootCollar RootCollar::read(const Settings& settings) {
 
 double RootCollar::mean_demand(double day, double days) const {
     const double potential = demand.at(day + 0.5 * days);
-    if (!by_day || !(days > 0)) return potential;
+    if (!by_day) return potential;
+    if (!(days > 0)) {
+        const double height = math::sin(2 * std::numbers::pi * (day - std::floor(day) - 0.25));
+        return potential * std::numbers::pi * std::max(0.0, height);
+    }
     return potential * (passed_by(day + days) - passed_by(day)) / days;
 }
 

@@ -15,7 +15,7 @@ struct RootCollar {
     bool by_day = false;    ///< the demand follows a sine from 6 to 18 o'clock; its mean is `demand`
 
     static RootCollar read(const Settings& settings);
-    /// The mean demand of a span of time, cm3/d.
+    /// The mean demand of a span of time, cm3/d; of no days: the demand at that moment.
     double mean_demand(double day, double days) const;
     /// What jumps where the demand or the held head does: at sunrise and sunset, and where a series changes.
     double level(double day) const;

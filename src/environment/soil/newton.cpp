@@ -15,9 +15,9 @@ constexpr double just_full = 5e-4;  ///< cm: below saturation, where the curves 
 
 }  // namespace
 
-bool Richards::newton(double days, std::span<SoilSink* const> sinks) {
+bool Richards::newton(double days, double weight, std::span<SoilSink* const> sinks) {
     trial_ = head_;
-    double norm = evaluate(days, sinks);
+    double norm = evaluate(days, weight, sinks);
     for (int step = 0; step < most_newton_steps; ++step) {
         if (norm <= newton_tolerance) return true;
         ++newton_steps_;
@@ -27,10 +27,10 @@ bool Richards::newton(double days, std::span<SoilSink* const> sinks) {
         const double worst = 10 * norm;  // a residual may grow while a front enters the next voxel
         for (int halving = 0;; ++halving) {
             update(part);
-            norm = evaluate(days, sinks);
+            norm = evaluate(days, weight, sinks);
             if (norm < worst || halving == 6) break;
             trial_ = before_;
-            evaluate(days, {});
+            evaluate(days, weight, {});
             part *= 0.5;
         }
         if (!std::isfinite(norm)) return false;
@@ -38,11 +38,11 @@ bool Richards::newton(double days, std::span<SoilSink* const> sinks) {
     return norm <= newton_tolerance;
 }
 
-double Richards::evaluate(double days, std::span<SoilSink* const> sinks) {
+double Richards::evaluate(double days, double weight, std::span<SoilSink* const> sinks) {
     find_points();
     std::fill(uptake_.begin(), uptake_.end(), 0);
     std::fill(uptake_by_head_.begin(), uptake_by_head_.end(), 0);
-    for (SoilSink* sink : sinks) sink->draw(points_, day_, days, uptake_, uptake_by_head_);
+    for (SoilSink* sink : sinks) sink->draw(points_, day_, days / weight, weight, uptake_, uptake_by_head_);
     layout_.for_rows([&](std::size_t row) {
         find_fluxes(row);
         find_boundary_fluxes(row, days);

@@ -127,7 +127,7 @@ double Richards::longest_substep(double end, std::span<SoilSink* const> sinks) c
 void Richards::show_to(std::span<SoilSink* const> sinks) {
     trial_ = head_;
     find_points();
-    for (SoilSink* sink : sinks) sink->draw(points_, day_, 0, uptake_, uptake_by_head_);
+    for (SoilSink* sink : sinks) sink->draw(points_, day_, 0, 1, uptake_, uptake_by_head_);
 }
 
 void Richards::advance(double days, std::span<SoilSink* const> sinks) {
@@ -169,7 +169,7 @@ Richards::Outcome Richards::substep(double days, std::span<SoilSink* const> sink
     }
     forcing_ = now;
     const double weight = choose_start(days);
-    if (!newton(weight * days, sinks) || (weight < 1 && stands_on_surface())) {
+    if (!newton(weight * days, weight, sinks) || (weight < 1 && stands_on_surface())) {
         if (weight == 1) return Outcome::failed;
         smooth_ = false;  // once more as an implicit Euler step
         return substep(days, sinks, error);

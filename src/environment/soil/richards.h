@@ -79,9 +79,10 @@ private:
     void begin();
     void measure();
     Outcome substep(double days, std::span<SoilSink* const> sinks, double& error);
-    bool newton(double days, std::span<SoilSink* const> sinks);
-    /// Sets fluxes, residuals and diagonal for `trial_`; returns the norm of the residual, m3/m3.
-    double evaluate(double days, std::span<SoilSink* const> sinks);
+    bool newton(double days, double weight, std::span<SoilSink* const> sinks);
+    /// `days`: of the implicit step, a part `weight` of the substep. Sets fluxes, residuals and diagonal for `trial_`;
+    /// returns the norm of the residual, m3/m3.
+    double evaluate(double days, double weight, std::span<SoilSink* const> sinks);
     void find_points();
     void find_fluxes(std::size_t row);
     void find_boundary_fluxes(std::size_t row, double days);

@@ -60,8 +60,11 @@ public:
                 "a shape in the soil has moved: stones and pots of model = \"richards\" stay where they are");
         }
         for (SoilSink* sink : sinks_) sink->begin(world, layout_);
-        if (world.step > 0) soil_.advance(world.dt * parameters_.days, sinks_);
-        soil_.show_to(sinks_);
+        if (world.step > 0) {
+            soil_.advance(world.dt * parameters_.days, sinks_);
+        } else {
+            soil_.show_to(sinks_);
+        }
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {

@@ -19,9 +19,10 @@ public:
     virtual bool has_jumped(double day) = 0;
     /// A step begins: the plants are as they are in `world`.
     virtual void begin(const WorldView& world, const SoilLayout& layout) = 0;
-    /// Adds what is taken from each cell, content per day, and how that changes with the cell's head, during `days`
-    /// from `day` on. `points` are a Newton step's guess of the soil at the end of that time.
-    virtual void draw(std::span<const SoilPoint> points, double day, double days, WaterBrick& uptake,
+    /// Adds what is taken from each cell, content per day, and how that changes with the cell's head, in a substep of
+    /// `days` from `day` on. `points` are a Newton step's guess of the soil at its end. Of the rate over that time,
+    /// what is added is the part `weight`; the rest is the rate over the substep before. `days` = 0: at that moment.
+    virtual void draw(std::span<const SoilPoint> points, double day, double days, double weight, WaterBrick& uptake,
                       WaterBrick& by_head) = 0;
     /// The last draw holds: the soil has come on by `days`. Of the rate over that time it is the part `weight`; the
     /// rest is the rate over the time before.
