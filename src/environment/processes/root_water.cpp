@@ -105,7 +105,7 @@ public:
 
     void draw(std::span<const SoilPoint> points, double day, double days, double weight, WaterBrick& uptake,
               WaterBrick& by_head) override {
-        const double volume = std::pow(shared_.layout().edge(), 3);
+        const double volume = shared_.layout().volume();
         // The demand over the substep is met exactly: what the substep before adds to it is made up for.
         mean_demand_ = collar_.held ? 0 : collar_.mean_demand(day, days);
         const double demand = std::max(0.0, (mean_demand_ - (1 - weight) * last_demand_) / weight);
@@ -220,7 +220,7 @@ private:
 
     const WaterBrick& uptake_of_voxels() {
         values_.assign(grid_.cells(), 0);
-        const double volume = std::pow(shared_.layout().edge(), 3);
+        const double volume = shared_.layout().volume();
         for (const PlantUptake& plant : roots_) {
             for (std::size_t i = 0; i < plant.roots().cells.size(); ++i) {
                 if (plant.roots().cells[i] == PlantRoots::no_cell) continue;
@@ -232,7 +232,7 @@ private:
 
     const WaterBrick& densities() {
         values_.assign(grid_.cells(), 0);
-        const double volume = std::pow(shared_.layout().edge(), 3);
+        const double volume = shared_.layout().volume();
         for (std::size_t c = 0; c < values_.size(); ++c) values_[c] = lengths_[c] / volume;
         return values_;
     }

@@ -54,7 +54,7 @@ void PlantUptake::add_lengths(WaterBrick& lengths) const {
 }
 
 void PlantUptake::surround(const WaterBrick& lengths, bool zone) {
-    const double volume = soil_.edge() * soil_.edge() * soil_.edge();
+    const double volume = soil_.volume();
     for (std::size_t i = 0; i < resistance_.size() && zone; ++i) {
         if (roots_.cells[i] == PlantRoots::no_cell) continue;
         const double outer = std::sqrt(volume / (std::numbers::pi * lengths[roots_.cells[i]]));

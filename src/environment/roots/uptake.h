@@ -53,7 +53,6 @@ private:
     void solve_macroscopic(std::span<const SoilPoint> points, UptakeModel model, const RootCollar& collar,
                            const FeddesHeads& feddes, double demand, double held_head);
     void measure_conductance();
-    double height_of(std::size_t piece) const { return heights_[piece]; }
 
     PlantRoots roots_;
     const SoilLayout& soil_;

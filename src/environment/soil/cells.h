@@ -38,7 +38,8 @@ public:
     bool joined_x() const { return joined_x_; }
     bool joined_z() const { return joined_z_; }
     NeighbourRows neighbours(std::size_t row) const;
-    double edge() const { return edge_; }  ///< of a voxel, cm
+    double edge() const { return edge_; }                    ///< of a voxel, cm
+    double volume() const { return edge_ * edge_ * edge_; }  ///< of a voxel, cm3
     /// How the soil begins at a point.
     const SoilBeginning& beginning(const glm::dvec3& point) const;
 

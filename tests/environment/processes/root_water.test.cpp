@@ -198,6 +198,48 @@ TEST_CASE("Feddes' roots take by length what soil neither too wet nor too dry gi
     CHECK(part(-17000) == Approx(0).margin(1e-6));
 }
 
+TEST_CASE("roots kept in a checkpoint go on the same", "[environment][roots]") {
+    const std::string soil = pot(0.02, "soil = \"loam\"\ninitial = { head = -200 }\n");
+    const std::string roots = drinks + "collar = { transpiration = 3, by_day = true }\n";
+    RootedSoil straight(soil, roots), resumed(soil, roots);
+    for (RootedSoil* pair : {&straight, &resumed}) pair->add_root(0.01, 0.01, 0.2);
+    straight.step(0.4);
+    std::stringstream of_soil, of_roots, first, second;
+    straight.water.process->save(of_soil);
+    straight.process->save(of_roots);
+    resumed.water.process->restore(of_soil);
+    resumed.process->restore(of_roots);
+    resumed.water.world.step = straight.water.world.step;
+    straight.step(0.4);
+    resumed.step(0.4);
+    for (const RootedSoil* pair : {&straight, &resumed}) {
+        std::stringstream& bytes = pair == &straight ? first : second;
+        pair->water.process->save(bytes);
+        pair->process->save(bytes);
+    }
+    CHECK(first.str() == second.str());
+}
+
+TEST_CASE("a query is told the water of the internode before it", "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\n"), drinks + "collar = { head = -1000 }\n");
+    pair.add_root(0.01, 0.01, 0.2);
+    pair.step(0.01);
+    std::vector<double> values(4, 0);
+    Query query;
+    query.module = 3;  // the lowest internode
+    query.parameters = values;
+    query.pose.position = {0.01, -0.2, 0.01};
+    std::vector<Query> queries{query};
+    std::vector<Answer> answers{Answer(values)};
+    pair.process->answer(pair.water.world, queries, answers, pair.water.fields);
+    CHECK(values[0] < -100);  // the potential in it
+    CHECK(values[0] > -1000);
+    CHECK(values[1] > 0);
+    CHECK(values[2] < -99);
+    CHECK(values[3] > 0.01);
+    CHECK(values[3] < 0.25);  // less than its share of the length
+}
+
 TEST_CASE("mistakes of roots are clear lines", "[environment][roots]") {
     const std::string soil = pot(0.02, "soil = \"loam\"\n");
     const auto mistake = [&](const std::string& in, const std::string& roots) {
