@@ -1,9 +1,13 @@
-// Water after Richards: rain on a block of soil, beside a plain column, and how the cost grows with the voxels.
+// Water after Richards: rain on a block of soil, beside a plain column, and how the cost grows with the voxels. Water
+// in a tree of roots.
+#include "environment/roots/hydraulic_tree.h"
 #include "environment/soil/column.h"
 #include "environment/soil/reference.h"
 #include "table.h"
 
 #include <benchmark/benchmark.h>
+#include <chrono>
+#include <vector>
 
 namespace espalier::bench {
 namespace {
@@ -46,6 +50,27 @@ void rain_on_plain_column(benchmark::State& state) {
 }
 BENCHMARK(rain_on_plain_column)->UseRealTime();
 
+void tree_of_roots(benchmark::State& state) {
+    constexpr std::uint32_t count = 100'000;
+    std::vector<environment::RootPiece> pieces;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t bearer = i == 0 ? environment::RootPiece::collar : i % 7 == 0 ? i / 2 : i - 1;
+        pieces.push_back({bearer, 0.5, 0.2, 0.05, 1e-4, -200.0 - i % 100});
+    }
+    environment::HydraulicTree tree;
+    environment::RootFlow flow;
+    double seconds = 0;
+    for (auto _ : state) {
+        const auto begin = std::chrono::steady_clock::now();
+        tree.look(pieces);
+        tree.flow(pieces, -5000, flow);
+        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        benchmark::DoNotOptimize(flow.transpiration);
+    }
+    state.counters["value"] = seconds / double(state.iterations()) / count * 1e9;
+}
+BENCHMARK(tree_of_roots)->UseRealTime();
+
 using Measure = Row::Measure;
 using Goal = Row::Goal;
 const Row block{"a day of rain on 40^3 voxels of soil, per voxel, against a plain column of one dimension",
@@ -60,6 +85,13 @@ const Row linear{"the same with eight times the voxels, per voxel",
                  Measure::time_per_item,
                  Goal::at_most,
                  1.5};
+
+const Row tree{"water in a tree of 100,000 pieces of root, per piece, ns",
+               "tree_of_roots/real_time",
+               "",
+               Measure::value,
+               Goal::at_most,
+               100};
 
 }  // namespace
 }  // namespace espalier::bench
