@@ -232,6 +232,8 @@ entry environments/one-root.toml "One root" "Mech & Prusinkiewicz 1996" -- --fie
 entry environments/root-2d-blind.toml "Root without hydrotropism" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend --azimuth 0 --elevation 0
+entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
 entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 grown_by environments/root-2d.toml models/water/root.l "Root that takes up water" "Mech & Prusinkiewicz 1996"
 entry environments/root-flare.toml "Tree with its roots" "Runions, Lane & Prusinkiewicz 2007"

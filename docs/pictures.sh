@@ -27,6 +27,8 @@ grow two-trees environments/two-trees.toml
 grow lone-tree environments/lone-tree.toml
 grow two-roots environments/two-roots.toml
 grow root-2d environments/root-2d.toml
+grow storm-on-layers environments/storm-on-layers.toml
+grow root-drought environments/root-drought.toml
 grow topiary environments/topiary-3d.toml
 grow forest environments/forest.toml --set plant.0.grid.columns=7 --set plant.0.grid.rows=7
 grow forest-patch environments/forest-patch.toml --every 50
@@ -36,6 +38,8 @@ render two-trees.png two-trees --size 640x480 --azimuth 20 --elevation 10
 render two-roots.png two-roots --size 640x480 --field water:volume --azimuth 15 --elevation 8 --no-legend
 render topiary.png topiary --size 640x480 --azimuth 25 --elevation 10
 render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar
+render storm-on-layers.png storm-on-layers --size 300x270 --sheet 3x1 --step 10:40:14 --field water:slice --time
+render root-drought.png root-drought --size 180x400 --sheet 5x1 --step 8:72:16 --field water:slice --azimuth 15 --elevation 5 --time
 render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth
 render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --zoom 1.15 --scale-bar --dark
 render light.png forest --size 720x450 --colour-by light --elevation 25 --scale-bar

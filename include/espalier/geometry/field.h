@@ -14,6 +14,12 @@ namespace espalier::geometry {
 /// Holds an OpenVDB grid; defined in espalier/geometry/openvdb_grid.h, the one public header that includes OpenVDB.
 struct FieldGrid;
 
+/// What made a field, as far as other processes may work together with it: a soil with the roots in it.
+class FieldSource {
+public:
+    virtual ~FieldSource() = default;
+};
+
 struct Field {
     std::string name;     ///< "light", "water", "pot.distance"
     std::string unit;     ///< "1", "m3/m3", "m"
@@ -23,6 +29,7 @@ struct Field {
     bool changes = true;
     /// Gives the grid as it is at present, for fields that are made when they are asked for; else empty.
     std::function<std::shared_ptr<const FieldGrid>()> current = {};
+    FieldSource* source = nullptr;  ///< lives as long as the fields; null: none
 };
 
 /// The fields of a world by name: where processes meet. Asking for a field may make it; ask from one thread only. A
@@ -47,5 +54,6 @@ namespace espalier {
 using geometry::Field;
 using geometry::FieldGrid;
 using geometry::Fields;
+using geometry::FieldSource;
 
 }  // namespace espalier

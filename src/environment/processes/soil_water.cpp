@@ -1,24 +1,23 @@
 // Soil water: a content that diffuses between obstacles, layers and sides, and that roots drink.
-// Its parameters and queries are described in water_parameters.cpp, the numbers behind it in docs/water.md.
+// Its parameters and queries are described in water/parameters.cpp, the numbers behind it in docs/water.md. With
+// model = "richards" it is another process: soil/richards_process.h.
 #include "espalier/environment/environment_process.h"
 
-#include "base/parallel.h"
 #include "base/text.h"
 #include "environment/changing_settings.h"
+#include "environment/soil/parameters.h"
+#include "environment/soil/richards_process.h"
 #include "environment/water/diffusion.h"
-#include "environment/water/direction.h"
 #include "environment/water/field.h"
 #include "environment/water/parameters.h"
+#include "environment/water/senses.h"
 #include "environment/water/solids.h"
 #include "environment/water/steady.h"
 #include "environment/water/stock.h"
-#include "environment/water/uptake.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 
 #include <algorithm>
-#include <cmath>
 #include <istream>
 #include <ostream>
 
@@ -76,11 +75,8 @@ public:
     }
 
     void answer(const WorldView&, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
-        require_finite(queries);
-        std::vector<WaterWish> wishes(queries.size());
-        for_in_parallel(tbb::blocked_range<std::size_t>(0, queries.size(), 64), [&](const auto& range) {
-            for (std::size_t q = range.begin(); q != range.end(); ++q) wishes[q] = sense(queries[q], answers[q]);
-        });
+        const WaterSenses senses{grid_, stock_->faces(), solids_, parameters_, stock_->contents()};
+        const std::vector<WaterWish> wishes = sense_water(senses, queries, answers);
         warn_of_wishes_beyond_voxels(queries);
         const std::vector<double> obtained = parameters_.depletion ? stock_->share(wishes) : stock_->lend(wishes);
         std::fill(uptake_.begin(), uptake_.end(), 0);
@@ -148,17 +144,6 @@ public:
     }
 
 private:
-    static void require_finite(std::span<const Query> queries) {
-        for (const Query& query : queries) {
-            const std::size_t used = std::min<std::size_t>(query.parameters.size(), 4);
-            for (std::size_t p = 0; p < used; ++p) {
-                if (std::isfinite(query.parameters[p])) continue;
-                throw RunError(fmt::format("plant {} asks for water with parameter {} = {}", query.plant, p + 1,
-                                           format_general(query.parameters[p])));
-            }
-        }
-    }
-
     // Once. Wishes in content times voxels are a million times too large where voxels of a centimetre count as volumes.
     void warn_of_wishes_beyond_voxels(std::span<const Query> queries) {
         const double most = 8 * parameters_.amount;  // eight voxels of nothing but water
@@ -188,34 +173,6 @@ private:
         warnings_ = nullptr;
     }
 
-    /// Writes what the query senses into its answer; returns what it wishes.
-    WaterWish sense(const Query& query, Answer answer) const {
-        if (answer.empty()) return {};
-        const std::size_t arity = answer.size();
-        const WaterSample sample = sample_water(grid_, stock_->faces(), stock_->contents(), query.pose.position);
-        if (arity == 2 || arity == 3) answer[1] = sample.content;
-        if (arity >= 4) {
-            const glm::dvec3 direction = weigh(query, sample.gradient);
-            for (int axis = 0; axis < 3; ++axis) answer[1 + axis] = direction[axis];
-            if (arity >= 8) {
-                const WaterHeading way = clear_heading(grid_, solids_, query.pose, direction, query.parameters[3]);
-                for (int axis = 0; axis < 3; ++axis) answer[4 + axis] = way.heading[axis];
-                answer[7] = way.clear;
-            }
-            if (arity >= 9) answer[8] = sample.content;
-        }
-        // A bound that no soil reaches keeps sums of wishes finite.
-        return {sample.stencil, std::clamp(query.parameters[0], 0.0, 1e100) / parameters_.amount};
-    }
-
-    /// Gravity and gradient, as the query weighs them.
-    glm::dvec3 weigh(const Query& query, const glm::dvec3& gradient) const {
-        const WaterLayer* layer = layer_at(parameters_, query.pose.position.y);
-        const glm::dvec3 down = layer ? layer->gravity : glm::dvec3(0, -1, 0);
-        const double per_metre = parameters_.gradient_length / parameters_.range;
-        return query.parameters[1] * down + query.parameters[2] * per_metre * gradient;
-    }
-
     WaterParameters parameters_;
     WaterGrid grid_;
     WaterSolids solids_;
@@ -228,9 +185,15 @@ private:
     std::vector<double> uptake_, wish_;  ///< per plant, this step
 };
 
+std::unique_ptr<EnvironmentProcess> make_soil(Settings& settings, const EnvironmentContext& context, Fields& fields) {
+    const std::string model = settings.choice_or("model", "linear", {"linear", "richards"});
+    if (model == "richards") return make_richards_soil(settings, context, fields);
+    return std::make_unique<SoilWater>(settings, context, fields);
+}
+
 const Registered<ProcessType> entry{
-    {"soil-water", "water or another substance in soil: diffusion, obstacles, layers, uptake by roots", soil_water_help,
-     construct<SoilWater>}};
+    {"soil-water", "water or another substance in soil: diffusion or Richards' equation, layers, uptake by roots",
+     std::string(soil_water_help) + "\n" + richards_help, make_soil}};
 
 }  // namespace
 }  // namespace espalier::environment

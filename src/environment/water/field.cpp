@@ -44,8 +44,8 @@ void write(const WaterBrick& contents, const WaterGrid& grid, openvdb::FloatTree
 
 }  // namespace
 
-WaterField::WaterField(std::string name, std::string unit, const WaterGrid& grid)
-    : name_(std::move(name)), unit_(std::move(unit)), grid_(grid) {
+WaterField::WaterField(std::string name, std::string unit, const WaterGrid& grid, std::string meaning)
+    : name_(std::move(name)), unit_(std::move(unit)), meaning_(std::move(meaning)), grid_(grid) {
     initialize_openvdb();
 }
 
@@ -66,9 +66,9 @@ void WaterField::set_faces(const WaterFaces& faces) {
     stale_ = true;
 }
 
-void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fields) {
+void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fields, FieldSource* source) {
     contents_ = std::move(contents);
-    fields.provide({name_, unit_, "content of the soil", current(), true, [this] { return current(); }});
+    fields.provide({name_, unit_, meaning_, current(), true, [this] { return current(); }, source});
 }
 
 std::shared_ptr<const FieldGrid> WaterField::current() {

@@ -148,13 +148,29 @@ void read_porosity(Settings& settings, WaterParameters& parameters) {
 
 }  // namespace
 
-WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context) {
-    WaterParameters parameters;
+void read_water_space(Settings& settings, const EnvironmentContext& context, WaterParameters& parameters) {
     parameters.settings_place = settings.place();
     parameters.voxel_place = settings.place("voxel");
     parameters.domain = read_domain(settings, context);
     parameters.voxel = settings.number("voxel", Range::positive());
     parameters.flat = read_flatness(settings, parameters.domain, parameters.voxel);
+    for (Settings& table : settings.tables("obstacles")) parameters.obstacles.push_back(read_shape(table));
+    parameters.obstacle_field = settings.text_or("obstacle_field", "");
+    parameters.container_field = settings.text_or("container_field", "");
+}
+
+void read_water_queries(Settings& settings, WaterParameters& parameters) {
+    const double h = parameters.voxel;
+    parameters.depletion = settings.flag_or("depletion", true);
+    parameters.amount = settings.choice_or("amount", "content", {"content", "volume"}) == "volume" ? h * h * h : 1;
+    parameters.amount_place = settings.place("amount");
+    parameters.range = settings.number_or("range", 1, Range::positive());
+    parameters.gradient_length = settings.number_or("gradient_length", h, Range::positive());
+}
+
+WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context) {
+    WaterParameters parameters;
+    read_water_space(settings, context, parameters);
     parameters.unit = settings.text_or("unit", "m3/m3");
     parameters.initial = settings.number_or("initial", 0, content_range);
     parameters.sides = read_sides(settings, parameters.flat);
@@ -175,16 +191,7 @@ WaterParameters read_water_parameters(Settings& settings, const EnvironmentConte
     parameters.regions = read_regions(settings);
     parameters.sources = read_sources(settings);
     read_porosity(settings, parameters);
-    for (Settings& table : settings.tables("obstacles")) parameters.obstacles.push_back(read_shape(table));
-    parameters.obstacle_field = settings.text_or("obstacle_field", "");
-    parameters.container_field = settings.text_or("container_field", "");
-
-    parameters.depletion = settings.flag_or("depletion", true);
-    const double h = parameters.voxel;
-    parameters.amount = settings.choice_or("amount", "content", {"content", "volume"}) == "volume" ? h * h * h : 1;
-    parameters.amount_place = settings.place("amount");
-    parameters.range = settings.number_or("range", 1, Range::positive());
-    parameters.gradient_length = settings.number_or("gradient_length", h, Range::positive());
+    read_water_queries(settings, parameters);
     return parameters;
 }
 
@@ -198,6 +205,7 @@ const WaterLayer* layer_at(const WaterParameters& parameters, double y) {
 
 const char* const soil_water_help = R"(A content (water in m3/m3, or any concentration) on a grid of cubic voxels.
 
+model            "linear" (default): diffusion, described here; "richards": see below
 domain           { lower = [x, y, z], upper = [x, y, z] }  m; default: the scene's
 voxel            m, required; the domain is covered by whole voxels about its middle
 dimensions       2 or 3; default 2 if the domain is at most one voxel deep (z); then z is ignored

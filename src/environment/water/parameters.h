@@ -76,7 +76,11 @@ struct WaterParameters {
     Place settings_place;
 };
 
-/// Throws UserError.
+/// What both models have: domain, voxels, obstacles; then how queries are answered. Throws UserError.
+void read_water_space(Settings& settings, const EnvironmentContext& context, WaterParameters& parameters);
+void read_water_queries(Settings& settings, WaterParameters& parameters);
+
+/// Of the linear model. Throws UserError.
 WaterParameters read_water_parameters(Settings& settings, const EnvironmentContext& context);
 
 /// The layer at height y, or null.

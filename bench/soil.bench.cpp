@@ -1,0 +1,97 @@
+// Water after Richards: rain on a block of soil, beside a plain column, and how the cost grows with the voxels. Water
+// in a tree of roots.
+#include "environment/roots/hydraulic_tree.h"
+#include "environment/soil/column.h"
+#include "environment/soil/reference.h"
+#include "table.h"
+
+#include <benchmark/benchmark.h>
+#include <chrono>
+#include <vector>
+
+namespace espalier::bench {
+namespace {
+
+/// A quarter of a day of rain on loam that has a ball of sand, so that water flows across too.
+void rain_on_block(benchmark::State& state, int edge) {
+    const double size = 0.01 * edge;
+    const std::string text = fmt::format(
+        "domain = {{ lower = [0, {0}, 0], upper = [{1}, 0, {1}] }}\nvoxel = 0.01\nsoil = {2}\ninitial = {{ head = -400 "
+        "}}\n"
+        "regions = [{{ shape = \"sphere\", center = [{3}, {4}, {3}], radius = {5}, soil = \"sand\" }}]\n"
+        "boundaries = {{ top = {{ rain = 100 }}, bottom = \"free-drainage\" }}",
+        -size, size, test::test_loam, size / 2, -size / 2, size / 5);
+    for (auto _ : state) {
+        test::SoilBlock block(text);
+        block.advance(0.25);
+        benchmark::DoNotOptimize(block.soil.heads().data());
+    }
+    state.SetItemsProcessed(state.iterations() * edge * edge * edge);
+}
+void rain_on_small_block(benchmark::State& state) {
+    rain_on_block(state, 20);
+}
+void rain_on_large_block(benchmark::State& state) {
+    rain_on_block(state, 40);
+}
+BENCHMARK(rain_on_small_block)->UseRealTime();
+BENCHMARK(rain_on_large_block)->UseRealTime();
+
+/// The same rain on a column of the tests' reference, with as many cells as the small block is high.
+void rain_on_plain_column(benchmark::State& state) {
+    for (auto _ : state) {
+        test::ReferenceColumn column({0.08, 0.43, 0.04, 1.6, 50}, 20, 20, -400);
+        column.potential_flux = 10;
+        column.free_drainage = true;
+        column.advance(0.25, 50);
+        benchmark::DoNotOptimize(column.h.data());
+    }
+    state.SetItemsProcessed(state.iterations() * 20);
+}
+BENCHMARK(rain_on_plain_column)->UseRealTime();
+
+void tree_of_roots(benchmark::State& state) {
+    constexpr std::uint32_t count = 100'000;
+    std::vector<environment::RootPiece> pieces;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t bearer = i == 0 ? environment::RootPiece::collar : i % 7 == 0 ? i / 2 : i - 1;
+        pieces.push_back({bearer, 0.5, 0.2, 0.05, 1e-4, -200.0 - i % 100});
+    }
+    environment::HydraulicTree tree;
+    environment::RootFlow flow;
+    double seconds = 0;
+    for (auto _ : state) {
+        const auto begin = std::chrono::steady_clock::now();
+        tree.look(pieces);
+        tree.flow(pieces, -5000, flow);
+        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        benchmark::DoNotOptimize(flow.transpiration);
+    }
+    state.counters["value"] = seconds / double(state.iterations()) / count * 1e9;
+}
+BENCHMARK(tree_of_roots)->UseRealTime();
+
+using Measure = Row::Measure;
+using Goal = Row::Goal;
+const Row block{"a day of rain on 40^3 voxels of soil, per voxel, against a plain column of one dimension",
+                "rain_on_large_block/real_time",
+                "rain_on_plain_column/real_time",
+                Measure::time_per_item,
+                Goal::at_most,
+                12};
+const Row linear{"the same with eight times the voxels, per voxel",
+                 "rain_on_large_block/real_time",
+                 "rain_on_small_block/real_time",
+                 Measure::time_per_item,
+                 Goal::at_most,
+                 1.5};
+
+const Row tree{"water in a tree of 100,000 pieces of root, per piece, ns",
+               "tree_of_roots/real_time",
+               "",
+               Measure::value,
+               Goal::at_most,
+               100};
+
+}  // namespace
+}  // namespace espalier::bench

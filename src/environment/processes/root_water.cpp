@@ -1,0 +1,287 @@
+// Water in roots: the network of each plant in the soil of a process soil-water with model = "richards".
+// Doussan et al. 1998; Meunier et al. 2017; Schroeder et al. 2008; Feddes et al. 1978; Couvreur et al. 2012.
+#include "espalier/environment/environment_process.h"
+
+#include "environment/roots/uptake.h"
+#include "environment/soil/sink.h"
+#include "environment/water/field.h"
+#include "environment/water/stock.h"
+#include "turtle/internode_bearers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <limits>
+#include <ostream>
+#include <utility>
+
+namespace espalier::environment {
+namespace {
+
+SharedSoil& soil_of(const Settings& settings, const Fields& fields) {
+    const std::string name = settings.text_or("soil", "water");
+    auto* const soil = dynamic_cast<SharedSoil*>(fields.need(name).source);
+    if (soil) return *soil;
+    throw UserError(
+        settings.place("soil"),
+        fmt::format("'{}' is not a soil-water with model = \"richards\", in which roots have potentials", name));
+}
+
+UptakeModel read_model(const Settings& settings) {
+    const std::string model = settings.choice_or("model", "network", {"network", "feddes", "couvreur"});
+    return model == "feddes" ? UptakeModel::feddes : model == "couvreur" ? UptakeModel::couvreur : UptakeModel::network;
+}
+
+FeddesHeads read_feddes(const Settings& settings, UptakeModel model) {
+    FeddesHeads heads;
+    if (model != UptakeModel::feddes || !settings.has("heads")) return heads;
+    const std::vector<double> given = settings.numbers("heads");
+    if (given.size() != 4 || !std::is_sorted(given.rbegin(), given.rend(), std::less_equal<>())) {
+        throw UserError(settings.place("heads"),
+                        "'heads' are four falling pressure heads, cm: too wet, wet, dry, wilting");
+    }
+    return {given[0], given[1], given[2], given[3]};
+}
+
+/// Amounts of a plant, cm3, of the step and since the beginning.
+struct Transpired {
+    double in_step = 0, wanted_in_step = 0, total = 0;
+    double taken = 0, taken_depth = 0;                        ///< from the soil in the step, and times the depth in cm
+    double rate = 0;                                          ///< of the last substep, cm3/d
+    double lowest = std::numeric_limits<double>::infinity();  ///< head at the collar in the step, cm
+};
+
+class RootWater final : public EnvironmentProcess, public SoilSink {
+public:
+    RootWater(Settings& settings, const EnvironmentContext& context, Fields& fields)
+        : shared_(soil_of(settings, fields)),
+          grid_(shared_.layout().grid()),
+          orders_(read_root_conductances(settings)),
+          measure_(settings.choice_or("along", "age", {"age", "distance from tip"}) == "age"
+                       ? RootMeasure::age
+                       : RootMeasure::distance_from_tip),
+          model_(read_model(settings)),
+          collar_(RootCollar::read(settings)),
+          feddes_(read_feddes(settings, model_)),
+          zone_(settings.flag_or("zone", true)),
+          transpired_(context.plants),
+          lengths_(grid_.cells(), 0.0),
+          shown_uptake_(context.name, "1/d", grid_, "water that roots take per volume of soil"),
+          shown_lengths_(context.name + ".length_density", "cm/cm3", grid_, "length of roots per volume of soil") {
+        if (model_ == UptakeModel::feddes && collar_.held) {
+            throw UserError(settings.place("collar"), "Feddes' roots have no potentials: give a 'transpiration'");
+        }
+        shared_.attach(*this);
+        shown_uptake_.set_faces(shared_.layout().faces());
+        shown_uptake_.provide([this]() -> const WaterBrick& { return uptake_of_voxels(); }, fields);
+        shown_lengths_.set_faces(shared_.layout().faces());
+        shown_lengths_.provide([this]() -> const WaterBrick& { return densities(); }, fields);
+    }
+
+    void begin(const WorldView& world, const SoilLayout& soil) override {
+        roots_.clear();
+        plants_.clear();
+        std::fill(lengths_.begin(), lengths_.end(), 0);
+        for (const PlantView& plant : world.plants) {
+            plants_.push_back(plant.plant);
+            roots_.emplace_back(roots_in_soil(plant, world, shared_.days_per_unit(), soil, orders_, measure_), soil);
+            roots_.back().add_lengths(lengths_);
+        }
+        for (PlantUptake& roots : roots_) roots.surround(lengths_, zone_ && model_ == UptakeModel::network);
+        for (Transpired& plant : transpired_) {
+            plant.in_step = plant.wanted_in_step = plant.taken = plant.taken_depth = 0;
+            plant.lowest = std::numeric_limits<double>::infinity();
+        }
+    }
+
+    double longest_substep(double day) const override { return collar_.longest_span(day); }
+
+    bool has_jumped(double day) override {
+        const double before = std::exchange(level_, collar_.level(day));
+        return before != level_;
+    }
+
+    void draw(std::span<const SoilPoint> points, double day, double days, double weight, WaterBrick& uptake,
+              WaterBrick& by_head) override {
+        const double volume = shared_.layout().volume();
+        // The demand over the substep is met exactly: what the substep before adds to it is made up for.
+        mean_demand_ = collar_.held ? 0 : collar_.mean_demand(day, days);
+        const double demand = std::max(0.0, (mean_demand_ - (1 - weight) * last_demand_) / weight);
+        const double held = collar_.held ? collar_.head.at(day + 0.5 * days) : 0;
+        for (PlantUptake& plant : roots_) {
+            plant.solve(points, model_, collar_, feddes_, demand, held);
+            const PlantRoots& roots = plant.roots();
+            for (std::size_t i = 0; i < roots.pieces.size(); ++i) {
+                if (roots.cells[i] == PlantRoots::no_cell) continue;
+                uptake[roots.cells[i]] += plant.water().uptake[i] / volume;
+                by_head[roots.cells[i]] += plant.water().by_head[i] / volume;
+            }
+        }
+    }
+
+    void accept(double days, double weight) override {
+        for (std::size_t i = 0; i < roots_.size(); ++i) {
+            if (plants_[i] >= transpired_.size()) continue;
+            Transpired& plant = transpired_[plants_[i]];
+            plant.rate = weight * roots_[i].water().transpiration() + (1 - weight) * plant.rate;
+            plant.in_step += plant.rate * days;
+            plant.total += plant.rate * days;
+            plant.wanted_in_step += mean_demand_ * days;
+            const std::vector<double>& uptake = roots_[i].water().uptake;
+            for (std::size_t piece = 0; piece < uptake.size(); ++piece) {
+                const double taken = std::max(0.0, uptake[piece]) * days;
+                plant.taken += taken;
+                plant.taken_depth += taken * roots_[i].roots().depths[piece];
+            }
+            plant.lowest = std::min(plant.lowest, roots_[i].water().collar);
+        }
+        last_demand_ = mean_demand_;
+    }
+
+    void answer(const WorldView& world, std::span<const Query> queries, std::span<Answer> answers, Fields&) override {
+        shown_uptake_.change();
+        shown_lengths_.change();
+        std::size_t q = 0;
+        for (std::size_t i = 0; i < world.plants.size() && i < roots_.size(); ++i) {
+            const PlantView& view = world.plants[i];
+            const std::size_t first = q;
+            while (q < queries.size() && queries[q].plant == view.plant) ++q;
+            if (q > first) tell(view, roots_[i], queries.subspan(first, q - first), answers.subspan(first, q - first));
+        }
+    }
+
+    std::vector<Quantity> statistics(std::uint32_t plant) const override {
+        const Transpired none{};
+        const Transpired& water = plant < transpired_.size() ? transpired_[plant] : none;
+        const auto at = std::find(plants_.begin(), plants_.end(), plant);
+        const PlantUptake* roots =
+            at == plants_.end() ? nullptr : &roots_[static_cast<std::size_t>(at - plants_.begin())];
+        const bool any = roots && !roots->roots().pieces.empty();
+        const double nothing = std::nan("");
+        return {{"transpiration", water.in_step, "cm3"},
+                {"potential", collar_.held ? nothing : water.wanted_in_step, "cm3"},
+                {"total", water.total, "cm3"},
+                {"collar",
+                 any && model_ != UptakeModel::feddes ? std::min(water.lowest, roots->water().collar) : nothing, "cm"},
+                {"depth", water.taken > 0 ? water.taken_depth / water.taken : nothing, "cm"},
+                {"conductance", any ? roots->water().conductance : 0, "cm2/d"}};
+    }
+
+    std::pair<int, int> query_arity() const override { return {1, 5}; }
+
+    void save(std::ostream& out) const override {
+        const double common[] = {level_, last_demand_};
+        write_doubles(out, common);
+        for (const Transpired& plant : transpired_) {
+            const double numbers[] = {plant.in_step, plant.wanted_in_step, plant.total,      plant.rate,
+                                      plant.lowest,  plant.taken,          plant.taken_depth};
+            write_doubles(out, numbers);
+        }
+    }
+
+    void restore(std::istream& in) override {
+        double common[2];
+        read_doubles(in, common);
+        level_ = common[0];
+        last_demand_ = common[1];
+        for (Transpired& plant : transpired_) {
+            for (double* number : {&plant.in_step, &plant.wanted_in_step, &plant.total, &plant.rate, &plant.lowest,
+                                   &plant.taken, &plant.taken_depth}) {
+                read_doubles(in, {number, 1});
+            }
+        }
+    }
+
+private:
+    /// Each query is answered the water of the internode before it: potential in it, uptake, soil at its surface, share
+    /// of the uptake from uniform soil.
+    void tell(const PlantView& view, const PlantUptake& plant, std::span<const Query> queries,
+              std::span<Answer> answers) const {
+        const turtle::OrganBearers bearers(view.interpretation->geometry, *view.string);
+        const std::vector<std::uint32_t>& internodes = plant.roots().internodes;
+        const PlantWater& water = plant.water();
+        for (std::size_t q = 0; q < queries.size(); ++q) {
+            const std::uint32_t wanted = bearers.of(queries[q].module, queries[q].pose.position);
+            const auto [first, end] = std::equal_range(internodes.begin(), internodes.end(), wanted);
+            double numbers[4] = {0, 0, 0, 0};
+            for (auto piece = first; piece != end; ++piece) {
+                const auto i = static_cast<std::size_t>(piece - internodes.begin());
+                const double share = 1 / static_cast<double>(end - first);
+                numbers[0] += share * water.xylem[i];
+                numbers[1] += water.uptake[i];
+                numbers[2] += share * water.surface[i];
+                numbers[3] += water.fractions[i];
+            }
+            for (std::size_t n = 0; n < std::min<std::size_t>(4, answers[q].size()); ++n) answers[q][n] = numbers[n];
+        }
+    }
+
+    const WaterBrick& uptake_of_voxels() {
+        values_.assign(grid_.cells(), 0);
+        const double volume = shared_.layout().volume();
+        for (const PlantUptake& plant : roots_) {
+            for (std::size_t i = 0; i < plant.roots().cells.size(); ++i) {
+                if (plant.roots().cells[i] == PlantRoots::no_cell) continue;
+                values_[plant.roots().cells[i]] += plant.water().uptake[i] / volume;
+            }
+        }
+        return values_;
+    }
+
+    const WaterBrick& densities() {
+        values_.assign(grid_.cells(), 0);
+        const double volume = shared_.layout().volume();
+        for (std::size_t c = 0; c < values_.size(); ++c) values_[c] = lengths_[c] / volume;
+        return values_;
+    }
+
+    SharedSoil& shared_;
+    WaterGrid grid_;
+    std::vector<RootConductances> orders_;
+    RootMeasure measure_;
+    UptakeModel model_;
+    RootCollar collar_;
+    FeddesHeads feddes_;
+    bool zone_;
+    double level_ = 0;                          ///< of the collar, in the last substep
+    double mean_demand_ = 0, last_demand_ = 0;  ///< over this substep and the one before, cm3/d
+    std::vector<std::uint32_t> plants_;         ///< of this step, and their roots
+    std::vector<PlantUptake> roots_;
+    std::vector<Transpired> transpired_;  ///< by plant
+    WaterBrick lengths_;                  ///< of roots in each voxel, cm
+    WaterField shown_uptake_, shown_lengths_;
+    WaterBrick values_;  ///< of the field that is being made
+};
+
+const char* const help =
+    R"(The water of each plant's roots in a soil-water with model = "richards", which stands before it in
+the scene. Internodes below the soil's surface are roots.
+
+soil           "water": the name of that process
+radial         1/d, conductivity of the root's surface, per cm of head: a number, or a curve
+axial          cm3/d, conductance along the root times length: a number, or a curve
+               { at = [0, 10, 30], values = [1.7e-4, 1e-4, 2e-5] }: linear between its points
+along          "age" (days, default) or "distance from tip" (cm): what curves are read along
+orders         [ { radial, axial }, ... ]: by order of branching, the last stands for all higher ones
+collar         required: { head = -1000 } cm, or { transpiration = 5, limit = -15000, by_day = false }: a demand in cm3/d for each
+               plant as long as the collar's head is above `limit` (cm); by_day: from 6 to 18 o'clock, as a sine of that mean.
+               head and transpiration may be { file = "weather.csv", column = "..." }
+zone           true: the soil around each root is a hollow cylinder in which water moves at a steady rate
+model          "network" (default); "feddes": the demand shared by length of roots, reduced where the soil is dry or full,
+               heads = [-10, -25, -800, -16000] cm; "couvreur": by the fractions of uniform soil, with compensation
+
+?name(a)                 -> pressure head in the internode before the query, cm
+?name(a, b, c, d)        -> ..., uptake (cm3/d), pressure head of the soil at its surface (cm), fraction of the uptake from
+                         uniform soil
+
+Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each plant: transpiration and potential (cm3, in the
+step), total (cm3), collar (cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs, cm2/d).)";
+
+const Registered<ProcessType> entry{{"root-water",
+                                     "water in roots: potentials, uptake and transpiration in soil with pressure", help,
+                                     construct<RootWater>}};
+
+}  // namespace
+}  // namespace espalier::environment

@@ -1,0 +1,33 @@
+// The roots of one plant in the soil's voxels.
+#pragma once
+
+#include "espalier/environment/environment_process.h"
+
+#include "environment/roots/conductances.h"
+#include "environment/roots/hydraulic_tree.h"
+#include "environment/soil/cells.h"
+
+#include <vector>
+
+namespace espalier::environment {
+
+/// Along what the curves of conductances are read.
+enum class RootMeasure { age, distance_from_tip };
+
+struct PlantRoots {
+    std::vector<RootPiece> pieces;          ///< as they are drawn: bearers first
+    std::vector<std::size_t> cells;         ///< of each piece; `no_cell` outside the soil or in a stone
+    std::vector<double> radii;              ///< cm
+    std::vector<double> depths;             ///< of each piece's middle below the surface, cm
+    std::vector<std::uint32_t> internodes;  ///< of each piece
+    double collar_height = 0;               ///< cm, as heights of total heads
+
+    static constexpr std::size_t no_cell = std::size_t(-1);
+};
+
+/// Cuts the internodes below the soil's surface at the faces of voxels. Throws RunError for a root that leaves the soil
+/// elsewhere. `days`: what a unit of time is.
+PlantRoots roots_in_soil(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
+                         const std::vector<RootConductances>& orders, RootMeasure measure);
+
+}  // namespace espalier::environment

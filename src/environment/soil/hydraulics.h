@@ -1,0 +1,50 @@
+// A soil's curves as a table that is read without a logarithm or a power: content, conductivity, matric flux potential.
+#pragma once
+
+#include "environment/soil/soil_kind.h"
+
+#include <vector>
+
+namespace espalier::environment {
+
+/// A soil at one pressure head, in cm and days.
+struct SoilPoint {
+    double head = 0;
+    double content = 0;
+    double capacity = 0;      ///< d content / d head
+    double conductivity = 0;  ///< d potential / d head
+    double slope = 0;         ///< d conductivity / d head
+    double potential = 0;     ///< matric flux potential, the integral of the conductivity from dry soil, cm2/d
+};
+
+/// Monotone cubic interpolation between nodes that divide every octave of |head| into 64, from 1e-3 cm to 1e9 cm;
+/// straight from there to full soil, so that a clay whose conductivity falls steeply at saturation (n = 1.1) reaches
+/// its right value.
+class SoilHydraulics {
+public:
+    explicit SoilHydraulics(const SoilKind& soil);
+
+    const SoilKind& soil() const { return soil_; }
+    SoilPoint at(double head) const;
+    /// The head at which the soil holds this much; 0 if it is full.
+    double head_at(double content) const;
+    /// The head at which it conducts this well; 0 if as well as full soil.
+    double head_of_conductivity(double conductivity) const;
+    /// What cannot be less: the content at a head of -1e9 cm.
+    double least_content() const;
+
+private:
+    struct Node {
+        double suction, saturation, saturation_slope, conductivity, conductivity_slope, potential;
+    };
+    SoilPoint nearly_full(double head) const;
+    double suction_at(double wanted, double full, double Node::*value, double Node::*slope) const;
+    void fill();
+    void integrate();
+    void limit_slopes();
+
+    SoilKind soil_;
+    std::vector<Node> nodes_;  ///< by rising suction, -head
+};
+
+}  // namespace espalier::environment

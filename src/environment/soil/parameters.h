@@ -1,0 +1,83 @@
+// What a scene says about a soil whose water follows Richards' equation, read and checked.
+#pragma once
+
+#include "espalier/environment/shape.h"
+
+#include "environment/soil/hydraulics.h"
+#include "environment/soil/series.h"
+#include "environment/water/parameters.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace espalier::environment {
+
+/// The head, cm, or the content that a part of the soil begins with.
+struct SoilBeginning {
+    enum class Kind { head, table, content } kind = Kind::head;
+    double value = -100;  ///< cm; m, the height of the water table of hydrostatic soil; m3/m3
+};
+
+struct SoilLayer {
+    double bottom = 0, top = 0;  ///< m, at x = 0
+    double rise = 0;             ///< m of height per m along x
+    std::optional<std::size_t> kind;
+    std::optional<SoilBeginning> beginning;
+};
+
+/// A lens: a part of another soil, or one that begins with other water.
+struct SoilRegion {
+    std::shared_ptr<const Shape> shape;
+    std::optional<std::size_t> kind;
+    std::optional<SoilBeginning> beginning;
+};
+
+/// Water that is brought into a part of the soil, as by a drip line.
+struct SoilInflow {
+    std::shared_ptr<const Shape> shape;
+    double rate = 0;  ///< content per day
+    Place place;
+};
+
+struct SoilSurface {
+    enum class Kind { closed, atmosphere, flux, head } kind = Kind::closed;
+    SoilSeries rain, evaporation, flux, head;  ///< mm/d, mm/d potential, mm/d into the soil, cm
+    double dry_limit = -10000;                 ///< cm: no head at the surface is lower
+    double ponding = 0;                        ///< mm that stand on the surface before water runs off
+};
+
+struct SoilFloor {
+    enum class Kind { closed, free_drainage, seepage, flux, head } kind = Kind::closed;
+    SoilSeries flux, head;        ///< mm/d into the soil; cm at the bottom face
+    std::optional<double> table;  ///< m: the height of the water table instead of a head
+};
+
+struct SoilParameters {
+    WaterParameters water;  ///< the space, and how queries are answered
+    double days = 1;        ///< what a time unit of the scene is
+    std::vector<SoilHydraulics> kinds;
+    std::vector<std::string> kind_names;
+    std::string map_field;               ///< a field whose values count `map`, from 0; empty: none
+    std::vector<std::size_t> map_kinds;  ///< kinds that its values stand for
+    std::size_t kind = 0;                ///< of soil that no layer, region or map names
+    SoilBeginning beginning;
+    std::vector<SoilLayer> layers;
+    std::vector<SoilRegion> regions;
+    std::vector<SoilInflow> inflows;
+    SoilSurface surface;
+    SoilFloor floor;
+    bool periodic = false;
+    double accuracy = 0.005;       ///< m3/m3: the error in time of a substep
+    double max_substep = 1;        ///< days
+    double wilting_head = -15000;  ///< cm: what queries leave in the soil
+};
+
+/// Throws UserError.
+SoilParameters read_soil_parameters(Settings& settings, const EnvironmentContext& context);
+
+/// What `espalier list` prints of model = "richards".
+extern const char* const richards_help;
+
+}  // namespace espalier::environment

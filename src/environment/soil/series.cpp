@@ -1,0 +1,95 @@
+#include "environment/soil/series.h"
+
+#include "espalier/base/file.h"
+
+#include "base/csv_file.h"
+#include "base/number.h"
+#include "base/text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace espalier::environment {
+namespace {
+
+std::string trimmed(const std::string& text) {
+    const std::vector<std::string> words = words_of(text, " \t\r");
+    return words.empty() ? "" : fmt::format("{}", fmt::join(words, " "));
+}
+
+/// A cell as a finite number in the range.
+double number_in(const std::vector<std::string>& cells, std::size_t column, const std::string& what, const Place& place,
+                 const Range& range) {
+    const std::string text = column < cells.size() ? trimmed(cells[column]) : "";
+    if (text.empty()) throw UserError(place, fmt::format("there is no '{}' in this line: a series has no gaps", what));
+    const std::optional<double> value = finite_number(text);
+    if (!value) throw UserError(place, fmt::format("'{}' is not a number", text));
+    if (*value < range.lowest || *value > range.highest) {
+        throw UserError(place, fmt::format("'{}' is {}, which is not between {} and {}", what, text,
+                                           format_general(range.lowest), format_general(range.highest)));
+    }
+    return *value;
+}
+
+}  // namespace
+
+SoilSeries SoilSeries::read(const Settings& settings, const std::string& key, double fallback, Range range) {
+    if (!settings.is_table(key)) return SoilSeries(settings.number_or(key, fallback, range));
+    const Settings table = settings.table(key);
+    const std::filesystem::path path = table.path("file");
+    const std::string column_name = table.text("column");
+    SoilSeries series;
+    series.name_ = path.filename().string() + ": " + column_name;
+    series.values_.clear();
+
+    std::istringstream lines(read_text(path));
+    std::string line;
+    Place place{path.string(), 1, 0};
+    std::getline(lines, line);
+    const std::vector<std::string> header = csv_cells(line);
+    const auto named = std::find_if(header.begin(), header.end(),
+                                    [&](const std::string& name) { return trimmed(name) == column_name; });
+    const auto column = static_cast<std::size_t>(named - header.begin());
+    if (named == header.end() || column == 0) {
+        throw UserError(place, fmt::format("this file has no column '{}' behind the one of the days", column_name));
+    }
+    while (std::getline(lines, line)) {
+        ++place.line;
+        if (trimmed(line).empty()) continue;
+        const std::vector<std::string> cells = csv_cells(line);
+        const double day = number_in(cells, 0, trimmed(header[0]), place, Range::any());
+        if (!series.times_.empty() && day <= series.times_.back()) {
+            throw UserError(place, fmt::format("day {} is not behind day {} of the line before", format_general(day),
+                                               format_general(series.times_.back())));
+        }
+        series.times_.push_back(day);
+        series.values_.push_back(number_in(cells, column, column_name, place, range));
+    }
+    if (series.times_.empty()) throw UserError(place, "this series has no lines");
+    return series;
+}
+
+double SoilSeries::at(double day) const {
+    if (is_constant()) return values_[0];
+    const std::size_t count = times_.size();
+    const double span = count > 1 ? times_[count - 1] - times_[count - 2] : std::numeric_limits<double>::infinity();
+    const double slack = 1e-9 * (1 + std::abs(day));
+    if (day < times_[0] - slack || day > times_.back() + span + slack) {
+        throw RunError(fmt::format("{} goes from day {} to {}, but the soil is at day {}: give the series more lines",
+                                   name_, format_general(times_[0]), format_general(times_.back() + span),
+                                   format_general(day)));
+    }
+    const auto after = std::upper_bound(times_.begin(), times_.end(), day + slack);
+    return values_[after == times_.begin() ? 0 : static_cast<std::size_t>(after - times_.begin()) - 1];
+}
+
+double SoilSeries::next_change(double day) const {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), day + 1e-9 * (1 + std::abs(day)));
+    return after == times_.end() ? std::numeric_limits<double>::infinity() : *after;
+}
+
+}  // namespace espalier::environment

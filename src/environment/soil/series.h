@@ -1,0 +1,36 @@
+// A number that changes with time, as a scene gives it: constant, or a column of a CSV file.
+#pragma once
+
+#include "espalier/base/settings.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace espalier::environment {
+
+/// A value holds from its time until the next; the last one holds for as long as the one before it did.
+class SoilSeries {
+public:
+    SoilSeries() = default;
+    explicit SoilSeries(double value) : values_{value} {}
+
+    /// A number, or { file = "weather.csv", column = "rain" }: the first column of the file is the time in days from
+    /// the beginning of the run, rising. Throws UserError with the line of the file for a gap, a word or a value out of
+    /// `range`.
+    static SoilSeries read(const Settings& settings, const std::string& key, double fallback, Range range);
+
+    bool is_constant() const { return times_.empty(); }
+    void set(double value) { values_ = {value}; }
+    double& constant() { return values_[0]; }
+    /// Throws RunError before the first time and behind the last.
+    double at(double day) const;
+    /// The first change behind `day`; infinite if there is none.
+    double next_change(double day) const;
+
+private:
+    std::string name_;  ///< "weather.csv: rain"
+    std::vector<double> times_, values_{0};
+};
+
+}  // namespace espalier::environment

@@ -1,0 +1,269 @@
+// root-water in a soil, as a scene has them.
+#include "catch.h"
+#include "environment/water/soil.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+namespace espalier::test {
+namespace {
+
+/// A soil with roots that are drawn by hand.
+struct RootedSoil {
+    RootedSoil(const std::string& soil, const std::string& roots) : water(soil) {
+        context.name = "roots";
+        context.plants = 2;
+        Settings settings = Settings::parse_toml(roots, "roots.toml");
+        process = registered<ProcessType>().at("root-water")->make(settings, context, water.fields);
+        settings.reject_unread();
+    }
+
+    /// A straight root from (x, 0, z) downwards, m.
+    void add_root(double x, double z, double length, double radius = 0.001, int internodes = 4) {
+        PlantGeometry& geometry = interpretations.emplace_back().geometry;
+        ModuleString& string = strings.emplace_back();
+        for (int i = 0; i < internodes; ++i) {
+            const double from = length * i / internodes, to = length * (i + 1) / internodes;
+            geometry.internodes.push_back(
+                {static_cast<std::uint32_t>(i), 0, 0, 0, 0, {x, -from, z}, {x, -to, z}, radius, radius});
+            string.append(model.alphabet.letter("F", 0), {});
+        }
+        geometry.axes = 1;
+        views.clear();
+        for (std::size_t i = 0; i < strings.size(); ++i) {
+            views.push_back({static_cast<std::uint32_t>(i), &model, &strings[i], &interpretations[i], true});
+        }
+    }
+
+    void step(double dt = 1) {
+        water.world.plants = views;
+        water.advance(dt);
+        process->advance(water.world, {}, water.fields);
+        water.ask({});
+        process->answer(water.world, {}, {}, water.fields);
+    }
+
+    double quantity(const std::string& name, std::uint32_t plant = 0) const {
+        for (const Quantity& quantity : process->statistics(plant)) {
+            if (quantity.name == name) return quantity.value;
+        }
+        throw RunError("no quantity " + name);
+    }
+
+    Soil water;
+    EnvironmentContext context;
+    Model model;
+    std::deque<ModuleString> strings;
+    std::deque<Interpretation> interpretations;
+    std::vector<PlantView> views;
+    std::unique_ptr<EnvironmentProcess> process;
+};
+
+std::string pot(double voxel, const std::string& rest) {
+    return fmt::format(
+               "model = \"richards\"\ndomain = {{ lower = [-0.04, -0.24, -0.04], upper = [0.04, 0, 0.04] }}\nvoxel = "
+               "{}\n",
+               voxel) +
+           rest;
+}
+
+const std::string drinks = "radial = 1.73e-4\naxial = 0.0432\n";
+constexpr double area = 8 * 8;  // cm2
+
+}  // namespace
+
+TEST_CASE("in wet soil a plant transpires its demand, and the soil loses as much", "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\n"),
+                    drinks + "collar = { transpiration = 0.5 }\n");
+    pair.add_root(0, 0, 0.2);
+    for (int day = 0; day < 3; ++day) {
+        pair.step();
+        CHECK(pair.quantity("transpiration") == Approx(0.5).epsilon(1e-6));
+        CHECK(pair.quantity("potential") == Approx(0.5));
+    }
+    CHECK(pair.quantity("total") == Approx(1.5).epsilon(1e-6));
+    CHECK(pair.water.quantity("drunk") == Approx(10 * pair.quantity("total") / area).epsilon(1e-9));
+    CHECK(std::abs(pair.water.quantity("balance")) < 1e-9);
+    CHECK(pair.quantity("collar") < -100);
+    CHECK(pair.quantity("depth") > 2);
+    CHECK(pair.quantity("depth") < 15);
+}
+
+TEST_CASE("Krs is that of one root in closed form", "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\n"), drinks + "collar = { head = -500 }\n");
+    pair.add_root(0.01, 0.01, 0.2);
+    pair.step(0.01);
+    const double around = 2 * std::numbers::pi * 0.1, tau = std::sqrt(around * 1.73e-4 / 0.0432);
+    CHECK(pair.quantity("conductance") == Approx(0.0432 * tau * std::tanh(20 * tau)).epsilon(1e-9));
+    CHECK(std::isnan(pair.quantity("potential")));
+}
+
+TEST_CASE("as the soil dries the collar falls to its limit, and transpiration below the demand",
+          "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -300 }\n"),
+                    drinks + "collar = { transpiration = 25, limit = -15000 }\n");
+    for (const double z : {-0.03, -0.01, 0.01, 0.03}) pair.add_root(0.01, z, 0.23, 0.002);
+    double before = 0;
+    bool stressed = false;
+    for (int day = 0; day < 12; ++day) {
+        pair.step();
+        CHECK(pair.quantity("collar") > -15000.01);
+        const double now = pair.quantity("transpiration");
+        if (stressed) CHECK(now < before + 1e-9);
+        stressed = stressed || now < 0.99 * pair.quantity("potential");
+        before = now;
+    }
+    CHECK(stressed);
+    CHECK(pair.quantity("collar") == Approx(-15000));
+    CHECK(std::abs(pair.water.quantity("balance")) < 1e-9);
+}
+
+TEST_CASE("at night roots lift water from wet to dry soil", "[environment][roots]") {
+    RootedSoil pair(
+        pot(0.02,
+            "soil = \"loam\"\ninitial = { head = -3000 }\nlayers = [{ top = -0.12, initial = { head = -50 } }]\n"),
+        "radial = 1e-3\naxial = 5\ncollar = { transpiration = 2, by_day = true }\n");
+    pair.add_root(0.01, 0.01, 0.22, 0.002);
+    pair.step(0.25);  // midnight to sunrise
+    const FieldGrid& uptake = *pair.water.fields.need("roots").current();
+    CHECK(pair.quantity("transpiration") == Approx(0).margin(1e-9));
+    CHECK(uptake.grid->tree().getValue(openvdb::Coord(2, 11, 2)) < 0);  // the top gets water
+    CHECK(uptake.grid->tree().getValue(openvdb::Coord(2, 1, 2)) > 0);
+    pair.step(0.5);  // the day
+    CHECK(pair.quantity("transpiration") == Approx(2).epsilon(1e-3));
+    pair.step(0.25);
+    CHECK(pair.quantity("total") == Approx(2).epsilon(1e-3));
+}
+
+TEST_CASE("three days of a drying root in voxels of 1 cm are those of fine voxels, thanks to the zone",
+          "[environment][roots]") {
+    const auto taken = [](double voxel, bool zone) {
+        RootedSoil pair(
+            fmt::format("model = \"richards\"\ndomain = {{ lower = [-0.02, -0.04, -0.02], upper = [0.02, 0, 0.02] }}\n"
+                        "voxel = {}\nsoil = {{ theta_r = 0.08, theta_s = 0.43, alpha = 0.04, n = 1.6, ks = 50 }}\n"
+                        "initial = {{ head = -1000 }}\n",
+                        voxel),
+            fmt::format("radial = 1e-3\naxial = 10\ncollar = {{ transpiration = 0.6, by_day = true }}\nzone = {}\n",
+                        zone));
+        pair.add_root(0.0051, 0.0051, 0.038, 0.0002, 1);
+        for (int day = 0; day < 3; ++day) pair.step(1);
+        return pair.quantity("total");
+    };
+    const double fine = taken(0.002, true);
+    CHECK(fine < 1.6);  // of 1.8: it is short of water
+    CHECK(taken(0.01, true) == Approx(fine).epsilon(0.1));
+    CHECK(taken(0.01, false) > 1.02 * fine);
+}
+
+TEST_CASE("two plants share the soil; each has its own figures", "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -200 }\n"),
+                    drinks + "collar = { transpiration = 1 }\n");
+    pair.add_root(-0.03, 0.01, 0.2);
+    pair.add_root(0.03, 0.01, 0.1);
+    pair.step();
+    CHECK(pair.quantity("transpiration", 0) == Approx(1).epsilon(1e-6));
+    CHECK(pair.quantity("transpiration", 1) == Approx(1).epsilon(1e-6));
+    CHECK(pair.quantity("collar", 1) < pair.quantity("collar", 0));
+    CHECK(pair.quantity("depth", 1) < pair.quantity("depth", 0));
+}
+
+TEST_CASE("Couvreur's sink is the network where conductances along are large", "[environment][roots]") {
+    const std::string soil =
+        pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\nlayers = [{ top = -0.1, initial = { head = -600 } }]\n");
+    const std::string roots = "radial = 2e-4\naxial = 500\nzone = false\ncollar = { transpiration = 1 }\n";
+    RootedSoil network(soil, roots), couvreur(soil, roots + "model = \"couvreur\"\n");
+    network.add_root(0.01, 0.01, 0.2);
+    couvreur.add_root(0.01, 0.01, 0.2);
+    network.step();
+    couvreur.step();
+    CHECK(couvreur.quantity("transpiration") == Approx(1).epsilon(1e-6));
+    CHECK(couvreur.quantity("collar") == Approx(network.quantity("collar")).epsilon(0.01));
+    CHECK(couvreur.quantity("depth") == Approx(network.quantity("depth")).epsilon(0.01));
+}
+
+TEST_CASE("Feddes' roots take by length what soil neither too wet nor too dry gives", "[environment][roots]") {
+    const auto part = [](double head) {
+        RootedSoil pair(pot(0.02, fmt::format("soil = \"loam\"\ninitial = {{ head = {} }}\n", head)),
+                        drinks + "model = \"feddes\"\ncollar = { transpiration = 1 }\n");
+        pair.add_root(0.01, 0.01, 0.2);
+        pair.step(0.001);
+        return pair.quantity("transpiration") / 0.001;
+    };
+    CHECK(part(-100) == Approx(1).epsilon(1e-3));
+    CHECK(part(-5) == Approx(0).margin(1e-6));
+    CHECK(part(-8400) == Approx(0.5).epsilon(0.01));
+    CHECK(part(-17000) == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("roots kept in a checkpoint go on the same", "[environment][roots]") {
+    const std::string soil = pot(0.02, "soil = \"loam\"\ninitial = { head = -200 }\n");
+    const std::string roots = drinks + "collar = { transpiration = 3, by_day = true }\n";
+    RootedSoil straight(soil, roots), resumed(soil, roots);
+    for (RootedSoil* pair : {&straight, &resumed}) pair->add_root(0.01, 0.01, 0.2);
+    straight.step(0.4);
+    std::stringstream of_soil, of_roots, first, second;
+    straight.water.process->save(of_soil);
+    straight.process->save(of_roots);
+    resumed.water.process->restore(of_soil);
+    resumed.process->restore(of_roots);
+    resumed.water.world.step = straight.water.world.step;
+    straight.step(0.4);
+    resumed.step(0.4);
+    for (const RootedSoil* pair : {&straight, &resumed}) {
+        std::stringstream& bytes = pair == &straight ? first : second;
+        pair->water.process->save(bytes);
+        pair->process->save(bytes);
+    }
+    CHECK(first.str() == second.str());
+}
+
+TEST_CASE("a query is told the water of the internode before it", "[environment][roots]") {
+    RootedSoil pair(pot(0.02, "soil = \"loam\"\ninitial = { head = -100 }\n"), drinks + "collar = { head = -1000 }\n");
+    pair.add_root(0.01, 0.01, 0.2);
+    pair.step(0.01);
+    std::vector<double> values(4, 0);
+    Query query;
+    query.module = 3;  // the lowest internode
+    query.parameters = values;
+    query.pose.position = {0.01, -0.2, 0.01};
+    std::vector<Query> queries{query};
+    std::vector<Answer> answers{Answer(values)};
+    pair.process->answer(pair.water.world, queries, answers, pair.water.fields);
+    CHECK(values[0] < -100);  // the potential in it
+    CHECK(values[0] > -1000);
+    CHECK(values[1] > 0);
+    CHECK(values[2] < -99);
+    CHECK(values[3] > 0.01);
+    CHECK(values[3] < 0.25);  // less than its share of the length
+}
+
+TEST_CASE("mistakes of roots are clear lines", "[environment][roots]") {
+    const std::string soil = pot(0.02, "soil = \"loam\"\n");
+    const auto mistake = [&](const std::string& in, const std::string& roots) {
+        return user_error([&] { RootedSoil pair(in, roots); });
+    };
+    CHECK(mistake(soil, drinks).find("'collar' needs one of 'head'") != std::string::npos);
+    CHECK(mistake(soil, "collar = { head = -5 }\n").find("radial") != std::string::npos);
+    CHECK(mistake(soil, "radial = { at = [0, 1], values = [1] }\naxial = 1\ncollar = { head = -5 }\n")
+              .find("as many numbers") != std::string::npos);
+    CHECK(mistake(soil, "radial = 1\naxial = 0\ncollar = { head = -5 }\n").find("'axial' must be more than 0") !=
+          std::string::npos);
+    CHECK(mistake(soil, drinks + "collar = { head = -5 }\nmodel = \"feddes\"\n").find("give a 'transpiration'") !=
+          std::string::npos);
+    CHECK(mistake("domain = { lower = [0, -1, 0], upper = [1, 0, 0] }\nvoxel = 0.1\n",
+                  drinks + "collar = { head = -5 }\n")
+              .find("is not a soil-water with model = \"richards\"") != std::string::npos);
+    RootedSoil pair(soil, drinks + "collar = { head = -500 }\n");
+    pair.add_root(0.01, 0.01, 0.5);
+    try {
+        pair.step();
+        FAIL("the root leaves the soil");
+    } catch (const RunError& error) {
+        CHECK(std::string(error.what()).find("a root of plant 0 leaves the soil at (0.01, -0.2") != std::string::npos);
+    }
+}
+
+}  // namespace espalier::test
