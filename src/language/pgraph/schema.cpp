@@ -1,11 +1,11 @@
 #include "language/pgraph/schema.h"
 
+#include "base/part_help.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace espalier::language::pgraph {
 namespace {
@@ -229,23 +229,27 @@ Value value_of(const Component& component, const std::string& key) {
 }
 
 std::string describe_types() {
-    const auto bound = [](double value) { return std::isfinite(value) ? format_general(value) : std::string(); };
     const auto how = [](KeyKind kind) {
-        return kind == instance   ? "over instances"
-               : kind == children ? "over children"
-               : kind == axis     ? "along the axis"
-               : kind == list     ? "list"
-               : kind == vector   ? "vector"
-               : kind == field    ? "field"
-                                  : "fixed";
+        return kind == instance   ? "; a range is spread over the instances"
+               : kind == children ? "; a range is spread over the children"
+               : kind == axis     ? "; a range runs along the axis"
+               : kind == list     ? "; a list of numbers"
+               : kind == vector   ? "; a vector"
+               : kind == field    ? "; a field: three functions of x, y, z"
+                                  : "";
+    };
+    const auto standard = [](const Key& key) {
+        if (key.standard.empty()) return std::string("none");
+        return key.standard.find(' ') == key.standard.npos ? key.standard : fmt::format("[{}]", key.standard);
     };
     std::string text;
     for (const ComponentType& type : component_types()) {
-        text += fmt::format("\n{}: {}\n", type.name, type.summary);
+        text += fmt::format("\n{}: {}\n\n", type.name, type.summary);
         for (const Key& key : type.keys) {
-            const std::string range = key.kind == word ? key.unit : bound(key.lowest) + ".." + bound(key.highest);
-            text += fmt::format("  {:13} {:14} {:11} {:8} default {:17} {}\n", key.name, how(key.kind), range,
-                                key.kind == word ? "" : key.unit, key.standard, key.summary);
+            const bool is_word = key.kind == word;
+            const std::string range = is_word ? ", or " + key.unit : described_range(key.lowest, key.highest);
+            text += fmt::format("  {:13} {}{}{}; {}{}\n", key.name + " ", standard(key),
+                                is_word || key.unit.empty() ? "" : " " + key.unit, range, key.summary, how(key.kind));
         }
     }
     return text;

@@ -1,10 +1,11 @@
+#include "base/part_help.h"
 #include "base/text.h"
 #include "language/weber_penn/species.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace espalier::language::weber_penn {
@@ -146,14 +147,15 @@ std::string setting_name(const Parameter& parameter, int level) {
 }
 
 std::string describe_parameters() {
-    const auto bound = [](double value) { return std::isfinite(value) ? format_general(value) : std::string(); };
     std::string text;
     for (const Parameter& each : parameters()) {
-        std::string standard;
-        for (const double value : each.standard) standard += (standard.empty() ? "" : ", ") + format_general(value);
+        std::vector<std::string> standard;
+        for (const double value : each.standard) standard.push_back(format_general(value));
         const std::string name = each.has_levels() ? (each.standard.size() == 1 ? "0" : "n") + each.name : each.name;
-        text += fmt::format("  {:15} {:13} {:8} default {:17} {}\n", name,
-                            bound(each.lowest) + ".." + bound(each.highest), each.unit, standard, each.summary);
+        text += fmt::format("  {:15} {}{}{}{}; {}\n", name + " ",
+                            standard.size() == 1 ? standard[0] : fmt::format("[{}]", fmt::join(standard, ", ")),
+                            each.unit.empty() ? "" : " ", each.unit, described_range(each.lowest, each.highest),
+                            each.summary);
     }
     return text;
 }

@@ -31,5 +31,13 @@ const Registered<Symbol> draw{
          walk.draw_patch(parameters[0], divided ? parameters[1] : 5, divided ? parameters[2] : 5);
      }}};
 
+const Registered<SymbolGroup> patches_group{
+    {"patches",
+     "patches of sixteen control points",
+     {"@PS", "@PC", "@PD"},
+     "A control point that is not set lies where the patch was begun. Rows and columns count from 0, or "
+     "from 1 in a model that uses a 4 and no 0.",
+     "axiom: @PS(1) [@PC(1,0,0)] [f(3) @PC(1,3,0)] [-(90) f(3) @PC(1,0,3)] [f(3) -(90) f(3) @PC(1,3,3)] @PD(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

@@ -17,5 +17,12 @@ const Registered<Symbol> leave{
          walk.leave_system();
      }}};
 
+const Registered<SymbolGroup> sub_systems_group{
+    {"sub-systems",
+     "enters and leaves sub-L-systems",
+     {"?", "$"},
+     "A model with several numbered L-systems uses the productions of system `id` between ? and $.",
+     "axiom: F(1) ?(2, 0.5) F(1) $ F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle
