@@ -161,6 +161,7 @@ use_cie_formula        false; light comes evenly from above; true: more light fr
 source_direction       none; ["x y z intensity", ...]: directions towards lights in place of the samples; the
                        intensity is 1 if it is left out
 grid_size              [1, 1, 1]; accepted and ignored: all clusters are tested
+verbose                accepted and ignored: the messages of cpfg's program
 parameters             none; a file with these keys in words, as cpfg's program chiba reads it
 
 By chords, of a ball around the query's centre only the part in front counts. By areas, only clusters whose centres are in front reduce the light. Answers do not depend on the order of the queries.

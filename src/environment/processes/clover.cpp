@@ -116,6 +116,7 @@ grid_range     [1, 1] m, > 0; size of the ground from corner to corner
 remove_old_leaves  false; leaves remain until they are removed; true: each step begins without leaves
 z_is_up        true; the ground is x and y; false: x and z
 parameters     none; a file with these keys in words, as cpfg's program clover reads it
+verbose        accepted and ignored: the messages of cpfg's program
 numbers        "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): a leaf covers every cell that
                its disc touches, at most 255 lie over each other, there is no red without a picture, the picture is
                stretched from corner cell to corner cell, and leaves are added and removed in string order by queries

@@ -135,8 +135,8 @@ Queries with other numbers of parameters only count as neighbours.
 
 one_point_value  false; r is the least of 6 x 6 places in the unit square around the query; true: at the query itself
 return_vector    false; a and m are angle and size of the fall; true: its x and y
-range, position, output_image, frame_intervals, quantization_step, gamma
-                 accepted and ignored: they concern the picture that cpfg's program writes
+range, position, output_image, frame_intervals, quantization_step, gamma, verbose  accepted and ignored: the picture
+                 and the messages of cpfg's program
 parameters       none; a file with these keys in words, as cpfg's program density reads it
 numbers          "exact", or "cpfg"; exact: a is from -180 to 180; cpfg (the default with `parameters` and in .e
                  files): a is from 0 to 360, or 90 where nothing falls; the query itself adds nothing; m is a sixth of

@@ -125,6 +125,7 @@ position      [0, 0, 0] m; lower corner of the box
 grid_size     [1, 1, 1], >= 1; voxels along each side
 octree_level  0, 0 to 20; 2^level voxels along each side, where no grid_size is given
 parameters    none; a file with these keys in words, as cpfg's program density3d reads it
+verbose       accepted and ignored: the messages of cpfg's program
 numbers       "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): after each query, the fraction
               of the voxel's sum is cut off
 

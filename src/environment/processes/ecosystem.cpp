@@ -125,6 +125,7 @@ scan      "vigour", or "string"; with vigour, a disc that has lost no longer eli
           string (the default with `parameters`): in string order; of two equals the later remains, as in cpfg
 3d_case   false; heights are ignored, positions are compared by x and z; true: balls in space
 grid_size   [1, 1, 1]; accepted and ignored: the search needs no grid
+verbose     accepted and ignored: the messages of cpfg's program
 parameters  none; a file with `vigor: on`, `3d case: on`, `grid size: n n n`, as cpfg's program ecosystem reads it
 
 Without vigour two of equal radius that overlap both get 0.

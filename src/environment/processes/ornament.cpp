@@ -59,6 +59,7 @@ grid_size      [512, 512], >= 1; cells along both sides. A disc covers the cells
 grid_position  [0, 0] m; lower left corner of the grid
 grid_range     [1, 1] m, > 0; size of the grid from corner to corner
 parameters     none; a file with these keys in words, as cpfg's program ornament reads it
+verbose        accepted and ignored: the messages of cpfg's program
 
 Statistics of a plant: mean, min, max of the counts, queries.
 )",

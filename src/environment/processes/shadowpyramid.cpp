@@ -198,6 +198,7 @@ sample_radius       1.6 m, > 0; distance of the places whose light makes the gra
 light_vertical_bias  0, -1e6 to 1e6; is added to the y of the gradient
 light_randomness    0, 0 to 1e6; each component of the gradient is changed at random by up to this
 parameters          none; a file with these keys in words, as cpfg's program shadowpyramid reads it
+verbose             accepted and ignored: the messages of cpfg's program
 numbers             "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): the grid reaches from 0 to
                     2 X in y, a caster's height in voxels is cut off instead of rounded, and the gradient is the
                     difference of the light over the two sample radii, not per metre

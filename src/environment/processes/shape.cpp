@@ -186,7 +186,7 @@ std::string help() {
 
 voxel     longest side / 128, m, > 0; edge of the voxels of the field <name>.distance and of a mesh's level set
 motion    none; changes size and position, linearly between the times
-    times     required; the steps
+    times     required; steps at which it has these values
     growth    none, m; by how much the solid is expanded at each time; none: nowhere
     movement  none, m; [[x, y, z], ...]: how far it has moved at each time; none: nowhere
 

@@ -148,6 +148,7 @@ source         none; ["x y z intensity", ...]: places of lights, of intensity 1 
 disk_source    none; ["radius x y z", ...]: horizontal discs of light, each as 100 points of total intensity 1
 beam_radius    0, 0 to 1e6; balls are larger by this many radii of the querying ball
 grid_size      [1, 1, 1]; accepted and ignored: all clusters are tested
+verbose        accepted and ignored: the messages of cpfg's program
 parameters     none; a file with these keys in words, as cpfg's program takenaka reads it
 numbers        "exact", or "cpfg"; exact: a ball counts if its centre is in front of the query's centre; cpfg (the
                default with `parameters` and in .e files): a ball around the query's centre counts too

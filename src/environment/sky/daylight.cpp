@@ -144,7 +144,7 @@ diffuse       the share of the light on level ground that comes from the sky; th
 With par, the light is the same at all times:
 par           umol m-2 s-1 on open level ground
 sun           [0, 1, 0]: direction to the sun
-diffuse       1
+diffuse       1; share of the light that comes from the sky
 
 Without it, the sun goes its way (Michalsky 1988), and a share of the light above the air reaches the ground:
 latitude      50 degrees to the north

@@ -27,7 +27,7 @@ const Registered<SymbolGroup> branching_group{
      "A branch begins with the state of the turtle at its [, and ] restores that state: position, "
      "directions, width, colours, scale, tropisms.\n"
      "A ] without [ has no effect, and a [ without ] reaches to the end of the string.",
-     "axiom: F(1) [+(40) F(1)] [-(40) F(1)] F(1)"}};
+     "axiom: !(0.06) F(1) [+(40) F(1)] [-(40) F(1)] F(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

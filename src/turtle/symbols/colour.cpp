@@ -65,7 +65,7 @@ const Registered<SymbolGroup> colour_group{
      {";", ",", "@;", "@,", "@Tx"},
      "A colour is an index into the colour map or the materials of the plant; it wraps within its map of "
      "256.",
-     "axiom: ;(2) F(1) ;(4) F(1) , F(1)"}};
+     "axiom: !(0.3) ;(40) F(1) ;(120) F(1) ;(200) F(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -62,7 +62,8 @@ const Registered<SymbolGroup> deformation_group{
      "of the scale.\n"
      "What is drawn until @De moves with them (Sederberg & Parry 1986). The turtle, queries and radii do "
      "not notice the deformation.",
-     "axiom: @Db(0, 1,1,1, -1,0,-1, 1,3,1, 0.5,0,0) F(1) F(1) F(1) @De"}};
+     "axiom: !(0.2) @Db(0, 2,2,2, -1,0,-1, 1,3,1, 0,0,0, 0,0,0, 1,0,0, 1,0,0, 0,0,0, 0,0,0, 1,0,0, 1,0,0) F(1) F(1) "
+     "F(1) @De"}};
 
 }  // namespace
 }  // namespace espalier::turtle

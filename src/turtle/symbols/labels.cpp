@@ -13,7 +13,7 @@ const Registered<SymbolGroup> labels_group{{"labels",
                                             "texts",
                                             {"@L"},
                                             "The format is that of printf with one number for each further parameter.",
-                                            "axiom: F(1) @L(\"height %.1f m\", 1)"}};
+                                            "axiom: !(0.06) F(1) @L(\"height %.1f m\", 1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

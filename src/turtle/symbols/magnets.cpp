@@ -41,7 +41,7 @@ const Registered<SymbolGroup> magnets_group{
      {"@Gm", "@Gf"},
      "At a magnet of strength s, the outline lies 1 + s times as far from the middle as that of the "
      "ellipse, at least 0. Between two magnets it changes smoothly (Steffen 1990).",
-     "axiom: !(0.5) @Gm(1, 0.5, 0, 0.5, 0) @Gs F(1) @Gc(4) F(1) @Ge(4)"}};
+     "axiom: !(0.5) @Gm(1, 1, 0, 1, 0, 1, 0) @Gs f(1) @Gc(4) f(1) @Ge(4)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -40,7 +40,7 @@ const Registered<SymbolGroup> movement_group{
      {"F", "G", "f", "g"},
      "Lengths are in metres, times the scale; without parameter 1. Before a drawn segment, tropisms bend "
      "the turtle.",
-     "axiom: F(2) f(0.5) F(1) G(0.5)"}};
+     "axiom: !(0.1) F(2) f(0.5) F(1) G(0.5)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

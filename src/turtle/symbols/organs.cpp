@@ -66,7 +66,7 @@ const Registered<SymbolGroup> organs_group{
      "Diameters are in metres, times the scale; without parameter the line width.\n"
      "A surface x is described by the view file, or is a rhombus without one. ~x(sx, sy, sz) scales it "
      "along left, heading and up; the turtle moves to its end point.",
-     "axiom: F(1) [@c(0.3)] F(1) [@O(0.3)] F(1) ~l(0.5)"}};
+     "axiom: !(0.04) F(1) [-(90) @c(0.4)] F(1) [-(90) f(0.4) @O(0.4)] F(1) ~l(0.7)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -37,7 +37,10 @@ const Registered<SymbolGroup> patches_group{
      {"@PS", "@PC", "@PD"},
      "A control point that is not set lies where the patch was begun. Rows and columns count from 0, or "
      "from 1 in a model that uses a 4 and no 0.",
-     "axiom: @PS(1) [@PC(1,0,0)] [f(3) @PC(1,3,0)] [-(90) f(3) @PC(1,0,3)] [f(3) -(90) f(3) @PC(1,3,3)] @PD(1)"}};
+     "derivation length: 17\n"
+     "axiom: @PS(1) P(0)\n"
+     "P(k) : k < 16 --> [ f(floor(k / 4)) -(90) f(k % 4) &(90) f(sin(70 * k)) @PC(1, floor(k / 4), k % 4) ] P(k + 1)\n"
+     "P(k) --> @PD(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

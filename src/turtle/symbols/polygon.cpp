@@ -51,7 +51,7 @@ const Registered<SymbolGroup> polygon_group{
      "Polygons can be nested: vertices belong to the innermost open one. A polygon may extend across "
      "branches; it has the colours and texture of its first vertex.\n"
      "With a parameter, braces and points make a generalized cylinder.",
-     "axiom: F(1) { +(30) f(1) -(60) f(1) }"}};
+     "axiom: !(0.06) F(1) { +(30) f(1) -(60) f(1) -(120) f(1) }"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -16,7 +16,7 @@ const Registered<SymbolGroup> position_group{{"position",
                                               "jumps to a place",
                                               {"@M"},
                                               "The place is in coordinates of the world, in metres.",
-                                              "axiom: F(1) @M(2, 0, 0) F(1)"}};
+                                              "axiom: !(0.06) F(1) @M(0.5, 0.5) F(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

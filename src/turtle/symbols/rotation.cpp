@@ -86,7 +86,7 @@ const Registered<SymbolGroup> rotation_group{
      "U = L x H.\n"
      "@R leaves z out as 0; a zero vector means straight up. Up is set only if it is perpendicular to the "
      "heading; otherwise the turtle twists least.",
-     "axiom: F(1) [+(30) F(1)] [-(30) F(1)] /(90) [&(30) F(1)] [^(30) F(1)] \\(45) F(1) @R(1, 0, 0) F(1)"}};
+     "axiom: !(0.06) F(1) [+(30) F(1)] [-(30) F(1)] /(90) [&(50) F(1)] [^(50) F(1)] \\(45) F(1) @R(1, 0, 0) F(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

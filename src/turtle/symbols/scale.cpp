@@ -32,7 +32,7 @@ const Registered<SymbolGroup> scale_group{
      "scale of lengths and widths",
      {"@D", "@Di", "@Dd"},
      "All lengths, widths and sizes of organs that follow are multiplied by the scale.",
-     "axiom: F(1) @D(0.5) F(1) @Di(3) F(1)"}};
+     "axiom: !(0.1) F(1) @D(0.5) !(0.1) F(1) @Di(3) !(0.1) F(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -22,7 +22,12 @@ const Registered<SymbolGroup> sub_systems_group{
      "enters and leaves sub-L-systems",
      {"?", "$"},
      "A model with several numbered L-systems uses the productions of system `id` between ? and $.",
-     "axiom: F(1) ?(2, 0.5) F(1) $ F(1)"}};
+     "derivation length: 4\n"
+     "axiom: !(0.06) F(1) [+(40) ?(2, 0.5) B $] F(1)\n"
+     "endlsystem\n"
+     "\n"
+     "lsystem: 2\n"
+     "B --> F(1) [+(30) F(1)] -(30) B"}};
 
 }  // namespace
 }  // namespace espalier::turtle

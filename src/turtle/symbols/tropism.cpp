@@ -111,7 +111,7 @@ const Registered<SymbolGroup> tropism_group{
      "segment the heading turns towards the tropism by its elasticity times the sine of the angle between, "
      "in radians.\n"
      "A negative strength turns away. The older tropism acts after every move.",
-     "axiom: +(60) F(1) @Th(0, 1, 0, 0.5) F(1) @Th(0, 1, 0, 0.5) F(1)"}};
+     "axiom: !(0.06) +(80) F(1) @Th(0, 1, 0, 0.5) F(1) @Th(0, 1, 0, 0.5) F(1) @Th(0, 1, 0, 0.5) F(1)"}};
 
 }  // namespace
 }  // namespace espalier::turtle
