@@ -14,6 +14,7 @@ html_title = "Espalier"
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
+html_show_copyright = False
 html_permalinks_icon = "#"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
