@@ -38,7 +38,7 @@ class Stage:
             return None
         copy = self.folder / path
         copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(target, copy)
+        shutil.copy2(target, copy)
         return path
 
     def links_of(self, text, page):
@@ -68,9 +68,15 @@ class Stage:
                 text += contents_of(self.root)
             elif name in ("docs/reference/README.md", "docs/models.md", "docs/experiments.md"):
                 text += children_of(self.root, page)
-            staged = self.folder / FIRST.get(name, name)
-            staged.parent.mkdir(parents=True, exist_ok=True)
-            staged.write_text(text, encoding="utf-8")
+            self.put(self.folder / FIRST.get(name, name), text)
+
+    @staticmethod
+    def put(staged, text):
+        """Leaves a page that is the same untouched: Sphinx reads what is new."""
+        if staged.is_file() and staged.read_text(encoding="utf-8") == text:
+            return
+        staged.parent.mkdir(parents=True, exist_ok=True)
+        staged.write_text(text, encoding="utf-8")
 
 
 def tree(caption, links):
@@ -112,12 +118,14 @@ def children_of(root, page):
 
 def main():
     root, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    Stage(root, folder).write()
-    (folder / "_static").mkdir()
+    stage = Stage(root, folder)
+    for page in folder.rglob("*.md"):
+        if page.relative_to(folder).as_posix() not in stage.pages | {"index.md"}:
+            page.unlink()
+    stage.write()
+    (folder / "_static").mkdir(exist_ok=True)
     for name, place in (("conf.py", "conf.py"), ("site.css", "_static/site.css")):
-        shutil.copyfile(root / "docs/site" / name, folder / place)
+        shutil.copy2(root / "docs/site" / name, folder / place)
 
 
 if __name__ == "__main__":
