@@ -41,8 +41,11 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
     // One slip for short names, two from four letters on, a third of the letters for long ones.
     std::size_t best_distance = (name.size() < 4 ? 1 : std::max<std::size_t>(2, name.size() / 3)) + 1;
     for (const std::string& candidate : candidates) {
+        const std::size_t longer = std::max(name.size(), candidate.size());
+        const std::size_t put_in = longer - std::min(name.size(), candidate.size());  // at the least
+        if (put_in >= best_distance) continue;
         const std::size_t distance = edit_distance(name, candidate);
-        if (distance < best_distance && distance < std::max(name.size(), candidate.size())) {
+        if (distance < best_distance && distance < longer) {
             best = candidate;
             best_distance = distance;
         }

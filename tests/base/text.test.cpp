@@ -13,6 +13,8 @@ TEST_CASE("the nearest name is a slip of the pen away, or none", "[base]") {
     CHECK(nearest_name("gravity", names).empty());
     CHECK(nearest_name("sni", std::vector<std::string>{"sun", "sin"}) == "sin");
     CHECK(nearest_name("x", std::vector<std::string>{"y", "Q"}).empty());
+    CHECK(nearest_name("thicknesss", std::vector<std::string>{"thick", "thickness"}) == "thickness");
+    CHECK(nearest_name(std::string(1 << 26, 'x'), names).empty());  // in no time
     CHECK(did_you_mean("dept", names) == " (did you mean 'depth'?)");
 }
 
