@@ -1,16 +1,10 @@
-#include "espalier/environment/shape.h"
-#include "espalier/formats/exporter.h"
 #include "espalier/language/model_settings.h"
-#include "espalier/language/notation.h"
-#include "espalier/simulation/scene.h"
-#include "espalier/timeline/recorder.h"
-#include "espalier/turtle/symbol.h"
 
 #include "base/text.h"
 #include "command.h"
-#include "geometry/grid_operations.h"
-#include "looking_half.h"
+#include "manual_pages.h"
 #include "model_library.h"
+#include "part_kinds.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,81 +21,13 @@ using Json = nlohmann::ordered_json;
 using Parts = std::vector<PartDescription>;
 
 struct ListArguments {
-    std::string kind;              ///< "" for everything
-    std::string name;              ///< "" for all of a kind
-    std::filesystem::path models;  ///< the library of models; empty: where it is usually found
+    std::string kind;                ///< "" for everything
+    std::string name;                ///< "" for all of a kind
+    std::filesystem::path models;    ///< the library of models; empty: where it is usually found
+    std::filesystem::path markdown;  ///< a folder for the pages of the manual; empty: none
+    bool check = false;
     bool json = false;
 };
-
-template <class Kind>
-Parts parts_of() {
-    Parts parts;
-    for (const auto& [name, part] : registered<Kind>()) parts.push_back({name, part->summary, part->help});
-    return parts;
-}
-
-Parts symbol_parts() {
-    Parts parts;
-    for (const auto& [name, symbol] : registered<Symbol>()) parts.push_back({name, symbol->help, ""});
-    return parts;
-}
-
-Parts scene_parts() {
-    std::vector<fs::path> files;
-    if (fs::is_directory("environments")) {
-        for (const auto& entry : fs::recursive_directory_iterator("environments")) {
-            if (describes_scene(entry.path())) files.push_back(entry.path());
-        }
-    }
-    std::sort(files.begin(), files.end());
-    Parts parts;
-    for (const fs::path& file : files) parts.push_back(describe_file(file));
-    return parts;
-}
-
-struct Kind {
-    std::string name;
-    std::string summary;
-    Parts (*parts)();  ///< null for models, which have folders
-};
-
-const std::vector<Kind>& kinds() {
-    static const std::vector<Kind> all{
-        {"processes", "the environment of the plants: [environment.<name>] process = \"...\"",
-         [] {
-             open_grid_library();
-             return parts_of<ProcessType>();
-         }},
-        {"symbols", "the symbols of the turtle and what they do", symbol_parts},
-        {"recorders", "the files of a run: [timeline]", parts_of<RecorderType>},
-        {"notations", "other ways to write a model, which run, derive and scenes take", parts_of<NotationType>},
-        {"stages", "what changes a plant's geometry before it is recorded: [[plant.stage]] stage = \"...\"",
-         parts_of<GeometryStageType>},
-        {"exporters", "formats of `espalier export`",
-         [] {
-             open_looking_half();
-             return parts_of<ExporterType>();
-         }},
-        {"models", "the library of models, folder by folder", nullptr},
-        {"scenes", "the scenes in ./environments", scene_parts},
-        {"scene", "the keys of a scene file",
-         [] {
-             return Parts{{"scene", "the tables of a scene file", scene_help()}};
-         }},
-        {"shapes", "the solids of the process `shape`",
-         [] {
-             return Parts{{"shapes", "how to describe a solid", shape_help()}};
-         }},
-    };
-    return all;
-}
-
-const Kind* find_kind(const std::string& name) {
-    for (const Kind& kind : kinds()) {
-        if (kind.name == name) return &kind;
-    }
-    return nullptr;
-}
 
 // Models of different folders may have the same name.
 Parts only(const Parts& parts, const std::string& name, const std::string& kind) {
@@ -211,18 +137,33 @@ int list_models(const ListArguments& arguments) {
 
 std::vector<std::string> list_kinds() {
     std::vector<std::string> names;
-    for (const Kind& kind : kinds()) names.push_back(kind.name);
+    for (const PartKind& kind : part_kinds()) names.push_back(kind.name);
     return names;
 }
 
+int write_pages(const ListArguments& arguments) {
+    if (!arguments.kind.empty() || arguments.json)
+        throw UserError("--markdown writes the pages of all parts: give it neither a kind nor --json");
+    const ManualPages pages = manual_pages(arguments.markdown, arguments.models);
+    if (arguments.check) {
+        check_manual(pages, arguments.markdown);
+    } else {
+        write_manual(pages, arguments.markdown);
+    }
+    fmt::print("{} pages in {}\n", pages.size(), arguments.markdown.string());
+    return exit_code::done;
+}
+
 int list(const ListArguments& arguments) {
+    if (!arguments.markdown.empty()) return write_pages(arguments);
+    if (arguments.check) throw UserError("--check compares the pages of --markdown FOLDER; name the folder");
     if (arguments.kind.empty()) {
         Parts overview;
-        for (const Kind& kind : kinds()) overview.push_back({kind.name, kind.summary, ""});
+        for (const PartKind& kind : part_kinds()) overview.push_back({kind.name, kind.summary, ""});
         arguments.json ? print_json(json_of(overview)) : print_parts(overview);
         return exit_code::done;
     }
-    const Kind* kind = find_kind(arguments.kind);
+    const PartKind* kind = find_part_kind(arguments.kind);
     if (!kind) {
         throw UserError(fmt::format("there is no kind '{}'; the kinds are {}{}", arguments.kind,
                                     fmt::join(list_kinds(), ", "), did_you_mean(arguments.kind, list_kinds())));
@@ -247,17 +188,24 @@ public:
         app().add_option("kind", kind_, fmt::format("{}", fmt::join(list_kinds(), ", ")));
         app().add_option("name", name_, "one of them; prints its complete documentation");
         app().add_option("--models", models_, "the library of models; default: ./models, or the installed library");
+        app().add_option(
+            "--markdown", markdown_,
+            "write a page for each part and each folder of models below this folder, as the manual has them; "
+            "run it where models and environments are");
+        app().add_flag("--check", check_,
+                       "with --markdown: write nothing, and say which pages are not what the parts say");
         add_json_flag("print as JSON");
         app().footer(
             "Examples:\n  espalier list processes\n  espalier list processes voxel-shade\n  espalier list scene\n"
             "  espalier list models\n  espalier list models trees\n  espalier list models koch");
     }
 
-    int run() override { return list({kind_, name_, models_, wants_json()}); }
+    int run() override { return list({kind_, name_, models_, markdown_, check_, wants_json()}); }
 
 private:
     std::string kind_, name_;
-    std::filesystem::path models_;
+    std::filesystem::path models_, markdown_;
+    bool check_ = false;
 };
 
 const RegisteredCommand<List> list_entry{50};

@@ -1,4 +1,4 @@
-// The library as a whole: every model reads without a warning, says what it is, and stands in docs/models.md.
+// The library as a whole: every model reads without a warning, and says what it is.
 #include "espalier/language/notation.h"
 
 #include "app/program.h"
@@ -82,16 +82,5 @@ TEST_CASE("Every model of the library begins with a title, its source, what is c
         if (is_grown_by_experiments(path)) continue;
         INFO(path);
         CHECK(std::regex_match(first_comment(path), head));
-    }
-}
-
-TEST_CASE("Every model of the library stands in docs/models.md under its title", "[library]") {
-    const std::string page = text_at(source_path("docs/models.md"));
-    for (const std::string& path : all_models()) {
-        if (is_grown_by_experiments(path)) continue;
-        const std::string comment = first_comment(path);
-        const std::string title = comment.substr(0, comment.find('\n'));
-        INFO(path);
-        CHECK(page.find("](../" + path + ") | " + title + " |") != std::string::npos);
     }
 }

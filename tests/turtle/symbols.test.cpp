@@ -53,12 +53,16 @@ TEST_CASE("every symbol says what it does, beginning with its name", "[turtle]")
     }
 }
 
-TEST_CASE("docs/turtle.md lists every symbol", "[turtle]") {
-    const std::string page = read_text(ESPALIER_SOURCE_DIR "/docs/turtle.md");
-    for (const auto& [name, symbol] : registered<Symbol>()) {
-        std::string shown = name.back() == '*' ? name.substr(0, name.size() - 1) : name;
-        if (shown == "|") shown = "\\|";  // as a table's cell writes it
+TEST_CASE("every symbol belongs to one group, that of its file", "[turtle]") {
+    std::set<std::string> grouped;
+    for (const auto& [name, group] : registered<SymbolGroup>()) {
+        std::string file = name;
+        std::replace(file.begin(), file.end(), '-', '_');
+        const std::set<std::string> defined = defined_in(ESPALIER_SOURCE_DIR "/src/turtle/symbols/" + file + ".cpp");
         INFO(name);
-        CHECK(page.find("`" + shown) != std::string::npos);
+        CHECK(defined == std::set<std::string>(group->symbols.begin(), group->symbols.end()));
+        CHECK(group->example.find("axiom: ") != std::string::npos);
+        for (const std::string& symbol : group->symbols) CHECK(grouped.insert(symbol).second);
     }
+    CHECK(grouped.size() == registered<Symbol>().size());
 }

@@ -30,11 +30,21 @@ struct Symbol {
     Effect effect = Effect::other;
 };
 
+/// Symbols that belong together, as the manual tells of them: one group in each file of src/turtle/symbols/.
+struct SymbolGroup {
+    std::string name;                  ///< of the file, with hyphens
+    std::string summary;               ///< what the symbols do, in a few words
+    std::vector<std::string> symbols;  ///< their names, in the order in which the manual has them
+    std::string help;                  ///< what holds for all of them: units, defaults, sources
+    std::string example;               ///< a small axiom that uses them
+};
+
 }  // namespace espalier::turtle
 
 namespace espalier {
 
 using turtle::Symbol;
 using turtle::SymbolAction;
+using turtle::SymbolGroup;
 
 }  // namespace espalier

@@ -218,13 +218,18 @@ std::vector<glm::dvec3> read_clouds(const Settings& table, const EnvironmentCont
 }
 
 const char* const cloud_help =
-    R"(cloud     { ... }, or several as [[environment.<name>.cloud]]: attraction points in
-            radii = [across, up, across] m: an ellipsoid, with `base` (m, [0, 0, 0]), the middle of its lower end, and
-            `below`, `above` (0), the shares of its height that are cut off at its ends, and `rough` (0 to 0.9; 0): by
-            what share of the radii the rim retreats in places;
-            shape = { shape = "...", ... }: any solid of `espalier list shapes`; or
-            points = [[x, y, z], ...]
-            density  20 points/m3, or number: how many points; seed (0): another cloud of the same kind
+    R"(cloud      required; attraction points, or several clouds of them as [[environment.<name>.cloud]]. One of radii, shape and
+           points says where
+    radii    none, m; [across, up, across]: points in an ellipsoid
+    base     [0, 0, 0] m; the middle of the lower end of the ellipsoid
+    below    0, 0 to 1; share of the ellipsoid's height that is cut off at the lower end
+    above    0, 0 to 1; the same at the upper end
+    rough    0, 0 to 0.9; by what share of the radii its rim retreats in places
+    shape    none; { shape = "...", ... }: points in a solid of `espalier list shapes`
+    points   none, m; [[x, y, z], ...]: these points
+    density  20 points/m3, > 0; how many points an ellipsoid or a solid has
+    number   none, > 0; how many points in all, in place of the density
+    seed     0, >= 0; another cloud of the same kind
 )";
 
 }  // namespace espalier::environment

@@ -284,7 +284,7 @@ const std::string& arvo_help() {
     static const std::string text =
         std::string(
             R"(A tip looks ahead by the length of its segment, in the plane across its up direction: straight on, then to both sides in
-`tries_for_Q` directions. From the first place that it can reach without a hit, rays go against the up direction and in
+`tries_for_q` directions. From the first place that it can reach without a hit, rays go against the up direction and in
 `tries_for_surface` random directions. The nearest surface within `max_surface_distance` is where it goes on.
 
 ?name(l, x, y, z, ux, uy, uz) -> a tip that wants a segment of l metres; l: the length that leads to `surface_distance`
@@ -295,16 +295,16 @@ const std::string& arvo_help() {
 ?name                            before a module S(r), C(r, h) or C(r1, r2, h): a ball, a cylinder or a cone at the
                                  turtle, along its heading, is an obstacle in this step
 
-solid                 the table of a shape: solid = { shape = "sphere", center = [0, 1, 0], radius = 1 }
-obstacles             a file of objects like those of `background scene` in view files
-keep_objects          false: objects of plants are there for the step; true: they stay when their queries are gone
-surface_distance      0.05 m
-max_surface_distance  1 m
-tries_for_Q           16
-tries_for_surface     16
-seed                  0
-domain_size, position, grid_size   accepted and ignored: of the grid of cpfg's program
-parameters            a file with these keys in words, as cpfg's program arvo reads it
+solid                 none; the table of a solid to climb: solid = { shape = "sphere", center = [0, 1, 0], radius = 1 }
+obstacles             none; a file of objects like those of `background scene` in view files
+keep_objects          false; objects of plants are there for the step; true: they stay when their queries are gone
+surface_distance      0.05 m, > 0; distance from the surface at which a climber grows
+max_surface_distance  1 m, > 0; distance of the farthest surface that a tip finds
+tries_for_q           16, 1 to 1e6; directions in which a tip looks for its next place
+tries_for_surface     16, 0 to 1e6; random directions in which it looks for a surface from that place
+seed                  0, 0 to 2e9; another number gives other random directions
+domain_size, position, grid_size, verbose   accepted and ignored: of the grid and the messages of cpfg's program
+parameters            none; a file with these keys in words, as cpfg's program arvo reads it
 
 Where no surface is found from a place, the next one is tried. Answers do not depend on the order of the queries.
 Statistics of a plant: climbing and stuck, numbers of tips.

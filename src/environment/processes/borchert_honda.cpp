@@ -150,8 +150,9 @@ lateral, what follows the bracket the main axis. Alpha times the sum of all come
 lambda Qm / (lambda Qm + (1 - lambda) Ql) of it, the lateral the rest. A bud with v >= 1 grows a shoot of floor(v)
 metamers.
 
-alpha   2; resource per what was gathered
-lambda  0.5, between 0 and 1; above 0.5 main axes are favoured and trees excurrent, below they are decurrent
+alpha   2, >= 0; resource that comes back for each unit that buds have gathered
+lambda  0.5, 0 to 1; above 0.5 main axes are favoured and trees excurrent, below it they are decurrent
+
 Statistics of a plant: gathered, the sum of q; growing, the number of buds with v >= 1.
 )",
      construct<BorchertHonda>}};

@@ -302,7 +302,7 @@ goes on in `scattering` directions, generation by generation. docs/light.md says
 ?name(a, ...)      with area = "queries": a is the leaf area (m2) of the query itself, and f, m, e come after it
 Three more parameters for each further band tell the same of it. Other parameters keep their values.
 
-voxel         0.2 m
+voxel         0.2 m; edge of a voxel
 beams         2: beams from each voxel's width of the top
 days          1: days that a unit of time stands for
 area          "drawn": leaves are the polygons, patches, surfaces and discs that plants have drawn; or "queries"

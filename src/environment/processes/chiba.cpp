@@ -148,18 +148,21 @@ const Registered<ProcessType> entry{
 ?name(r, x, y, z) -> light, and the brightest direction, of length 1: the mean of the directions, weighted by their light
 Further parameters (at most 20 in all) keep their values. Queries with two or three parameters are not clusters.
 
-transmittance          t, 0.6; fraction of light that passes through a whole cluster
-radius                 m, 25; of clusters whose radius is 0
-estimate_intersection_area  false: a ball of radius R is passed with t^(chord / 2R)
+transmittance          0.6, 0 to 1; t: fraction of light that passes through a whole cluster
+radius                 25 m, > 0; radius of clusters whose query says 0
+estimate_intersection_area  false; a ball of radius R is passed with t^(chord / 2R)
                        true: 1 - (1 - t) A / (pi r^2), A what its disc covers of the asking cluster's, of radius r
-beam_radius            b, 0; balls are larger by b times the radius of the cluster that asks (by chords only)
-number_of_samples      128; directions, taken as the next 8 * 4^k, evenly about an octahedron
-lower_to_upper_ratio   0.7; light from below divided by light from above
-use_cie_formula        false; true: more light from above, by (1 + c)/3 (8.6 c + 0.123)/0.203, c = y/sqrt(x^2 + y^2),
-                       as cpfg's chiba weights it: c leaves out z, so that this sky is not round
-source_direction       ["x y z intensity", ...]: directions towards lights in place of the samples; intensity 1
+beam_radius            0, 0 to 1e6; balls are larger by this many radii of the cluster that asks (by chords only)
+number_of_samples      128, >= 1; directions, taken as the next 8 * 4^k, evenly about an octahedron
+lower_to_upper_ratio   0.7, 0 to 1e6; light from below divided by light from above
+use_cie_formula        false; light comes evenly from above; true: more light from above, by
+                       (1 + c)/3 (8.6 c + 0.123)/0.203, c = y/sqrt(x^2 + y^2), as cpfg's chiba weights it: c leaves
+                       out z, so that this sky is not round
+source_direction       none; ["x y z intensity", ...]: directions towards lights in place of the samples; the
+                       intensity is 1 if it is left out
 grid_size              [1, 1, 1]; accepted and ignored: all clusters are tested
-parameters             a file with these keys in words, as cpfg's program chiba reads it
+verbose                accepted and ignored: the messages of cpfg's program
+parameters             none; a file with these keys in words, as cpfg's program chiba reads it
 
 By chords, of a ball around the query's centre only the part in front counts. By areas, only clusters whose centres are in front reduce the light. Answers do not depend on the order of the queries.
 Statistics of a plant: mean, min, max of the light, queries.

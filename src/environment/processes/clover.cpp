@@ -108,18 +108,19 @@ const Registered<ProcessType> entry{
                     any other number removes one. In each step, leaves are added, then removed, then queries answered
 Further parameters (at most 20 in all) keep their values.
 
-transmittance  t, 0.6; 0 is taken as 0.0001
-input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without a picture all is white
-grid_size      [512, 512]; cells
-grid_position  [0, 0] m; lower left corner
-grid_range     [1, 1] m; from corner to corner
-remove_old_leaves  false: leaves remain until they are removed; true: each step begins without leaves
-z_is_up        true: the ground is x and y; false: x and z
-parameters     a file with these keys in words, as cpfg's program clover reads it
-numbers        "exact", or "cpfg" (default with `parameters` and in .e files): a leaf covers every cell that its disc
-               touches by more than 0.03 of its width, at most 255 lie over each other, there is no red without a picture,
-               the picture is stretched from corner cell to corner cell, and leaves are added and removed in string
-               order by queries that get no answer
+transmittance  0.6, 0 to 1; t: fraction of light that passes through a leaf; 0 is taken as 0.0001
+input_image    none; .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without a picture all is white
+grid_size      [512, 512], >= 1; cells along both sides of the ground
+grid_position  [0, 0] m; lower left corner of the ground
+grid_range     [1, 1] m, > 0; size of the ground from corner to corner
+remove_old_leaves  false; leaves remain until they are removed; true: each step begins without leaves
+z_is_up        true; the ground is x and y; false: x and z
+parameters     none; a file with these keys in words, as cpfg's program clover reads it
+verbose        accepted and ignored: the messages of cpfg's program
+numbers        "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): a leaf covers every cell that
+               its disc touches by more than 0.03 of its width, at most 255 lie over each other, there is no red without
+               a picture, the picture is stretched from corner cell to corner cell, and leaves are added and removed in
+               string order by queries that get no answer
 
 A leaf covers the cells whose centres are inside its disc. Statistics of a plant: mean, min, max of the light, queries.
 )",

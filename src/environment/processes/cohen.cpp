@@ -146,16 +146,18 @@ inhibitors and of -s / (1 + r) over the attractors; r is the distance divided by
 ?name(w)                has the weight w, and keeps its value: an internode, or what has ended
 Queries with two or three parameters are such, too; parameters after the fifth (at most 20 in all) keep their values.
 
-reach          0.1 m
-resistance     1: how much a tip keeps its direction; 0: it follows the field only
-tropism        [0, 0, 0]
-branching      0.2: probability of a fork in the empty field
-fork_distance  0 m: least distance between two forks of an axis
-fork_rise      0 m: over which the probability of a fork rises to `branching`
-tip_weight     1: w of a tip
-crowding       2: density that divides that probability by e
-attractors, inhibitors   [[x, y, z], ...], m
-attraction, inhibition   5: their strength s
+reach          0.1 m, > 0; distance at which the density of a query has fallen to a half
+resistance     1, >= 0; how much a tip keeps its direction; 0: it follows the field only
+tropism        [0, 0, 0]; is added to the direction of growth
+branching      0.2, 0 to 1; probability of a fork in the empty field
+fork_distance  0 m, >= 0; least distance between two forks of an axis
+fork_rise      0 m, >= 0; distance over which the probability of a fork rises to `branching`
+tip_weight     1, >= 0; w of a tip
+crowding       2, > 0; density that divides the probability of a fork by e
+attractors     none, m; [[x, y, z], ...]: places that tips grow to
+inhibitors     none, m; [[x, y, z], ...]: places that tips avoid
+attraction     5, >= 0; strength s of the attractors
+inhibition     5, >= 0; strength s of the inhibitors
 
 Time grows with the number of tips times the number of queries. Statistics of a plant: mean, min, max of d, queries (tips).
 )",

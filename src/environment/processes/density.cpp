@@ -140,14 +140,15 @@ d being their distance in x and y.
                   much it decreases over one unit, by differences over half a unit on either side
 Queries with other numbers of parameters only count as neighbours.
 
-one_point_value  false: r is the least of 6 x 6 places in the unit square around the query; true: at the query itself
-return_vector    false; true: a and m are the x and y of the fall
-range, position, output_image, frame_intervals, quantization_step, gamma
-                 accepted and ignored: they concern the picture that cpfg's program writes
-parameters       a file with these keys in words, as cpfg's program density reads it
-numbers          "exact": a is from -180 to 180; or "cpfg" (default with `parameters` and in .e files): a is from 0 to
-                 360, or 90 where nothing falls; the query itself adds nothing; m is a sixth of the fall between the
-                 middle ones of the 36 places, 0.2 apart, unless one_point_value is true; return_vector does nothing
+one_point_value  false; r is the least of 6 x 6 places in the unit square around the query; true: at the query itself
+return_vector    false; a and m are angle and size of the fall; true: its x and y
+range, position, output_image, frame_intervals, quantization_step, gamma, verbose  accepted and ignored: the picture
+                 and the messages of cpfg's program
+parameters       none; a file with these keys in words, as cpfg's program density reads it
+numbers          "exact", or "cpfg"; exact: a is from -180 to 180; cpfg (the default with `parameters` and in .e
+                 files): a is from 0 to 360, or 90 where nothing falls; the query itself adds nothing; m is a sixth of
+                 the fall between the middle ones of the 36 places, 0.2 apart, unless one_point_value is true;
+                 return_vector does nothing
 
 Time grows with the square of the number of queries. Statistics of a plant: mean, min, max of r, queries.
 )",

@@ -120,13 +120,14 @@ Further parameters (at most 20 in all) keep their values.
 Queries are answered one after the other in string order, and each sees the effect of those before it.
 Sums are kept from step to step.
 
-range         [1, 1, 1] m; of the box
-position      [0, 0, 0] m; its lower corner
-grid_size     [1, 1, 1]; voxels
-octree_level  0; 2^level voxels along each side, where no grid_size is given
-parameters    a file with these keys in words, as cpfg's program density3d reads it
-numbers       "exact", or "cpfg" (default with `parameters` and in .e files): after each query, the fraction of the
-              voxel's sum is cut off
+range         [1, 1, 1] m, > 0; size of the box
+position      [0, 0, 0] m; lower corner of the box
+grid_size     [1, 1, 1], >= 1; voxels along each side
+octree_level  0, 0 to 20; 2^level voxels along each side, where no grid_size is given
+parameters    none; a file with these keys in words, as cpfg's program density3d reads it
+verbose       accepted and ignored: the messages of cpfg's program
+numbers       "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): after each query, the fraction
+              of the voxel's sum is cut off
 
 Statistics of a plant: mean, min, max of the answers, queries; total, the sum over the box.
 )",

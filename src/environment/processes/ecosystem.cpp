@@ -119,13 +119,14 @@ const Registered<ProcessType> entry{
 ?name(radius, vigour) -> if `vigor` is on: the disc with less vigour loses; of equals, the smaller
 Further parameters (at most 20 in all) keep their values.
 
-vigor     false; true: the second parameter is a vigour, not a group
-scan      with vigour, a disc that has lost no longer eliminates others, so the order matters:
-          "vigour": the most vigorous first; ties eliminate both. Independent of the order of the queries
-          "string": in string order; of two equals the later remains, as in cpfg. Default if `parameters` is given
-3d_case   false: heights are ignored, positions are compared by x and z; true: balls in space
-grid_size [1, 1, 1]; accepted and ignored
-parameters  a file with `vigor: on`, `3d case: on`, `grid size: n n n`, as cpfg's program ecosystem reads it
+vigor     false; the second parameter is a group; true: it is a vigour
+scan      "vigour", or "string"; with vigour, a disc that has lost no longer eliminates others, so the order matters.
+          vigour: the most vigorous first; ties eliminate both. Independent of the order of the queries.
+          string (the default with `parameters`): in string order; of two equals the later remains, as in cpfg
+3d_case   false; heights are ignored, positions are compared by x and z; true: balls in space
+grid_size   [1, 1, 1]; accepted and ignored: the search needs no grid
+verbose     accepted and ignored: the messages of cpfg's program
+parameters  none; a file with `vigor: on`, `3d case: on`, `grid size: n n n`, as cpfg's program ecosystem reads it
 
 Without vigour two of equal radius that overlap both get 0.
 Statistics of a plant: winners and losers, the number of answers 1 and 0.

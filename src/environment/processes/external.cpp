@@ -134,14 +134,14 @@ private:
 const Registered<ProcessType> entry{{"external", "a program of your own, asked over its standard input and output",
                                      R"(?name(...)  -> what the program answers; a query has 1 to 20 parameters
 
-command   ["python3", "light.py"]: the program and its arguments. With a slash it is a file beside the scene, else it is
-          looked for in PATH. It is started when it is first asked, as you, and may do what you may
-folder    where it starts; default: the folder of the scene
-timeout   s, 60: how long it may take to answer the queries of a step
-turtle    { position = "%g %g %g", heading, left, up, line_width, scale_factor }: printf formats of what it is told of
-          the turtle, a line each; without a format it is not told
-following_module  true: it is told the module behind the query
-digits    0; significant digits of the numbers it is sent, 0: all
+command   required; the program and its arguments, as ["python3", "light.py"]. With a slash it is a file beside the
+          scene, else it is looked for in PATH. It is started when it is first asked, as you, and may do what you may
+folder    the folder of the scene; where the program starts
+timeout   60 s, > 0; how long the program may take to answer the queries of a step
+turtle    {}; { position = "%g %g %g", heading, left, up, line_width, scale_factor }: printf formats of what it is told
+          of the turtle, a line each; without a format it is not told
+following_module  true; it is told the module behind the query
+digits    0, 0 to 17; significant digits of the numbers it is sent, 0: all
 
 Each step is a text in the protocol of cpfg's environment programs, which docs/environment-processes.md explains. A
 program that ends, answers what it was not asked, or does not answer in time ends the run.

@@ -360,23 +360,30 @@ turn + up * its upward part - crowd * nodes in its voxel.
 ?name(..., nx, ny, nz)  -> with 10 parameters also the unit normal of the nearest surface
 ?name(p)                   is a node in its voxel, and keeps its value
 
-solid         required, the table of a shape: solid = { shape = "mesh", file = "house.obj" }
-voxel         0.1 m
-reach         0.2 m
-clearance     0.01 m
-ground        0 m: height below which nothing grows
-trials        12
-spread        60 degrees
-most_nodes    3
-weights       { light = 1, near = 0.5, straight = 0.3, up = 0.3, crowd = 0.3 }
-sun_share     0.5: exposure = sun_share * sun + (1 - sun_share) * sky
-latitude      50 degrees;  north  [0, 0, -1]
-days          [80, 172, 264]: days of the year; sun_samples  32 times a day, from sunrise to sunset
-sky_samples   128 directions
-sky           a table of light as canopy-light has it: then sun and sky are those of the light of `days`, weighted with
-              their photons, and sun_share is the sun's
-extinction    0: only the solid casts shadow. k > 0: leaves do, and of the light of a direction exp(-k leaf area that
-              it crosses, per area across it) comes through; 0.5 for leaves that are turned in all directions evenly
+solid         required; the table of a solid: solid = { shape = "mesh", file = "house.obj" }
+voxel         0.1 m, > 0; edge of a voxel
+reach         0.2 m, > 0; farthest from the surface that a segment may end
+clearance     0.01 m, >= 0; nearest to the surface that a segment may end
+ground        0 m; height below which nothing grows
+trials        12, 1 to 10000; segments that a tip tries
+spread        60 degrees, 0 to 180; greatest angle between the heading of a tip and a trial
+most_nodes    3, > 0; a voxel with so many queries takes no more
+weights       {}; what the score of a trial counts
+    light     1; weight of the exposure
+    near      0.5; weight of being near the surface
+    straight  0.3; weight of going straight on
+    up        0.3; weight of growing upwards
+    crowd     0.3; weight of each node that is in the voxel already
+sun_share     0.5, 0 to 1; exposure = sun_share * sun + (1 - sun_share) * sky
+latitude      50 degrees, -90 to 90; geographical latitude, north of the equator
+north         [0, 0, -1]; horizontal direction to the north
+days          [80, 172, 264]; days of the year on which the sun is looked at
+sun_samples   32, 1 to 1e6; times a day, from sunrise to sunset
+sky_samples   128, 1 to 1e6; directions of the sky
+sky           none; a table of light as canopy-light has it: then sun and sky are those of the light of `days`, weighted
+              with their photons, and sun_share is the sun's
+extinction    0, >= 0; 0: only the solid casts shadow. k > 0: leaves do, and of the light of a direction exp(-k leaf area
+              that it crosses, per area across it) comes through; 0.5 for leaves that are turned in all directions evenly
 
 Field: name, the exposure of the voxels that have been looked at, as it was then. Leaves are the polygons, patches,
 discs and surfaces that plants have drawn; each is in the voxel of its middle.

@@ -86,9 +86,10 @@ const Registered<ProcessType> entry{
 ?name(vigour, group) -> the same among the queries of this group only; without a group it is 0
 Further parameters (at most 20 in all) keep their values.
 
-radius    m, 0: distance between the two positions. 0: only exactly the same position counts
-3d_case   false: heights are ignored, positions are compared by x and z; true: in space
-parameters  a file with `radius: r` and `3d case: on`, as cpfg's program honda81 reads it
+radius      0 m, >= 0; greatest distance of a query that dominates. 0: only exactly the same position counts
+3d_case     false; heights are ignored, positions are compared by x and z; true: in space
+parameters  none; a file with `radius: r` and `3d case: on`, as cpfg's program honda81 reads it
+verbose     accepted and ignored: the messages of cpfg's program
 
 Two of equal vigour within the radius both get 0. Answers do not depend on the order of the queries.
 Statistics of a plant: free and dominated, the number of answers 1 and 0.

@@ -196,14 +196,15 @@ of all plants, if that is within `influence` and sees the point in its angle of 
 mean of the unit vectors to its points, plus the tropism. Grow a node of its own in that direction: @R(x, y, z) F(D).
 A node whose direction is the one it was last answered wins nothing, because it has grown there.
 
-influence  m; points attract no nodes that are farther away; default: all attract
-kill       required, m, at most `influence`; or { begin, end, steps }: it changes along a sigmoid in so many steps
-perception 360 degrees; the full angle of a cone about the turtle's heading; points outside do not attract
-contest    "nearest": a point belongs to the nearest node, whether or not that perceives it;
-           "perceived": to the nearest of the nodes that perceive it
+influence  none, m, > 0; points attract no nodes that are farther away; none: all attract
+kill       required, m, > 0; points nearer to a node are removed; at most `influence`. { begin, end, steps }: it changes
+           from begin to end along a sigmoid in so many steps (2 to 1e6)
+perception  360 degrees, > 0, <= 360; the full angle of a cone about the turtle's heading; points outside do not attract
+contest    "nearest", or "perceived"; nearest: a point belongs to the nearest node, whether or not that perceives it;
+           perceived: to the nearest of the nodes that perceive it
 tropism    [0, 0, 0]; is added to the mean direction, whose length is 1
 weight     [1, 1, 1]; factors of the tropism's components
-voxel      half of the influence, m; of the field, which counts the points left
+voxel      half of the influence, m, > 0; edge of a voxel of the field, which counts the points left
 )") + cloud_help +
         R"(
 Statistics: won (points, of the plant); left, in_reach (points) and winners (nodes) of the whole world.

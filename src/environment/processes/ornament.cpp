@@ -54,11 +54,12 @@ const Registered<ProcessType> entry{
 ?name(p)    -> p = the number of discs
 Further parameters (at most 20 in all) keep their values. Places are x and y.
 
-input_image    .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without a picture all is white
-grid_size      [512, 512]; cells. A disc covers the cells whose centres are inside it
-grid_position  [0, 0] m; lower left corner
-grid_range     [1, 1] m; from corner to corner
-parameters     a file with these keys in words, as cpfg's program ornament reads it
+input_image    none; .rgb (SGI), .tga or .png, its lower left corner at `grid_position`; without a picture all is white
+grid_size      [512, 512], >= 1; cells along both sides. A disc covers the cells whose centres are inside it
+grid_position  [0, 0] m; lower left corner of the grid
+grid_range     [1, 1] m, > 0; size of the grid from corner to corner
+parameters     none; a file with these keys in words, as cpfg's program ornament reads it
+verbose        accepted and ignored: the messages of cpfg's program
 
 Statistics of a plant: mean, min, max of the counts, queries.
 )",

@@ -365,24 +365,29 @@ const Registered<ProcessType> entry{{"reaction-diffusion",
                                      "organs around a growing stem, or veins in a sheet (Meinhardt 1982)",
                                      R"(An activator makes more of itself and of an inhibitor, which spreads further.
 
-pattern          "organs" (default): on a stem that grows by a row of cells in each step
-                 "net": on a sheet, where veins grow towards a substance that they take up
-cell             m, 1: size of a cell
-columns, rows    of cells; 34 and 20, for a net 56 and 40
-rounds           number of rounds of reaction and diffusion in a step; 400, for a net 100
-noise            0.01, for a net 0.1: cells produce more or less by up to this part
+pattern          "organs", or "net"; organs: on a stem that grows by a row of cells in each step;
+                 net: on a sheet, where veins grow towards a substance that they take up
+cell             1 m, > 0; size of a cell
+columns          34 cells, 8 to 400; cells around the stem; of a net 56, 8 to 1000
+rows             20 cells, 10 to 400; cells along the stem; of a net 40, 8 to 1000
+rounds           400, 1 to 100000; rounds of reaction and diffusion in a step; of a net 100
+noise            0.01, 0 to 1; cells produce more or less by up to this part; of a net 0.1
 
-"organs"
-?name(k, a, h)    k: the number of an organ, from 1 -> k if it has arisen, else 0
-                  a -> its azimuth, degrees;  h -> its height above the base, m
-second_inhibitor  0: strength of a second inhibitor
-memory            0.003: how fast it follows the activator, part of the difference per round
-second_spread     0: it stays in its cell (Bernasconi 1994); up to 0.2: it spreads too (Meinhardt 1982), part of the
-                  difference to each neighbouring cell per round
+Queries and parameters of organs:
 
-"net"
-?name(v)          v -> how much of a vein this place is: 0, or about 0.9; the sheet begins at the origin of x and y
-uptake            0.2: how fast veins take up the substance; with 0.1 they branch but close no meshes
+?name(k, a, h) -> k: the number of an organ, from 1; it stays if the organ has arisen, else it becomes 0.
+                  a: its azimuth in degrees; h: its height above the base in metres
+
+second_inhibitor  0, 0 to 10; strength of a second inhibitor
+memory            0.003, 0 to 1; how fast it follows the activator, part of the difference per round
+second_spread     0, 0 to 0.2; 0: it stays in its cell (Bernasconi 1994); above: it spreads too (Meinhardt 1982), by this
+                  part of the difference to each neighbouring cell per round
+
+Queries and parameters of a net:
+
+?name(v) -> how much of a vein this place is: 0, or about 0.9; the sheet begins at the origin of x and y
+
+uptake            0.2, 0 to 1; how fast veins take up the substance; with 0.1 they branch but close no meshes
 
 Field: the activator around the unrolled stem, or the veins. Statistics: count, of organs or of cells of veins.
 Further parameters of a query keep their values.

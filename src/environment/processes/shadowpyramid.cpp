@@ -188,19 +188,20 @@ half-width floor(spread i) voxels, each multiplied by 1 - min(1, weight * dissip
 ?name(p, x, y, z) -> light, and its gradient per metre by differences over the sample radius, not normalised
 Further parameters (at most 20 in all) keep their values.
 
-grid_size           n, 201; voxels along each side; the middle one contains the origin
-grid_span           X, 200 m; the grid reaches from -X to X, so that a voxel is 2 X / (n - 1) wide
-shadow_spread       1
-shadow_depth        6; layers
-shadow_weight       0.58
-shadow_dissipation  6.9
-sample_radius       1.6 m
-light_vertical_bias 0; added to the y of the gradient
-light_randomness    0; each component of the gradient is changed at random by up to this
-parameters          a file with these keys in words, as cpfg's program shadowpyramid reads it
-numbers             "exact", or "cpfg" (default with `parameters` and in .e files): the grid reaches from 0 to 2 X in y,
-                    a caster's height in voxels is cut off instead of rounded, and the gradient is the difference of the
-                    light over the two sample radii, not per metre
+grid_size           201, 2 to 1e6; n: voxels along each side; the middle one contains the origin
+grid_span           200 m, > 0; X: the grid reaches from -X to X, so that a voxel is 2 X / (n - 1) wide
+shadow_spread       1, 0 to 100; increase of a pyramid's half-width in each layer, in voxels
+shadow_depth        6, 0 to 1000; layers of a pyramid
+shadow_weight       0.58, >= 0; shadow at distance 0
+shadow_dissipation  6.9, > 0; a shadow is so many times weaker in each voxel of distance
+sample_radius       1.6 m, > 0; distance of the places whose light makes the gradient
+light_vertical_bias  0, -1e6 to 1e6; is added to the y of the gradient
+light_randomness    0, 0 to 1e6; each component of the gradient is changed at random by up to this
+parameters          none; a file with these keys in words, as cpfg's program shadowpyramid reads it
+verbose             accepted and ignored: the messages of cpfg's program
+numbers             "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): the grid reaches from 0 to
+                    2 X in y, a caster's height in voxels is cut off instead of rounded, and the gradient is the
+                    difference of the light over the two sample radii, not per metre
 
 Outside the grid is full light. Field: name (the light). Statistics of a plant: mean, min, max of the light, queries.
 )",

@@ -177,13 +177,23 @@ private:
 };
 
 std::string help() {
-    return std::string(shape_help()) + R"(
-Of the process:
-  voxel        edge of the voxels of the field <name>.distance and of a mesh's level set (m; longest side / 128)
-  motion = { times = [steps], growth = [metres], movement = [[x, y, z], ...] }
-               changes size and position, linearly between the times
-Answers ?name(inside) 1 or 0; (inside, distance); with five parameters also the outward normal,
-with eight also the nearest point of the surface.)";
+    return std::string(R"(A solid that plants grow in, along or around. Distances are in metres, and negative inside.
+
+?name(i)             -> i: 1 inside the solid, else 0
+?name(i, d)          -> d: distance to the surface
+?name(i, d, x, y, z) -> x, y, z: outward normal of the nearest point of the surface
+?name(i, d, x, y, z, a, b, c) -> a, b, c: nearest point of the surface
+
+voxel     longest side / 128, m, > 0; edge of the voxels of the field <name>.distance and of a mesh's level set
+motion    none; changes size and position, linearly between the times
+    times     required; steps at which it has these values
+    growth    none, m; by how much the solid is expanded at each time; none: nowhere
+    movement  none, m; [[x, y, z], ...]: how far it has moved at each time; none: nowhere
+
+Field: name.distance. Statistics of a plant: inside and outside, numbers of queries.
+The keys of the solid stand in the same table:
+
+)") + shape_help();
 }
 
 const Registered<ProcessType> entry{

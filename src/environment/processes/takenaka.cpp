@@ -140,16 +140,18 @@ const Registered<ProcessType> entry{{"takenaka", "production of leaf clusters th
 ?name(A)    -> A: shades others, and gets no answer
 Further parameters (at most 20 in all) keep their values.
 
-parameter_s    s, 1.5; how widely leaves are spread
-transmittance  t, 0.1; of a leaf
-efficiency     e, 0.015
-source         ["x y z intensity", ...]: places of lights, intensity 1; without any, straight above, 1e6 up
-disk_source    ["radius x y z", ...]: horizontal discs of light, each as 100 points of total intensity 1
-beam_radius    b, 0; balls are larger by b times the radius of the querying ball
+parameter_s    1.5, 1 to 1e6; s: how widely leaves are spread
+transmittance  0.1, 0 to 1; t: fraction of light that passes through a leaf
+efficiency     0.015, 0 to 1e9; e: production per absorbed light
+source         none; ["x y z intensity", ...]: places of lights, of intensity 1 if it is left out; without any there is
+               one straight above, 1e6 up
+disk_source    none; ["radius x y z", ...]: horizontal discs of light, each as 100 points of total intensity 1
+beam_radius    0, 0 to 1e6; balls are larger by this many radii of the querying ball
 grid_size      [1, 1, 1]; accepted and ignored: all clusters are tested
-parameters     a file with these keys in words, as cpfg's program takenaka reads it
-numbers        "exact": a ball counts if its centre is in front of the query's centre; or "cpfg" (default with
-               `parameters` and in .e files): a ball around the query's centre counts too
+verbose        accepted and ignored: the messages of cpfg's program
+parameters     none; a file with these keys in words, as cpfg's program takenaka reads it
+numbers        "exact", or "cpfg"; exact: a ball counts if its centre is in front of the query's centre; cpfg (the
+               default with `parameters` and in .e files): a ball around the query's centre counts too
 
 All sources together give 8.64 mol cm-2 per year without shade (1000 umol m-2 s-1 for 12 h on 200 days).
 Statistics of a plant: mean, min, max of the answers, queries.

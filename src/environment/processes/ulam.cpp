@@ -169,14 +169,13 @@ const Registered<ProcessType> entry{
 ?name(s, n, c) c -> corner neighbours that count: all except those that also touch the parent of the cell
 Further parameters (at most 20 in all) keep their values. Positions within a hundredth of an edge are the same cell.
 
-rule    "simple" (default): born where exactly one living cell is an edge neighbour (1, 5, 9, 21, 25, 37, 49, 85 ...)
-        "births": and no living cell, and no cell that could be born in this step, touches a corner
-                  (A170896 if the cells born last ask)
-        "eligible": and no candidate with exactly one living edge neighbour touches a corner either, born or not
-                  (A267190 if the cells born last ask)
-        "wishes": and no other candidate at all touches a corner (A151895 if all living cells ask)
-edge    m, 1: distance of cells that share an edge
-corner  m, 1.4143 edges: greatest distance of cells that touch; at most 8 edges
+rule    "simple", or "births", "eligible", "wishes"; simple: a cell is born where exactly one living cell is an edge
+        neighbour (1, 5, 9, 21, 25, 37, 49, 85 ...). births: and no living cell, and no cell that could be born in this
+        step, touches a corner (A170896 if the cells born last ask). eligible: and no candidate with exactly one living
+        edge neighbour touches a corner either, born or not (A267190 if the cells born last ask). wishes: and no other
+        candidate at all touches a corner (A151895 if all living cells ask)
+edge    1 m, > 0; distance of cells that share an edge
+corner  1.4143 times the edge, m, >= 0; greatest distance of cells that touch; at most 8 edges
 
 There is no grid: the positions of the queries make square, hexagonal, triangular or cubic patterns.
 Statistics of a plant: born and refused, the answers 1 and 0.

@@ -125,9 +125,9 @@ const Registered<ProcessType> entry{
 ?name(v, x, y, z) -> and its slope per metre
 ?name(x, y, z)    -> the vector of a grid of vectors
 
-file   a .vdb file, relative to the scene. Its lattice is in metres
-grid   the name of a grid in it; default: the first
-unit   "1"; of the values
+file   required; a .vdb file, relative to the scene. Its lattice is in metres
+grid   the first in the file; the name of a grid in it
+unit   "1"; unit of the values
 
 Fields: name; of vectors name.x, name.y and name.z, which a model reads as vector(name).)",
      construct<Vdb>}};

@@ -242,22 +242,23 @@ square of half-width floor(spread q) voxels, by  s strength dissipation^-q.  A q
 ?name(s, x, y, z) -> light, and its gradient per metre: the brightest direction, not normalised
 Further parameters (at most 20 in all) keep their values.
 
-voxel           m, 0.5; edge of a voxel. Whole voxels cover the domain about its middle; without a domain, the centre
+voxel           0.5 m, > 0; edge of a voxel. Whole voxels cover the domain about its middle; without a domain, the centre
                 of one voxel is at the origin
-mode            "add" (default): Q = max(full_light - sum of shadows, 0)
-                "attenuate": Q = full_light times the product of 1 - min(1, shadow)
-strength        a, 0.2; shadow of a query of strength 1 in its own voxel
-dissipation     b >= 1, 2; the shadow is b times weaker in each layer below
-depth           q_max, 6; number of layers below, 0 to 1000
-spread          1; increase of the half-width per layer in voxels, 0 to 100
-full_light      C, 1
-sampling        "trilinear" (default): between the eight voxels around the query; "nearest": the voxel that contains it
-gradient_radius m, one voxel; distance of the central differences
-dimensions      3; 2: one voxel thick, z is ignored
-domain          { lower, upper } in m; default: the scene's
-fixed           true if `domain` is given here or `periodic` is true, else false: shade grows with the plants.
-                There is full light outside a fixed domain; in it, light reaches its sides as it is in the outermost
-                voxels
+mode            "add", or "attenuate"; add: Q = max(full_light - sum of shadows, 0);
+                attenuate: Q = full_light times the product of 1 - min(1, shadow)
+strength        0.2, 0 to 1e6; a: shadow of a query of strength 1 in its own voxel
+dissipation     2, 1 to 1e12; b: the shadow is b times weaker in each layer below
+depth           6, 0 to 1000; q_max: number of layers below
+spread          1, 0 to 100; increase of the half-width per layer, in voxels
+full_light      1, 0 to 1e12; C: light without shade
+sampling        "trilinear", or "nearest"; trilinear: between the eight voxels around the query; nearest: the voxel that
+                contains it
+gradient_radius  one voxel, m, > 0; distance of the central differences
+dimensions      3, 2 to 3; 2: one voxel thick, z is ignored
+domain          the domain of the scene, m; { lower = [x, y, z], upper = [x, y, z] }
+fixed           false; false: shade grows with the plants. There is full light outside a fixed domain; in it, light
+                reaches its sides as it is in the outermost voxels. It is true if `domain` is given here or `periodic`
+                is true
 periodic        false; true: the domain repeats along x and z without end
 
 Fields: name (light), name.shade (the sum, or the optical depth).

@@ -286,7 +286,7 @@ With par or global, the light is the same at all times:
 par           umol m-2 s-1 on open level ground; or
 global        W m-2 there, of all wavelengths
 sun           [0, 1, 0]: direction to the sun
-diffuse       1
+diffuse       1; share of the light that comes from the sky
 
 Without them, the sun goes its way (Michalsky 1988), and a share of the light above the air reaches the ground:
 latitude      50 degrees to the north

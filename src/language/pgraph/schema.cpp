@@ -1,11 +1,11 @@
 #include "language/pgraph/schema.h"
 
+#include "base/part_help.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace espalier::language::pgraph {
 namespace {
@@ -20,11 +20,11 @@ std::vector<Key> joined(std::initializer_list<std::vector<Key>> lists) {
 
 const std::vector<Key>& placing() {
     static const std::vector<Key> keys{
-        {"roll", instance, "degrees", -unbounded, unbounded, "0", "about the heading, first of all"},
-        {"pitch", instance, "degrees", -unbounded, unbounded, "0", "then away from the axis it stands on"},
-        {"turn", instance, "degrees", -unbounded, unbounded, "0", "then sideways"},
-        {"move", instance, "m", -unbounded, unbounded, "0", "then forward"},
-        {"scale", instance, "", 1e-6, unbounded, "1", "of the component and of all that follows it"},
+        {"roll", instance, "degrees", -unbounded, unbounded, "0", "turn about the heading, first of all"},
+        {"pitch", instance, "degrees", -unbounded, unbounded, "0", "turn away from the axis it stands on, after roll"},
+        {"turn", instance, "degrees", -unbounded, unbounded, "0", "turn sideways, after pitch"},
+        {"move", instance, "m", -unbounded, unbounded, "0", "way forward, after all turns"},
+        {"scale", instance, "", 1e-6, unbounded, "1", "scale of the component and of all that follows it"},
         {"colour", instance, "", 0, 255, "128", "index in the colour map; without this key, that of its parent"},
     };
     return keys;
@@ -38,13 +38,13 @@ const std::vector<Key>& recursion() {
 
 const std::vector<Key>& horn() {
     static const std::vector<Key> keys{
-        {"length", instance, "m", 0, unbounded, "1", "of the axis"},
-        {"radius", axis, "m", 0, unbounded, "0.05 .. 0.02", "of the cross-section, from base to tip"},
+        {"length", instance, "m", 0, unbounded, "1", "length of the axis"},
+        {"radius", axis, "m", 0, unbounded, "0.05 .. 0.02", "radius of the cross-section, from base to tip"},
         {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
         {"sway", axis, "degrees", -180, 180, "0", "turn from one piece to the next"},
         {"twist", axis, "degrees", -unbounded, unbounded, "0", "roll from one piece to the next"},
-        {"pieces", instance, "", 1, 10000, "8", "pieces of the cone"},
-        {"sides", literal, "", 0, 256, "0", "of a closed surface; 0: internodes, which cost less"},
+        {"pieces", instance, "", 1, 10000, "8", "number of pieces of the cone"},
+        {"sides", literal, "", 0, 256, "0", "number of sides of a closed surface; 0: internodes, which cost less"},
     };
     return keys;
 }
@@ -61,8 +61,9 @@ const std::vector<Key>& tropisms() {
 std::vector<Key> multiplier(const std::string& count, const std::string& angle) {
     return {
         {"count", instance, "", 0, 9e5, count, "children, rounded"},
-        {"angle", children, "degrees", -unbounded, unbounded, angle, "of each child with the direction of its place"},
-        {"child_scale", children, "", 1e-6, unbounded, "1", "of each child"},
+        {"angle", children, "degrees", -unbounded, unbounded, angle,
+         "angle of each child with the direction of its place"},
+        {"child_scale", children, "", 1e-6, unbounded, "1", "scale of each child"},
     };
 }
 
@@ -80,10 +81,10 @@ std::vector<ComponentType> make_types() {
     std::vector<ComponentType> types;
     types.push_back({"Simple", "a sphere, a cylinder, a box or nothing; places what follows it",
                      joined({{{"shape", word, "none|sphere|cylinder|box", 0, 0, "none", "what is drawn"},
-                              {"length", instance, "m", 0, unbounded, "1", "of a cylinder or box"},
-                              {"width", instance, "m", 0, unbounded, "1", "of a box"},
-                              {"depth", instance, "m", 0, unbounded, "1", "of a box"}},
-                             radius("0.5", "of a sphere or cylinder"),
+                              {"length", instance, "m", 0, unbounded, "1", "length of a cylinder or box"},
+                              {"width", instance, "m", 0, unbounded, "1", "width of a box"},
+                              {"depth", instance, "m", 0, unbounded, "1", "depth of a box"}},
+                             radius("0.5", "radius of a sphere or cylinder"),
                              placing(),
                              recursion()})});
     types.push_back(
@@ -97,25 +98,25 @@ std::vector<ComponentType> make_types() {
         {"Tree", "a horn with tropisms that carries branches",
          joined({horn(),
                  tropisms(),
-                 {{"branches", instance, "", 0, 1e5, "0", "of every branch link, rounded"},
+                 {{"branches", instance, "", 0, 1e5, "0", "number of branches of every branch link, rounded"},
                   {"at", children, "", 0, 1, "0.2 .. 1", "part of the axis below each branch, not decreasing"},
-                  {"angle", children, "degrees", -unbounded, unbounded, "45", "of each branch with the axis"},
-                  {"child_scale", children, "", 1e-6, unbounded, "1", "of each branch"}},
+                  {"angle", children, "degrees", -unbounded, unbounded, "45", "angle of each branch with the axis"},
+                  {"child_scale", children, "", 1e-6, unbounded, "1", "scale of each branch"}},
                  divergence(),
                  placing(),
                  recursion()}),
          false, true});
     types.push_back(
         {"Leaf", "a blade on both sides of a midrib",
-         joined({{{"length", instance, "m", 0, unbounded, "1", "of the midrib"},
-                  {"width", instance, "m", 0, unbounded, "0.5", "of the blade where the outline is 1"},
+         joined({{{"length", instance, "m", 0, unbounded, "1", "length of the midrib"},
+                  {"width", instance, "m", 0, unbounded, "0.5", "width of the blade where the outline is 1"},
                   {"outline", list, "", 0, unbounded, "0, 0.8, 1, 0.7, 0",
-                   "of one half, at equal distances from base to tip; a smooth curve passes through"},
+                   "outline of one half, at equal distances from base to tip; a smooth curve passes through"},
                   {"fold", instance, "degrees", -90, 90, "0", "by which both halves rise"},
                   {"bend", axis, "degrees", -180, 180, "0", "pitch from one piece to the next, from base to tip"},
-                  {"waves", instance, "", 0, 1000, "0", "of the edge"},
-                  {"wave_height", instance, "m", 0, unbounded, "0", "of these waves"},
-                  {"pieces", literal, "", 1, 1000, "4", "of the blade"},
+                  {"waves", instance, "", 0, 1000, "0", "number of waves of the edge"},
+                  {"wave_height", instance, "m", 0, unbounded, "0", "height of the waves of the edge"},
+                  {"pieces", literal, "", 1, 1000, "4", "number of pieces of the blade"},
                   {"texture", instance, "", 0, 65535, "0", "number of a picture that fills the blade; 0: none"}},
                  tropisms(),
                  placing(),
@@ -123,16 +124,17 @@ std::vector<ComponentType> make_types() {
     types.push_back({"Hydra", "multiplies its children as a star about the axis",
                      joined({multiplier("5", "45"), placing(), recursion()}), true});
     types.push_back({"Ring", "multiplies its children on a circle about the axis",
-                     joined({multiplier("5", "0"), radius("1", "of the circle"), placing(), recursion()}), true});
-    types.push_back({"Phiball", "multiplies its children on a section of a sphere by the golden section",
-                     joined({multiplier("100", "0"),
-                             radius("1", "of the sphere"),
-                             {{"from", instance, "degrees", 0, 180, "0", "of the section, measured from the heading"},
-                              {"to", instance, "degrees", 0, 180, "180", "of the section"}},
-                             divergence(),
-                             placing(),
-                             recursion()}),
-                     true});
+                     joined({multiplier("5", "0"), radius("1", "radius of the circle"), placing(), recursion()}), true});
+    types.push_back(
+        {"Phiball", "multiplies its children on a section of a sphere by the golden section",
+         joined({multiplier("100", "0"),
+                 radius("1", "radius of the sphere"),
+                 {{"from", instance, "degrees", 0, 180, "0", "where the section begins, measured from the heading"},
+                  {"to", instance, "degrees", 0, 180, "180", "where the section ends"}},
+                 divergence(),
+                 placing(),
+                 recursion()}),
+         true});
     types.push_back({"World",
                      "replaces the directions that tropisms turn to, for what follows it",
                      {{"gravity", field, "", -unbounded, unbounded, "0, -1, 0",
@@ -229,23 +231,27 @@ Value value_of(const Component& component, const std::string& key) {
 }
 
 std::string describe_types() {
-    const auto bound = [](double value) { return std::isfinite(value) ? format_general(value) : std::string(); };
     const auto how = [](KeyKind kind) {
-        return kind == instance   ? "over instances"
-               : kind == children ? "over children"
-               : kind == axis     ? "along the axis"
-               : kind == list     ? "list"
-               : kind == vector   ? "vector"
-               : kind == field    ? "field"
-                                  : "fixed";
+        return kind == instance   ? "; a range is spread over the instances"
+               : kind == children ? "; a range is spread over the children"
+               : kind == axis     ? "; a range runs along the axis"
+               : kind == list     ? "; a list of numbers"
+               : kind == vector   ? "; a vector"
+               : kind == field    ? "; a field: three functions of x, y, z"
+                                  : "";
+    };
+    const auto standard = [](const Key& key) {
+        if (key.standard.empty()) return std::string("none");
+        return key.standard.find(' ') == key.standard.npos ? key.standard : fmt::format("[{}]", key.standard);
     };
     std::string text;
     for (const ComponentType& type : component_types()) {
-        text += fmt::format("\n{}: {}\n", type.name, type.summary);
+        text += fmt::format("\n{}: {}\n\n", type.name, type.summary);
         for (const Key& key : type.keys) {
-            const std::string range = key.kind == word ? key.unit : bound(key.lowest) + ".." + bound(key.highest);
-            text += fmt::format("  {:13} {:14} {:11} {:8} default {:17} {}\n", key.name, how(key.kind), range,
-                                key.kind == word ? "" : key.unit, key.standard, key.summary);
+            const bool is_word = key.kind == word;
+            const std::string range = is_word ? ", or " + key.unit : described_range(key.lowest, key.highest);
+            text += fmt::format("  {:13} {}{}{}; {}{}\n", key.name + " ", standard(key),
+                                is_word || key.unit.empty() ? "" : " " + key.unit, range, key.summary, how(key.kind));
         }
     }
     return text;

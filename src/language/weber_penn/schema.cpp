@@ -1,10 +1,11 @@
+#include "base/part_help.h"
 #include "base/text.h"
 #include "language/weber_penn/species.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace espalier::language::weber_penn {
@@ -27,13 +28,19 @@ const std::vector<Parameter>& of_tree() {
         {"ScaleV", "m", 0, unbounded, false, "varies Scale", {0}},
         {"ZScale", "", 1e-3, unbounded, false, "stretches the trunk, not its thickness", {1}},
         {"ZScaleV", "", 0, unbounded, false, "varies ZScale", {0}},
-        {"Levels", "", 1, 9, true, "of stems, with the trunk", {3}},
+        {"Levels", "", 1, 9, true, "number of levels of stems, with the trunk", {3}},
         {"Ratio", "", 0, unbounded, false, "radius of the trunk by its length", {0.015}},
         {"RatioPower", "", 0, unbounded, false, "a stem's radius falls with this power of its length", {1.2}},
-        {"Lobes", "", 0, 64, true, "around the trunk", {0}},
-        {"LobeDepth", "", 0, 0.9, false, "of the lobes, by the radius", {0}},
+        {"Lobes", "", 0, 64, true, "number of lobes around the trunk", {0}},
+        {"LobeDepth", "", 0, 0.9, false, "depth of the lobes, by the radius of the trunk", {0}},
         {"Flare", "", 0, unbounded, false, "by how many radii the foot is thicker", {0}},
-        {"Leaves", "", -1000, 100000, true, "on a stem of the last level; negative: as a fan at its end", {0}},
+        {"Leaves",
+         "",
+         -1000,
+         100000,
+         true,
+         "number of leaves on a stem of the last level; negative: as a fan at its end",
+         {0}},
         {"LeafShape",
          "",
          0,
@@ -42,7 +49,7 @@ const std::vector<Parameter>& of_tree() {
          "0 oval, 1 triangle, 2 oak of three lobes, 3 maple of three, 4 maple of five, 5 three leaflets",
          {0}},
         {"LeafScale", "m", 1e-6, unbounded, false, "length of a leaf", {0.15}},
-        {"LeafScaleX", "", 1e-3, unbounded, false, "its width by its length", {0.6}},
+        {"LeafScaleX", "", 1e-3, unbounded, false, "width of a leaf by its length", {0.6}},
         {"AttractionUp",
          "",
          -unbounded,
@@ -52,21 +59,27 @@ const std::vector<Parameter>& of_tree() {
          {0}},
         {"PruneRatio", "", 0, 1, false, "how far stems outside the envelope are shortened", {0}},
         {"PruneWidth", "", 1e-3, unbounded, false, "greatest radius of the envelope, by Scale", {0.5}},
-        {"PruneWidthPeak", "", 0.001, 0.999, false, "height of that radius, from base to top of the crown", {0.5}},
-        {"PrunePowerLow", "", 1e-6, unbounded, false, "form of the envelope below it", {0.5}},
-        {"PrunePowerHigh", "", 1e-6, unbounded, false, "form of the envelope above it", {0.5}},
-        {"BarkColour", "", 0, 255, true, "index in the colour map (not of the paper)", {120}},
-        {"LeafColour", "", 0, 255, true, "index in the colour map (not of the paper)", {40}},
+        {"PruneWidthPeak",
+         "",
+         0.001,
+         0.999,
+         false,
+         "height of the greatest radius of the envelope, from base to top of the crown",
+         {0.5}},
+        {"PrunePowerLow", "", 1e-6, unbounded, false, "form of the envelope below its greatest radius", {0.5}},
+        {"PrunePowerHigh", "", 1e-6, unbounded, false, "form of the envelope above its greatest radius", {0.5}},
+        {"BarkColour", "", 0, 255, true, "index of the bark in the colour map (not of the paper)", {120}},
+        {"LeafColour", "", 0, 255, true, "index of leaves in the colour map (not of the paper)", {40}},
     };
     return all;
 }
 
 const std::vector<Parameter>& of_levels() {
     static const std::vector<Parameter> all{
-        {"Scale", "", 1e-3, unbounded, false, "of the trunk's radius", {1}, 0},
+        {"Scale", "", 1e-3, unbounded, false, "factor of the trunk's radius", {1}, 0},
         {"ScaleV", "", 0, unbounded, false, "varies 0Scale", {0}, 0},
         {"BaseSplits", "", 0, 100, true, "clones at the end of the trunk's first segment", {0}, 0},
-        {"DownAngle", "degrees", -360, 360, false, "of a child with its parent", {60, 45, 45}, 1},
+        {"DownAngle", "degrees", -360, 360, false, "angle of a child with its parent", {60, 45, 45}, 1},
         {"DownAngleV",
          "degrees",
          -360,
@@ -80,12 +93,19 @@ const std::vector<Parameter>& of_levels() {
          -360,
          360,
          false,
-         "about the parent, from child to child; negative: children stand left and right at 180 + nRotate",
+         "turn about the parent, from child to child; negative: children stand left and right at 180 + nRotate",
          {140, 140, 140},
          1},
         {"RotateV", "degrees", 0, 360, false, "varies nRotate", {0, 0, 0}, 1},
-        {"Branches", "", 0, 100000, false, "children at most", {30, 20, 10}, 1},
-        {"Length", "", 0, unbounded, false, "by Scale; of levels from 1, by the parent", {1, 0.3, 0.5, 0.3}, 0},
+        {"Branches", "", 0, 100000, false, "children of a stem at most", {30, 20, 10}, 1},
+        {"Length",
+         "",
+         0,
+         unbounded,
+         false,
+         "length of the trunk by Scale; of stems of deeper levels by that of the parent",
+         {1, 0.3, 0.5, 0.3},
+         0},
         {"LengthV", "", 0, unbounded, false, "varies nLength", {0, 0, 0, 0}, 0},
         {"Taper",
          "",
@@ -96,16 +116,30 @@ const std::vector<Parameter>& of_levels() {
          {1, 1, 1, 1},
          0},
         {"SegSplits", "", 0, 100, false, "clones at the end of a segment", {0, 0, 0, 0}, 0},
-        {"SplitAngle", "degrees", 0, 180, false, "of a clone with its stem, if that is vertical", {0, 0, 0, 0}, 0},
+        {"SplitAngle",
+         "degrees",
+         0,
+         180,
+         false,
+         "angle of a clone with its stem, if that is vertical",
+         {0, 0, 0, 0},
+         0},
         {"SplitAngleV", "degrees", 0, 180, false, "varies nSplitAngle", {0, 0, 0, 0}, 0},
         {"CurveRes", "", 1, 1000, true, "segments of a stem", {5, 5, 3, 1}, 0},
-        {"Curve", "degrees", -unbounded, unbounded, false, "by which a stem bends", {0, 0, 0, 0}, 0},
+        {"Curve",
+         "degrees",
+         -unbounded,
+         unbounded,
+         false,
+         "angle by which a stem bends from base to tip",
+         {0, 0, 0, 0},
+         0},
         {"CurveBack",
          "degrees",
          -unbounded,
          unbounded,
          false,
-         "not 0: by which its second half bends, and nCurve is of the first",
+         "not 0: angle by which the second half of a stem bends, and nCurve is that of the first",
          {0, 0, 0, 0},
          0},
         {"CurveV",
@@ -146,14 +180,15 @@ std::string setting_name(const Parameter& parameter, int level) {
 }
 
 std::string describe_parameters() {
-    const auto bound = [](double value) { return std::isfinite(value) ? format_general(value) : std::string(); };
     std::string text;
     for (const Parameter& each : parameters()) {
-        std::string standard;
-        for (const double value : each.standard) standard += (standard.empty() ? "" : ", ") + format_general(value);
+        std::vector<std::string> standard;
+        for (const double value : each.standard) standard.push_back(format_general(value));
         const std::string name = each.has_levels() ? (each.standard.size() == 1 ? "0" : "n") + each.name : each.name;
-        text += fmt::format("  {:15} {:13} {:8} default {:17} {}\n", name,
-                            bound(each.lowest) + ".." + bound(each.highest), each.unit, standard, each.summary);
+        text += fmt::format("  {:15} {}{}{}{}; {}\n", name + " ",
+                            standard.size() == 1 ? standard[0] : fmt::format("[{}]", fmt::join(standard, ", ")),
+                            each.unit.empty() ? "" : " ", each.unit, described_range(each.lowest, each.highest),
+                            each.summary);
     }
     return text;
 }

@@ -229,63 +229,65 @@ Scene scene_of_model(const std::filesystem::path& model, const SceneOptions& opt
 
 const char* scene_help() {
     return R"([simulation]
-  steps        number of derivation steps; default: the longest derivation length of the models
+  steps        the longest derivation length of the models; number of derivation steps
   seed         0; the same seed gives the same bytes
-  dt           1; duration of a step
-  time_unit    "step"
-  domain       { lower = [x, y, z], upper = [x, y, z] } in metres; default: grows with the plants
+  dt           1, > 0; duration of a step, in units of time
+  time_unit    "step"; name of the unit of time
+  domain       grows with the plants, m; { lower = [x, y, z], upper = [x, y, z] }: the box of the environment
 
 [[plant]]      one table per individual or per stand
-  model        a model file, relative to the scene
-  name         default: the model's name, numbered
-  position     [0, 0, 0], metres
-  positions    [[x, y, z], ...]: one plant at each
-  grid         { columns, rows = 1, spacing (m), jitter = 0 (m) }: a stand around `position` on x and z
+  model        required; a model file, relative to the scene
+  name         that of the model with a number; name of the plant in statistics and messages
+  position     [0, 0, 0] m; where the plant begins
+  positions    none, m; [[x, y, z], ...]: one plant at each
+  grid         none; { columns, rows = 1, spacing (m), jitter = 0 (m) }: a stand around `position` on x and z
   heading      [0, 1, 0]; heading of the turtle
-  roll         0 degrees about the heading
-  define       { NAME = value }: replaces #define NAME of the model
-  keyframes    [[plant.keyframes]]: { name = "HEIGHT", times = [0, 20], values = [1, 8], spline = false }: a #define of
-               the model has these values at these times
-  age          the time at which the keyframes are read; default: that of each step
+  roll         0 degrees; turn about the heading
+  define       {}; { NAME = value }: replaces #define NAME of the model
+  keyframes    none; [[plant.keyframes]]: { name = "HEIGHT", times = [0, 20], values = [1, 8], spline = false }: a
+               #define of the model has these values at these times
+  age          that of each step; the time at which the keyframes are read
   regrow       false; true: every step grows the plant anew, with the values of that time; without keyframes it
                has grown before step 0 and stays
-  arithmetic   "double", or "cpfg": computes as cpfg does, with 32-bit parameters
-  view         view file (.v): settings of the turtle, surfaces, contours, functions, curves
-  colour_map   a file (.map) for set 1, or { 1 = file, 2 = file }
-  materials    the same with materials (.mat)
-  folder       a second folder in which side files are looked for
-  stream       the plant's number in the scene; selects the random numbers
-  stage        [[plant.stage]] tables, which change what is drawn: { stage = "...", when = true }; with when = false a
-               stage is left out. `espalier list stages`
-  insert       ["X(1)@5", "X@9:F.3"]: modules put into the string of a step, at its beginning or before a module
-  stage        [[plant.stage]] with stage = "...": changes the recorded geometry: `espalier list stages`
-  turtle       overrides the view file: { angle = 45 (degrees), line_width (none), line_width_increment = 0, colour = 128,
-                 colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
-                 tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0,
-                              elasticity_step = 0, torque = false }] }
+  arithmetic   "double", or "cpfg"; cpfg: computes as cpfg does, with 32-bit parameters
+  view         none; view file (.v): settings of the turtle, surfaces, contours, functions, curves
+  colour_map   none; a file (.map) for set 1, or { 1 = file, 2 = file }
+  materials    none; the same with materials (.mat)
+  folder       none; a second folder in which side files are looked for
+  stream       the number of the plant in the scene; selects the random numbers
+  stage        none; [[plant.stage]] tables, which change what is drawn: { stage = "...", when = true }; with
+               when = false a stage is left out. `espalier list stages`
+  insert       []; ["X(1)@5", "X@9:F.3"]: modules put into the string of a step, at its beginning or before a module
+  turtle       {}; overrides the view file: { angle = 45 (degrees), line_width (none), line_width_increment = 0,
+               colour = 128, colour_increment = 1, scale = 1, scale_multiplier = 1, past_cut = true,
+               tropism = [{ direction = [0, -1, 0], angle = 0 (degrees), elasticity = 0, elasticity_step = 0,
+               torque = false }] }
 
 [environment]
-  default      the process that answers ?E; default: the only one
-  file         an environment file (.e), whose process answers ?E
-  folder       a second folder in which its parameter file is looked for
-  unanswered   "error", or "keep": queries without a process keep their parameters
+  default      the only one; the process that answers ?E
+  file         none; an environment file (.e), whose process answers ?E
+  folder       none; a second folder in which its parameter file is looked for
+  unanswered   "error", or "keep"; keep: queries without a process keep their parameters
 
 [environment.<name>]
-  process      kind of process: `espalier list processes`; its parameters follow
-  digits       0; significant digits of queries and answers, 0: all
-  turtle       { position = "%.4f %.4f %.4f", heading, left, up, line_width, scale_factor }: printf formats that
+  process      required; kind of process: `espalier list processes`; its parameters follow
+  digits       0, 0 to 17; significant digits of queries and answers, 0: all
+  turtle       {}; { position = "%.4f %.4f %.4f", heading, left, up, line_width, scale_factor }: printf formats that
                round the state of the turtle for the process
   following_module  true; the process sees the module that follows the query
 
-[[keyframes]]  { key = "environment.light.strength", times = [0, 20], values = [0.1, 0.3], spline = false }: a number of
-               a process, of a plant's turtle (plant.0.turtle.line_width) or of a stage (plant.0.stage.1.tip) has these
-               values at these times
+[[keyframes]]  A number of a process, of a plant's turtle (plant.0.turtle.line_width) or of a stage (plant.0.stage.1.tip)
+               changes with time.
+  key          required; "environment.light.strength": where the number stands
+  times        required; [0, 20]: times, in units of time
+  values       required; [0.1, 0.3]: the values at these times
+  spline       false; values change evenly between the times; true: along a smooth curve
 
-[timeline]     `espalier list recorders`
-  first        0; the first frame
+[timeline]     `espalier list recorders` has further keys
+  first        0; step of the first frame
   every        1; steps between frames; the last step is always a frame
-  keyframes    [step, ...]: these frames; together with `first` or `every`, besides theirs
-  animation    animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
+  keyframes    none; [step, ...]: these frames; together with `first` or `every`, besides theirs
+  animation    none; animation file (.a) that selects the frames, instead of `first`, `every` and `keyframes`
 
 influence = "= 3 * LENGTH": a text that begins with = is an expression in the #defines of a model: of its own plant in
 [[plant]] (positions, grid, turtle, stages), of the first in [simulation], [environment] and [timeline]. Flags may be 0 or 1.

@@ -96,7 +96,7 @@ private:
 
 const Registered<RecorderType> entry{
     {"background", "background.vtp: what stands around the plants, where their view files name background scenes",
-     "background (true or false, true): write it",
+     "background  true; false: the file is not written",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          if (!settings.flag_or("background", true)) return nullptr;
          return std::make_unique<BackgroundScene>(context);

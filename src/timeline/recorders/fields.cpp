@@ -136,8 +136,8 @@ private:
 
 const Registered<RecorderType> entry{
     {"fields", "fields.pvd and fields/NAME/NNNN.vti, .vdb: the fields of the environment",
-     "fields (list of names, none): the fields to write; [\"all\"]: all fields\n"
-     "field_files (list, [\"vti\", \"vdb\"]): the formats",
+     "fields       []; names of the fields to write, as [\"light\"]; [\"all\"]: all fields\n"
+     "field_files  [\"vti\", \"vdb\"]; the formats: vti for ParaView, vdb for OpenVDB",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          auto recorder = std::make_unique<FieldRecorder>(settings, context);
          if (!recorder->wanted()) return nullptr;

@@ -148,7 +148,7 @@ private:
 
 const Registered<RecorderType> entry{
     {"lifespans", "lifespans.vtp: every internode once, with birth and death; written at the end",
-     "lifespans (true or false, true): write it",
+     "lifespans  true; false: the file is not written",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          if (!settings.flag_or("lifespans", true)) return nullptr;
          return std::make_unique<Lifespans>(context);

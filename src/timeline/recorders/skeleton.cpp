@@ -121,12 +121,11 @@ private:
 
 const Registered<RecorderType> entry{
     {"skeleton", "plants.pvd and plants/NNNN.vtp: a line per axis, organs and surfaces, with identities",
-     "skeleton (true or false, true): write them\n"
-     "parameters (table, none): arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }:\n"
-     "    the 2nd parameter of F, and the 1st of ?E after its answer, whose queries become points\n"
-     "organs (list, none): arrays of what a process knows of each organ, as in [\"light.absorbed\", "
-     "\"light.sunlit\"];\n"
-     "    the help of the process names them, organ_units in the files has their units",
+     "skeleton    true; false: the files are not written\n"
+     "parameters  {}; arrays from module parameters, as in { vigour = \"F.2\", light = \"?E.1\" }: the 2nd parameter\n"
+     "            of F, and the 1st of ?E after its answer, whose queries become points\n"
+     "organs      []; arrays of what a process knows of each organ, as in [\"light.absorbed\", \"light.sunlit\"]; the\n"
+     "            help of the process names them, organ_units in the files has their units",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          auto recorder = std::make_unique<Skeleton>(settings, context);
          if (!settings.flag_or("skeleton", true)) return nullptr;

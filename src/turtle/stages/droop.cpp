@@ -85,9 +85,9 @@ const Registered<GeometryStageType> entry{
      R"(lambda    required, 0 to 1; an internode at theta degrees from straight down turns down by
           psi = lambda (1 - theta/180) theta degrees about its base, with all that it bears; then those it bears turn.
           0 changes nothing; straight up stays straight up
-from      1; the first order that turns; 0: all
-count     "order": `from` is an order of branching, the main axis being 0; "nodes": it counts internodes from the base,
-          the first being 1
+from      1, 0 to 65535; the first order or node that turns; 0: all
+count     "order", or "nodes"; order: `from` is an order of branching, the main axis being 0; nodes: it counts internodes
+          from the base, the first being 1
 Lengths stay. Organs, polygons, meshes and labels turn with the internode that bears them; generalized cylinders are no
 internodes and do not bend.
 )",

@@ -46,12 +46,12 @@ private:
 
 const Registered<GeometryStageType> entry{
     {"free-form", "a box of space that bends and takes the plant along (Sederberg & Parry 1986)",
-     R"(lower    needed; m, the corner of the box with the least x, y, z
-upper    needed; m, the opposite corner
+     R"(lower    required, m; the corner of the box with the least x, y, z
+upper    required, m; the opposite corner
 lattice  [2, 2, 2]; points along x, y and z, 2 to 16 each
-moves    needed; m, how far each point of the lattice moves: [[x, y, z], ...], x first, then y, then z
-leaves   "carried"; polygons, patches and organs: "carried" keeps their shapes and moves them with their first vertex,
-         "bent" bends them too, "left" leaves all of them where they are
+moves    required, m; how far each point of the lattice moves: [[x, y, z], ...], x first, then y, then z
+leaves   "carried", or "bent", "left"; polygons, patches and organs: carried keeps their shapes and moves them with their
+         first vertex, bent bends them too, left leaves all of them where they are
 What is outside the box moves as the nearest point of the box. Radii do not change.
 Source: Sederberg & Parry 1986, Free-form deformation of solid geometric models; as a component of plants, Lintermann &
 Deussen 1997.

@@ -254,23 +254,23 @@ private:
 
 const Registered<GeometryStageType> entry{
     {"leaves", "leaves, blossoms or fruit along internodes (Brzoska 2019)",
-     R"(per_node     1, 0 to 1000; of each node: the integer part is sure, the rest is a probability. A larger number keeps
+     R"(per_node     1, 0 to 1000; leaves of each node: the integer part is sure, the rest is a probability. A larger number keeps
              the leaves that are there
-number       instead of per_node: so many in all, 0 to 1e7
-kind         "cross": two squares at right angles, 8 vertices and 4 triangles; "card": one square, 4 and 2;
-             "surface": one of the view file; "sphere": a fruit
-surface      of kind "surface": the character that names it behind ~
-size         0.1 m; the mean of a normal distribution: side of a square, diameter of a sphere, factor of a surface
+number       none, 0 to 1e7; instead of per_node: so many in all
+kind         "cross", or "card", "surface", "sphere"; cross: two squares at right angles, 8 vertices and 4 triangles;
+             card: one square, 4 and 2; surface: one of the view file; sphere: a fruit
+surface      none; of kind "surface": the character that names it behind ~
+size         0.1 m, > 0; the mean of a normal distribution: side of a square, diameter of a sphere, factor of a surface
 spread       0.2, 0 to 0.5; its standard deviation by its mean
 shade        0, 0 to 10; fewer leaves where others stand above: exp(-shade L) of them, L being the area of those above
              by the ground they cover, as light falls (Monsi & Saeki 1953)
-thickest     m; only on internodes whose tip has at most this radius; default: on all
-orientation  "random": all turns are equally probable; "light": the face is turned to the light; "out": away from the
-             internode, each 137.5 degrees about it from the leaf of the node before
+thickest     none, m, > 0; only on internodes whose tip has at most this radius; none: on all
+orientation  "random", or "light", "out"; random: all turns are equally probable; light: the face is turned to the light;
+             out: away from the internode, each 137.5 degrees about it from the leaf of the node before
 light        [0, 1, 0]; direction towards the light, for "light"
-angle        60 degrees, 0 to 180, between leaf and internode, for "out"
-colour       2; index of the colour, 0 to 65535
-texture      a picture, relative to the scene
+angle        60 degrees, 0 to 180; angle between leaf and internode, for "out"
+colour       2, 0 to 65535; index of the colour
+texture      none; a picture, relative to the scene
 id           ""; stages with another id draw other random numbers
 A node is what one module drew. Leaves stand anywhere along it and belong to that module; a node keeps its leaves as the
 plant grows. Put stages that turn or divide internodes before this one.

@@ -87,11 +87,11 @@ private:
 const Registered<GeometryStageType> entry{
     {"pipe-radii",
      "radii by the pipe model: r^n of an internode is the sum over those it bears (Shinozaki et al. 1964)",
-     R"(exponent  2.5; n, between 0.5 and 10; 2 preserves the area of cross-sections, trees lie between 2 and 3
-tip       0.005 m; the radius of internodes that bear none
-factor    1; thickness: all radii are multiplied by it
-join      0.5; a branch whose radius is below this share of its bearer's begins with its own radius, others begin with
-          the bearer's; 0: all do, 1: only branches as thick as their bearer do. An axis that goes on that thin is
+     R"(exponent  2.5, 0.5 to 10; n: 2 preserves the area of cross-sections, trees lie between 2 and 3
+tip       0.005 m, > 0; the radius of internodes that bear none
+factor    1, > 0; thickness: all radii are multiplied by it
+join      0.5, 0 to 1; a branch whose radius is below this share of its bearer's begins with its own radius, others begin
+          with the bearer's; 0: all do, 1: only branches as thick as their bearer do. An axis that goes on that thin is
           recorded as a line of its own from there on
 leader    0, 0 to 10; the main axis is at least so many times as thick as all that reaches its height; 0: only the pipe
           model counts

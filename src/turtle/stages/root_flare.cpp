@@ -86,8 +86,8 @@ private:
 
 const Registered<GeometryStageType> entry{
     {"root-flare", "the foot of the stem widens, and roots run from it into the ground (Brzoska 2019)",
-     R"(roots   required, 0 to 100; how many; 0 changes nothing
-length  6; of a root, in radii of the stem
+     R"(roots   required, 0 to 100; how many roots; 0 changes nothing
+length  6, > 0; length of a root, in radii of the stem
 flare   1.5, 1 to 4; how many times as wide as the stem its foot is
 All nodes of the roots lie below the place where the plant begins; near the stem their backs are above the ground. Put it
 behind pipe-radii, which gives the stem its radius, and behind the stages that bend axes or put leaves on them.

@@ -98,7 +98,7 @@ private:
 
 const Registered<GeometryStageType> entry{
     {"smooth", "axes curve through their nodes: Catmull-Rom splines (Catmull & Rom 1974, Barry & Goldman 1988)",
-     R"(pieces  4; pieces of each internode, 2 to 16
+     R"(pieces  4, 2 to 16; pieces of each internode
 Nodes stay where they are, and so do branches; radii change evenly along each internode. The curve has one tangent at
 each node of an axis; a straight axis stays straight. Put stages that attach something to internodes behind this one.
 )",

@@ -71,9 +71,9 @@ private:
 
 const Registered<GeometryStageType> entry{
     {"stem", "a straight stem below the plant, which moves up by one vector (Brzoska 2019)",
-     R"(length     required, m; 0: no stem
-pieces     1; internodes of equal length, 1 to 1000
-direction  the heading with which the plant begins; [x, y, z] of any length: another
+     R"(length     required, m, >= 0; length of the stem; 0: no stem
+pieces     1, 1 to 1000; internodes of equal length
+direction  the heading with which the plant begins; [x, y, z] of any length: another direction
 The stem begins where the plant did and is as thick as the base of its first internode: put pipe-radii behind it to make
 it as thick as the crown asks for. The environment sees the plant without it. A plant without internodes gets none.
 )",

@@ -156,12 +156,12 @@ private:
 
 const Registered<GeometryStageType> entry{
     {"sway", "stems sway in the wind, each at a frequency of its own (Weber & Penn 1995)",
-     R"(speed     required, 0 or more; of the wind, without unit: the middle of a stem of length L and radius r turns back and
+     R"(speed     required, >= 0; speed of the wind, without unit: the middle of a stem of length L and radius r turns back and
           forth by about speed / 50 4 L / r degrees, each of its internodes by its share. 0 changes nothing
-gust      0; more of the slow part of the movement: 0.7 of the frequency
-pace      100; a stem has the angular frequency pace r / L, with the radius r of its base, per unit of time of the
+gust      0, >= 0; strength of the slow part of the movement, at 0.7 of the frequency
+pace      100, > 0; a stem has the angular frequency pace r / L, with the radius r of its base, per unit of time of the
           scene: a trunk of 13 m and 0.2 m swings in 4 units
-most      60 degrees; no stem bends further about one of its two axes
+most      60 degrees, 0 to 180; no stem bends further about one of its two axes
 The time is that of the frame: step times dt. The phases are random, one of each stem. A stem is an axis, and where it
 ends goes on in the thickest branch. What has no radius does not bend, but moves with what bears it: `pipe-radii` gives
 radii. [[keyframes]] of speed and gust let the wind rise and fall.

@@ -20,5 +20,14 @@ const Registered<Symbol> cut{
          if (!walk.settings().past_cut) walk.stopped = true;
      }}};
 
+const Registered<SymbolGroup> branching_group{
+    {"branching",
+     "begins, ends and cuts branches",
+     {"[", "]", "%"},
+     "A branch begins with the state of the turtle at its [, and ] restores that state: position, "
+     "directions, width, colours, scale, tropisms.\n"
+     "A ] without [ has no effect, and a [ without ] reaches to the end of the string.",
+     "axiom: !(0.06) F(1) [+(40) F(1)] [-(40) F(1)] F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

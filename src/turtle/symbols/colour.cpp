@@ -59,5 +59,13 @@ const Registered<Symbol> texture{{"@Tx",
                                       walk.turtle().texture = possible ? std::uint16_t(parameters[0]) : 0;
                                   }}};
 
+const Registered<SymbolGroup> colour_group{
+    {"colour",
+     "colours and textures",
+     {";", ",", "@;", "@,", "@Tx"},
+     "A colour is an index into the colour map or the materials of the plant; it wraps within its map of "
+     "256.",
+     "axiom: !(0.3) ;(40) F(1) ;(120) F(1) ;(200) F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

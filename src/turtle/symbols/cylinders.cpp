@@ -109,5 +109,15 @@ const Registered<Symbol> own_twist{
          walk.change_brush([](Brush& brush) { brush.follows_roll = true; });
      }}};
 
+const Registered<SymbolGroup> cylinders_group{
+    {"cylinders",
+     "generalized cylinders",
+     {"@Gs", "@Gc", "@Ge", "@Gt", "@Gr", "@#", "@!", "@Tp", "@Tf"},
+     "A control point keeps position, heading, width, contour, colour and texture of the turtle. The curve "
+     "runs through the control points in the direction of the headings (Hermite).\n"
+     "In a branch, the first control point begins a new cylinder, which starts at the last control point "
+     "of the parent axis.",
+     "axiom: !(0.4) @Gs f(1) @Gc(8) +(30) !(0.3) f(1) @Gc(8) [-(60) !(0.2) f(1) @Ge(8)] f(1) @Ge(8)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

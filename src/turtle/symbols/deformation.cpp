@@ -53,5 +53,17 @@ const Registered<Symbol> end{{"@De",
                               "@De: end the deformation: what was drawn since it began is moved",
                               [](Walk& walk, std::span<const double>) { walk.end_deformation(); }}};
 
+const Registered<SymbolGroup> deformation_group{
+    {"deformation",
+     "free-form deformations",
+     {"@Db", "@De"},
+     "The points of a lattice of nx by ny by nz points in the box move by the vectors (moves), along x "
+     "first, then y, then z: x runs against left, y along the heading, z against up. Lengths are in units "
+     "of the scale.\n"
+     "What is drawn until @De moves with them (Sederberg & Parry 1986). The turtle, queries and radii do "
+     "not notice the deformation.",
+     "axiom: !(0.2) @Db(0, 2,2,2, -1,0,-1, 1,3,1, 0,0,0, 0,0,0, 1,0,0, 1,0,0, 0,0,0, 0,0,0, 1,0,0, 1,0,0) F(1) F(1) "
+     "F(1) @De"}};
+
 }  // namespace
 }  // namespace espalier::turtle

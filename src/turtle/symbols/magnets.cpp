@@ -35,5 +35,13 @@ const Registered<Symbol> flat{
      "@Gm with the same parameters",
      [](Walk& walk, std::span<const double> parameters) { set_cut(walk, parameters, true); }}};
 
+const Registered<SymbolGroup> magnets_group{
+    {"magnets",
+     "cross-sections that magnets shape",
+     {"@Gm", "@Gf"},
+     "At a magnet of strength s, the outline lies 1 + s times as far from the middle as that of the "
+     "ellipse, at least 0. Between two magnets it changes smoothly (Steffen 1990).",
+     "axiom: !(0.5) @Gm(1, 1, 0, 1, 0, 1, 0) @Gs f(1) @Gc(4) f(1) @Ge(4)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

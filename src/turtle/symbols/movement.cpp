@@ -11,14 +11,14 @@ double distance(std::span<const double> parameters) {
 const Registered<Symbol> draw{
     {"F",
      {},
-     "F(length): move forward and draw; marks a polygon vertex. Length 1, times the scale",
+     "F(length): move forward and draw an internode; marks a polygon vertex",
      [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, true); },
      Symbol::Effect::draws}};
 
 const Registered<Symbol> draw_unmarked{
     {"G",
      {},
-     "G(length): move forward and draw, marking no vertex",
+     "G(length): move forward and draw an internode, marking no vertex",
      [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), true, false); },
      Symbol::Effect::draws}};
 
@@ -33,6 +33,14 @@ const Registered<Symbol> skip_unmarked{
      {},
      "g(length): move forward without drawing, marking no vertex",
      [](Walk& walk, std::span<const double> parameters) { walk.move(distance(parameters), false, false); }}};
+
+const Registered<SymbolGroup> movement_group{
+    {"movement",
+     "moves ahead, with and without drawing",
+     {"F", "G", "f", "g"},
+     "Lengths are in metres, times the scale; without parameter 1. Before a drawn segment, tropisms bend "
+     "the turtle.",
+     "axiom: !(0.1) F(2) f(0.5) F(1) G(0.5)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -19,5 +19,13 @@ const Registered<Symbol> end{{"@Ne",
                               "@Ne: draw the net; u runs along its rows and v from the first row to the last, 0 to 1",
                               [](Walk& walk, std::span<const double>) { walk.draw_net(); }}};
 
+const Registered<SymbolGroup> nets_group{
+    {"nets",
+     "surfaces through rows of points",
+     {"@Nb", "@Np", "@Ne"},
+     "Points belong to the innermost open net; a row that is not full is left out. Each four points are "
+     "joined by two triangles.",
+     "axiom: @Nb(3) [+(90) f(1) @Np] @Np [-(90) f(1) @Np] f(2) [+(90) f(0.5) @Np] @Np [-(90) f(0.5) @Np] @Ne"}};
+
 }  // namespace
 }  // namespace espalier::turtle

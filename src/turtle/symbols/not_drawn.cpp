@@ -14,5 +14,11 @@ const Registered<Symbol> old_mo{{"@mo", {}, "@mo: an old symbol; has no effect",
 const Registered<Symbol> old_mc{{"@mc", {}, "@mc: an old symbol; has no effect", nothing}};
 const Registered<Symbol> unknown{{"@*", {}, "@x: unless listed, ignored together with its second character", nothing}};
 
+const Registered<SymbolGroup> not_drawn_group{{"not-drawn",
+                                               "symbols without effect",
+                                               {"@S", "@I", "@J", "@mo", "@mc", "@*"},
+                                               "They are recognised, so that old models can be read.",
+                                               "axiom: F(1) @I F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

@@ -25,7 +25,7 @@ void place_surface(Walk& walk, std::span<const double> parameters) {
 
 const Registered<Symbol> screen_disc{{"@o",
                                       {},
-                                      "@o(diameter): a disc that faces the screen; the line width without parameter",
+                                      "@o(diameter): a disc that faces the screen, in the plane of x and y",
                                       [](Walk& walk, std::span<const double> parameters) {
                                           walk.place(Organ::Shape::disc, facing_the_screen(walk),
                                                      diameter(walk, parameters));
@@ -54,7 +54,19 @@ const Registered<Symbol> circle{
      }}};
 
 const Registered<Symbol> surface{
-    {"~*", {}, "~x(scale) or ~x(sx, sy, sz): draw the surface x and move to its end point", place_surface}};
+    {"~*",
+     {},
+     "~x(scale) or ~x(sx, sy, sz): draw the surface x, scaled along left, heading and up; then move to its end point",
+     place_surface}};
+
+const Registered<SymbolGroup> organs_group{
+    {"organs",
+     "discs, spheres and surfaces",
+     {"@o", "@c", "@O", "@bo", "@bc", "~*"},
+     "Diameters are in metres, times the scale; without parameter the line width.\n"
+     "A surface x is described by the view file, or is a rhombus without one. ~x(sx, sy, sz) scales it "
+     "along left, heading and up; the turtle moves to its end point.",
+     "axiom: !(0.04) F(1) [-(90) @c(0.4)] F(1) [-(90) f(0.4) @O(0.4)] F(1) ~l(0.7)"}};
 
 }  // namespace
 }  // namespace espalier::turtle

@@ -31,5 +31,16 @@ const Registered<Symbol> draw{
          walk.draw_patch(parameters[0], divided ? parameters[1] : 5, divided ? parameters[2] : 5);
      }}};
 
+const Registered<SymbolGroup> patches_group{
+    {"patches",
+     "patches of sixteen control points",
+     {"@PS", "@PC", "@PD"},
+     "A control point that is not set lies where the patch was begun. Rows and columns count from 0, or "
+     "from 1 in a model that uses a 4 and no 0.",
+     "derivation length: 17\n"
+     "axiom: @PS(1) P(0)\n"
+     "P(k) : k < 16 --> [ f(floor(k / 4)) -(90) f(k % 4) &(90) f(sin(70 * k)) @PC(1, floor(k / 4), k % 4) ] P(k + 1)\n"
+     "P(k) --> @PD(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

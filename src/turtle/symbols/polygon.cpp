@@ -33,16 +33,25 @@ const Registered<Symbol> close{
          walk.close_polygon();
      }}};
 
-const Registered<Symbol> vertex{
-    {".",
-     {},
-     ".: mark a vertex of the open polygon where the turtle is; .(strips): a control point of the open "
-     "cylinder",
-     [](Walk& walk, std::span<const double> parameters) {
-         if (!parameters.empty()) return walk.control_point(parameters[0]);
-         if (walk.in_cylinder_braces()) return walk.control_point({});
-         walk.record_vertex();
-     }}};
+const Registered<Symbol> vertex{{".",
+                                 {},
+                                 ".: mark a vertex of the open polygon where the turtle is, unless the last one is "
+                                 "there; .(strips): a control point of the open "
+                                 "cylinder",
+                                 [](Walk& walk, std::span<const double> parameters) {
+                                     if (!parameters.empty()) return walk.control_point(parameters[0]);
+                                     if (walk.in_cylinder_braces()) return walk.control_point({});
+                                     walk.record_vertex();
+                                 }}};
+
+const Registered<SymbolGroup> polygon_group{
+    {"polygon",
+     "polygons",
+     {"{", "}", "."},
+     "Polygons can be nested: vertices belong to the innermost open one. A polygon may extend across "
+     "branches; it has the colours and texture of its first vertex.\n"
+     "With a parameter, braces and points make a generalized cylinder.",
+     "axiom: !(0.06) F(1) { +(30) f(1) -(60) f(1) -(120) f(1) }"}};
 
 }  // namespace
 }  // namespace espalier::turtle

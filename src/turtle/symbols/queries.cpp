@@ -50,5 +50,14 @@ const Registered<Symbol> communication{
      ask,
      asks}};
 
+const Registered<SymbolGroup> queries_group{
+    {"queries",
+     "asks the turtle and the environment",
+     {"?P", "?H", "?L", "?U", "?Q", "s", "?E"},
+     "The answers are written into the parameters, where the next step finds them. Vectors of two "
+     "parameters leave z out.\n"
+     "A query in a homomorphism is not sent.",
+     "axiom: F(2) ?P(0, 0, 0) +(90) ?H(0, 0, 0)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

@@ -76,5 +76,17 @@ const Registered<Symbol> absolute{{"@R",
                                    "@R(x, y, z, ux, uy, uz): head to (x, y, z), up (ux, uy, uz) if perpendicular",
                                    set_heading}};
 
+const Registered<SymbolGroup> rotation_group{
+    {"rotation",
+     "turns the turtle",
+     {"+", "-", "&", "^", "/", "\\", "|", "@v", "@R"},
+     "Angles are in degrees; without parameter the turtle turns by the default angle, 45 unless the scene "
+     "or the view file says otherwise.\n"
+     "Heading, left and up are H = (0, 1, 0), L = (-1, 0, 0) and U = (0, 0, -1) at the beginning, so that "
+     "U = L x H.\n"
+     "@R leaves z out as 0; a zero vector means straight up. Up is set only if it is perpendicular to the "
+     "heading; otherwise the turtle twists least.",
+     "axiom: !(0.06) F(1) [+(30) F(1)] [-(30) F(1)] /(90) [&(50) F(1)] [^(50) F(1)] \\(45) F(1) @R(1, 0, 0) F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

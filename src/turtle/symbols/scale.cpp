@@ -27,5 +27,12 @@ const Registered<Symbol> divide{{"@Dd",
                                      walk.set_scale(walk.turtle().scale / factor(walk, parameters));
                                  }}};
 
+const Registered<SymbolGroup> scale_group{
+    {"scale",
+     "scale of lengths and widths",
+     {"@D", "@Di", "@Dd"},
+     "All lengths, widths and sizes of organs that follow are multiplied by the scale.",
+     "axiom: !(0.1) F(1) @D(0.5) !(0.1) F(1) @Di(3) !(0.1) F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

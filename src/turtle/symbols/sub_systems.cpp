@@ -17,5 +17,17 @@ const Registered<Symbol> leave{
          walk.leave_system();
      }}};
 
+const Registered<SymbolGroup> sub_systems_group{
+    {"sub-systems",
+     "enters and leaves sub-L-systems",
+     {"?", "$"},
+     "A model with several numbered L-systems uses the productions of system `id` between ? and $.",
+     "derivation length: 4\n"
+     "axiom: !(0.06) F(1) [+(40) ?(2, 0.5) B $] F(1)\n"
+     "endlsystem\n"
+     "\n"
+     "lsystem: 2\n"
+     "B --> F(1) [+(30) F(1)] -(30) B"}};
+
 }  // namespace
 }  // namespace espalier::turtle

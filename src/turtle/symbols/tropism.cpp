@@ -103,5 +103,15 @@ const Registered<Symbol> older{
          elasticity = parameters.empty() ? elasticity + walk.settings().elasticity_increment : parameters[0];
      }}};
 
+const Registered<SymbolGroup> tropism_group{
+    {"tropism",
+     "bends the turtle",
+     {"@Ts", "@Ti", "@Td", "@T", "@Th", "@Tv", "_"},
+     "Tropisms are numbered from 1, in the order of the view file or of the scene. Before each drawn "
+     "segment the heading turns towards the tropism by its elasticity times the sine of the angle between, "
+     "in radians.\n"
+     "A negative strength turns away. The older tropism acts after every move.",
+     "axiom: !(0.06) +(80) F(1) @Th(0, 1, 0, 0.5) F(1) @Th(0, 1, 0, 0.5) F(1) @Th(0, 1, 0, 0.5) F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

@@ -25,5 +25,13 @@ const Registered<Symbol> narrower{
          change_width(walk, parameters, -walk.settings().line_width_increment);
      }}};
 
+const Registered<SymbolGroup> width_group{
+    {"width",
+     "line widths",
+     {"#", "!"},
+     "Widths are in metres, the thickness of what is drawn from here on, times the scale; at least 1e-7. A "
+     "line without a width is drawn thin.",
+     "axiom: !(0.2) F(1) !(0.1) F(1) #(0.3) F(1)"}};
+
 }  // namespace
 }  // namespace espalier::turtle

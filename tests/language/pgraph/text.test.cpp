@@ -182,7 +182,8 @@ TEST_CASE("A graph without its version, or of another, is refused", "[pgraph]") 
 
 TEST_CASE("The notation prints every key of every component with its range and default", "[pgraph]") {
     const std::string help = registered<NotationType>().at("pgraph")->help;
-    for (const char* line : {"Horn: ", "Phiball: ", "  divergence ", "-180..180", "default 137.50776405"}) {
+    for (const char* line :
+         {"Horn: ", "Phiball: ", "  divergence    137.50776405 degrees; ", "0 degrees, -180 to 180; "}) {
         CHECK_THAT(help, Catch::Contains(line));
     }
 }
