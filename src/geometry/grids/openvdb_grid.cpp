@@ -1,5 +1,12 @@
 #include "espalier/geometry/openvdb_grid.h"
 
+namespace openvdb::OPENVDB_VERSION_NAME {
+template class tree::InternalNode<tree::LeafNode<float, 3>, 4>;
+template class tree::InternalNode<tree::InternalNode<tree::LeafNode<float, 3>, 4>, 5>;
+template class tree::Tree<FloatTree::RootNodeType>;
+template class Grid<FloatTree>;
+}  // namespace openvdb::OPENVDB_VERSION_NAME
+
 namespace espalier::geometry {
 
 void initialize_openvdb() {
