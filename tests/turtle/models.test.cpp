@@ -2,10 +2,10 @@
 #include "espalier/language/reader.h"
 #include "espalier/turtle/interpretation.h"
 
+#include "base/parallel.h"
 #include "catch.h"
 
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
@@ -195,7 +195,7 @@ TEST_CASE("plants of one model are interpreted in parallel with the same result"
     const PlantGeometry expected = plant.draw().geometry;
     const auto symbols = symbol_table(*plant.model);
     std::vector<Interpretation> results(16);
-    tbb::parallel_for(std::size_t(0), results.size(), [&](std::size_t i) {
+    for_in_parallel(std::size_t(0), results.size(), [&](std::size_t i) {
         interpret(*plant.model, *symbols, plant.string, {}, &plant.derivation, {}, results[i]);
     });
     for (const Interpretation& result : results) {

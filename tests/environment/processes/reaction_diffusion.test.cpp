@@ -1,10 +1,10 @@
 #include "espalier/environment/environment_process.h"
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/parallel.h"
 #include "catch.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -92,8 +92,7 @@ struct Order {
 /// In 20 runs, behind the first 12 of 40 leaves: a divergence more than 30 degrees from 137.5 breaks the order.
 Order order_of(const std::string& text, std::uint64_t first_seed = 1) {
     std::vector<std::vector<Leaf>> runs(20);
-    tbb::parallel_for(std::size_t{0}, runs.size(),
-                      [&](std::size_t i) { runs[i] = leaves_of(text, first_seed + i, 40); });
+    for_in_parallel(std::size_t{0}, runs.size(), [&](std::size_t i) { runs[i] = leaves_of(text, first_seed + i, 40); });
     Order order;
     for (const auto& leaves : runs) {
         for (double turn : divergences(leaves, 12)) {

@@ -1,6 +1,7 @@
 #include "espalier/base/file.h"
 #include "espalier/environment/shape.h"
 
+#include "base/parallel.h"
 #include "catch.h"
 #include "environment/shapes/mesh_files.h"
 #include "environment/shapes/tables.h"
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ TEST_CASE("mesh distances are the same bits with one thread and with many", "[sh
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const auto mesh = shape_of(mesh_table(file, 0.03));
         std::vector<double> result(points.size());
-        tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) { result[i] = mesh->distance(points[i]); });
+        for_in_parallel(std::size_t{0}, points.size(), [&](std::size_t i) { result[i] = mesh->distance(points[i]); });
         return result;
     };
     CHECK(distances(1) == distances(4));

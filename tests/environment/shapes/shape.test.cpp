@@ -1,5 +1,6 @@
 #include "espalier/environment/shape.h"
 
+#include "base/parallel.h"
 #include "catch.h"
 #include "environment/shapes/tables.h"
 
@@ -7,7 +8,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -293,8 +293,7 @@ TEST_CASE("distances are the same bits with one thread and with many", "[shape]"
     const auto distances = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         std::vector<double> result(points.size());
-        tbb::parallel_for(std::size_t{0}, points.size(),
-                          [&](std::size_t i) { result[i] = shape->distance(points[i]); });
+        for_in_parallel(std::size_t{0}, points.size(), [&](std::size_t i) { result[i] = shape->distance(points[i]); });
         return result;
     };
     CHECK(distances(1) == distances(4));
