@@ -52,7 +52,7 @@ struct ServerState {
     std::string token;
     int port = 0;
     Session* session = nullptr;  ///< null once the studio ends: connections go after it
-    std::deque<std::weak_ptr<Stranger>> strangers;
+    std::deque<std::weak_ptr<Stranger>> strangers = {};
     std::size_t pages = 0;
 
     /// Whoever comes may make the one who has waited longest go, so that no stranger keeps the owner out.
