@@ -53,14 +53,29 @@ path scene_of(const std::string& kind, const std::string& name) {
     throw std::runtime_error("no scene shows the part " + name);
 }
 
-void make_process(const ProcessType& type, Settings& table, const Settings& scene) {
-    EnvironmentContext context{.name = "probed", .domain = {}, .seed = 1, .plants = 1};
+const ProcessType& process_of(const Settings& table) {
+    return *registered<ProcessType>().at(table.text_or("process", ""));
+}
+
+/// With what stands before it in the scene, whose fields it may need.
+void make_process(const std::string& key, Settings& table, const Settings& scene) {
+    EnvironmentContext context{.name = {}, .domain = {}, .seed = 1, .plants = 1};
     const Settings simulation = scene.table("simulation");
     if (simulation.has("domain")) {
         context.domain = Box{simulation.table("domain").vector("lower"), simulation.table("domain").vector("upper")};
     }
     Fields fields;
-    type.make(table, context, fields);
+    std::vector<std::unique_ptr<EnvironmentProcess>> before;
+    const Settings environment = scene.table("environment");
+    for (const std::string& other : environment.keys()) {
+        if (other == key) break;
+        if (!environment.is_table(other)) continue;
+        Settings earlier = environment.table(other);
+        context.name = other;
+        before.push_back(process_of(earlier).make(earlier, context, fields));
+    }
+    context.name = "probed";
+    process_of(table).make(table, context, fields);
 }
 
 std::vector<Probe> probes() {
@@ -71,7 +86,7 @@ std::vector<Probe> probes() {
         for (const std::string& key : environment.keys()) {
             if (!environment.is_table(key) || environment.table(key).text_or("process", "") != name) continue;
             all.push_back({"process", name, type->help, "environment." + key, scene,
-                           [type = type](Settings& table, const Settings& of) { make_process(*type, table, of); }});
+                           [key](Settings& table, const Settings& of) { make_process(key, table, of); }});
             break;
         }
     }

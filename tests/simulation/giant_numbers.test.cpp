@@ -54,6 +54,7 @@ std::vector<ObjectFiles> objects(const TemporaryFolder& folder) {
     std::vector<ObjectFiles> all;
     for (const char* const name : {"species", "pgraph", "sdl"}) {
         for (const auto& entry : fs::directory_iterator(project / "models" / name)) {
+            if (entry.path().extension() == ".md") continue;
             ObjectFiles& object = all.emplace_back();
             object.model = entry.path();
         }

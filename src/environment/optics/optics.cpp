@@ -143,7 +143,8 @@ materials     [[materials]] tables: leaves (and stems) of some colours have opti
   name        what messages call it
   colours     [4, 5]: the turtle's colours that it is drawn in; without, it is the material of all other leaves. A leaf
               whose colour no material names is refused, unless there are no materials at all
-  par, nir    [reflectance, transmittance] for each band by its name; par_back, nir_back for light on the back
+  par, nir    reflectance and transmittance in the band of this name, as in par = [0.1, 0.05]; par_back and nir_back are for
+              light that falls on the back
 soil_map      { picture = "soil.png", corner = [0, 0], size = [1, 1] }: between black and white the soil goes from `soil`
               to `soil_bright`; the picture covers size metres along x and z from its corner on, and is repeated
 )";

@@ -259,18 +259,21 @@ const char* const help =
     R"(The water of each plant's roots in a soil-water with model = "richards", which stands before it in
 the scene. Internodes below the soil's surface are roots.
 
-soil           "water": the name of that process
-radial         1/d, conductivity of the root's surface, per cm of head: a number, or a curve
-axial          cm3/d, conductance along the root times length: a number, or a curve
-               { at = [0, 10, 30], values = [1.7e-4, 1e-4, 2e-5] }: linear between its points
-along          "age" (days, default) or "distance from tip" (cm): what curves are read along
-orders         [ { radial, axial }, ... ]: by order of branching, the last stands for all higher ones
-collar         required: { head = -1000 } cm, or { transpiration = 5, limit = -15000, by_day = false }: a demand in cm3/d for each
-               plant as long as the collar's head is above `limit` (cm); by_day: from 6 to 18 o'clock, as a sine of that mean.
-               head and transpiration may be { file = "weather.csv", column = "..." }
-zone           true: the soil around each root is a hollow cylinder in which water moves at a steady rate
-model          "network" (default); "feddes": the demand shared by length of roots, reduced where the soil is dry or full,
-               heads = [-10, -25, -800, -16000] cm; "couvreur": by the fractions of uniform soil, with compensation
+soil           "water"; name of the process whose soil the roots are in
+radial         1/d, conductivity of a root's surface per cm of head, for all orders: a number, or a curve
+               { at = [0, 10, 30], values = [1.7e-4, 1e-4, 2e-5] }, linear between its points
+axial          cm3/d, conductance along a root times its length, for all orders: a number, or a curve
+along          "age", or "distance from tip"; what curves are read along, in days or cm
+orders         []; tables { radial, axial } by the order of branching, the last of which stands for all higher orders
+collar         required; what happens at the collar: a head, or a demand
+    head       pressure head at the collar, cm, or { file = "weather.csv", column = "..." }
+    transpiration  demand of each plant as long as the collar is above `limit`, cm3/d, or a column of a file
+    limit      lowest pressure head of the collar, by default -15000 cm
+    by_day     true: the demand lasts from 6 to 18 o'clock, as a sine with the same mean over a day
+zone           true; the soil around each root is a hollow cylinder in which water moves at a steady rate
+model          "network", or "feddes", "couvreur"; feddes: the demand is shared by length of roots, reduced where the soil is
+               dry or full; couvreur: by the fractions of a uniform soil, with compensation
+heads          [-10, -25, -800, -16000] cm; for feddes, between which the uptake rises to its full rate, and falls
 
 ?name(a)                 -> pressure head in the internode before the query, cm
 ?name(a, b, c, d)        -> ..., uptake (cm3/d), pressure head of the soil at its surface (cm), fraction of the uptake from

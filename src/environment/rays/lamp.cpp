@@ -267,7 +267,7 @@ const std::string& lamps_help() {
   towards     [0, -1, 0]: its axis;  side  where a file's angle 0 round the axis lies, and an area's first side
   photons     umol/s of the first band; photons_nir and so on for other bands, 0
 lit_hours     24: hours of light in a day
-reference     [0, 0, 0]
+reference     [0, 0, 0] m; place on level ground with whose light of the lamps organs are compared
 )";
     return text;
 }

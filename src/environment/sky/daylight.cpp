@@ -283,8 +283,8 @@ par_share     0.5: share of PAR in the light's energy
 photons       4.57 umol per joule of PAR (McCree 1972)
 
 With par or global, the light is the same at all times:
-par           umol m-2 s-1 on open level ground; or
-global        W m-2 there, of all wavelengths
+par           PAR on open level ground, umol m-2 s-1; or
+global        light of all wavelengths there, W m-2
 sun           [0, 1, 0]: direction to the sun
 diffuse       1; share of the light that comes from the sky
 

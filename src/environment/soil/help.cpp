@@ -6,30 +6,37 @@ const char* const richards_help = R"(
 model = "richards": water with pressure and gravity. Keys domain, voxel, dimensions, obstacles, obstacle_field,
 container_field, depletion, amount, range and gradient_length are as above, and
 
-days             1: days that a unit of the scene's time stands for
-soil             required: a name, or a table
-                 { theta_r, theta_s, alpha (1/cm), n, ks (cm/d), l = 0.5 }                van Genuchten & Mualem
-                 { model = "brooks-corey", theta_r, theta_s, air_entry (cm, < 0), lambda, ks }
-                 { model = "gardner", theta_r, theta_s, alpha, ks }                       K = ks exp(alpha h)
-                 Names: sand, loamy sand, sandy loam, loam, silt, silt loam, sandy clay loam, clay loam, silty clay
-                 loam, sandy clay, silty clay, clay (Carsel & Parrish 1988); "hypres topsoil coarse" and topsoil or
-                 subsoil with coarse, medium, medium fine, fine, very fine (Woesten et al. 1999)
-soils            { name = { ... }, ... }: soils of your own by name
-initial          { head = -100 } cm, { table = y } m: hydrostatic over a water table, or { content = 0.2 }
-layers           [ { bottom, top (m, y), slope (degrees, along x), soil, initial }, ... ] that do not overlap
-regions          [ { a shape, soil, initial }, ... ]: lenses, later ones win
-map              { field = "ground", soils = ["loam", "sand"] }: a field whose value 0 is the first of the soils
-boundaries       { top, bottom, sides }
-  top            "no-flux" (default); { rain, evaporation (potential), ponding = 0, dry_limit = -10000 } with mm/d, mm/d,
-                 mm, cm; { flux } mm/d into the soil; { head } cm
-  bottom         "no-flux" (default), "free-drainage", "seepage"; { table = y } m; { head } cm; { flux } mm/d into the soil
-  sides          "closed" (default) or "periodic"
-                 Instead of a number, rain, evaporation, flux and head may be { file = "weather.csv", column = "rain" };
-                 the first column is the day from the beginning of the run
-sources          [ { a shape, rate }, ... ]: m3/m3 per day
-accuracy         0.005 m3/m3: the error in time that a substep may have
-max_substep      1 d
-wilting_head     -15000 cm: water that is held more strongly is not for queries
+days           1; days that a unit of the scene's time stands for
+soil           required; the name of a soil, or a table, of the whole domain:
+               { theta_r, theta_s, alpha (1/cm), n, ks (cm/d), l = 0.5 } is a soil of van Genuchten & Mualem,
+               { model = "brooks-corey", theta_r, theta_s, air_entry (cm, below 0), lambda, ks } of Brooks & Corey, and
+               { model = "gardner", theta_r, theta_s, alpha, ks } has K = ks exp(alpha h). Names are sand, loamy sand, sandy
+               loam, loam, silt, silt loam, sandy clay loam, clay loam, silty clay loam, sandy clay, silty clay and clay
+               (Carsel & Parrish 1988), and "hypres topsoil coarse", topsoil or subsoil with coarse, medium, medium fine,
+               fine or very fine (Woesten et al. 1999)
+soils          {}; soils of your own by their names: { mine = { theta_r = 0.05, ... } }
+initial        { head = -100 }; the water of frame 0, by one of
+    head       pressure head everywhere, cm
+    table      height of a water table over which the water hangs at rest, m
+    content    water content everywhere, m3/m3
+layers         []; tables { bottom, top (heights, m), slope (degrees, along x), soil, initial } that do not overlap
+regions        []; tables of a shape with soil and initial, such as lenses and stones; of two the later one counts
+map            none; { field = "ground", soils = ["loam", "sand"] }, where a field has the value 0 lies the first of the soils
+boundaries     {}; what happens at the sides of the domain
+    top        "no-flux" (the default), or a table with the keys rain, evaporation, ponding and dry_limit, or { flux } in mm/d
+               into the soil, or { head } in cm
+    rain       rain on the surface, mm/d
+    evaporation  potential evaporation from bare soil, mm/d; it falls behind where the surface reaches dry_limit
+    ponding    depth of water that may stand on the surface before it runs off, mm, by default 0
+    dry_limit  pressure head below which the surface does not dry, by default -10000 cm
+    bottom     "no-flux" (the default), "free-drainage", "seepage", { table } in m, { head } in cm, or { flux } in mm/d into
+               the soil
+    sides      "closed" (the default) or "periodic". Instead of a number, rain, evaporation, flux and head may be
+               { file = "weather.csv", column = "rain" }; the first column is the day from the beginning of the run
+sources        []; tables of a shape with rate, the water that is put into it, m3/m3 per day
+accuracy       0.005; error in the water content (m3/m3) that a substep may have
+max_substep    1; longest substep, days
+wilting_head   -15000 cm; water that is held more strongly is not for queries
 
 ?name(...) as above; a tenth parameter is answered the pressure head, cm.
 

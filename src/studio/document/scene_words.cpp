@@ -54,6 +54,7 @@ std::string row_of(const std::string& help, const std::string& key) {
 // Describes keys of tables within a row, which have no rows of their own.
 std::string words_of_inner_key(const std::string& key) {
     static const std::map<std::string, std::string> words{
+        {"angle", "angle by which a shape is turned, degrees"},
         {"attraction", "strength of a source that tips grow to"},
         {"base_radius", "radius of a shape at its base, metres"},
         {"begin", "value at the beginning"},
