@@ -22,7 +22,7 @@ initial        { head = -100 }; the water of frame 0, by one of
 layers         []; tables { bottom, top (heights, m), slope (degrees, along x), soil, initial } that do not overlap
 regions        []; tables of a shape with soil and initial, such as lenses and stones; of two the later one counts
 map            none; { field = "ground", soils = ["loam", "sand"] }, where a field has the value 0 lies the first of the soils
-boundaries     {}; what happens at the sides of the domain
+boundaries     closed; what happens at the sides of the domain, in a table
     top        "no-flux" (the default), or a table with the keys rain, evaporation, ponding and dry_limit, or { flux } in mm/d
                into the soil, or { head } in cm
     rain       rain on the surface, mm/d
