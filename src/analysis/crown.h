@@ -6,8 +6,9 @@
 
 namespace espalier::analysis {
 
-/// The crown is the leaves and the internodes above the first fork; a plant that has neither is its own crown. What lies
-/// below the foot of a plant that rises above it is its roots, which are no part of the crown and make no fork of it.
+/// The crown is the leaves and the internodes above the first fork; a plant that has neither is its own crown. What
+/// lies below the foot of a plant that rises above it is its roots, which are no part of the crown and make no fork of
+/// it.
 struct Crown {
     double base = 0, top = 0;         ///< heights of its lowest and highest point above the plant's foot, m
     double width_x = 0, width_z = 0;  ///< extents, m

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double most_cells = 1 << 28;
 constexpr std::uint32_t most_discs = 255;  // where discs cover what they touch
-// In parts of a cell's width: a disc that reaches into a cell by no more does not touch it. Measured: 0.022 is too little.
+// In parts of a cell's width: a disc that reaches into a cell by no more does not touch it. Measured: 0.022 is too
+// little.
 constexpr double least_touch = 0.03;
 
 }  // namespace
@@ -47,7 +48,8 @@ std::optional<std::size_t> GroundGrid::cell(const glm::dvec2& place) const {
     return static_cast<std::size_t>(index(1) * size_[0] + index(0));
 }
 
-// Returns the distance of a place from what must be inside a disc: the centre of the cell, or any point of it but its rim.
+// Returns the distance of a place from what must be inside a disc: the centre of the cell, or any point of it but its
+// rim.
 double GroundGrid::distance(int axis, std::int64_t index, double place) const {
     const double edge = range_[axis] / static_cast<double>(size_[axis]);
     const double centre = lower_[axis] + edge * (static_cast<double>(index) + 0.5);

@@ -17,8 +17,8 @@ class GroundGrid {
 public:
     enum class Rule {
         centres,  ///< discs cover the cells whose centres they contain, and a cell has the pixel over its centre
-        touched,  ///< discs cover the cells that they touch by more than 0.03 of their width; corner cells have the corner
-                  ///< pixels; counts end at 255
+        touched,  ///< discs cover the cells that they touch by more than 0.03 of their width; corner cells have the
+                  ///< corner pixels; counts end at 255
     };
 
     /// Reads `grid size`, `grid position`, `grid range` and `input image`. Throws UserError if the grid is larger than

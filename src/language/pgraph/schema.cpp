@@ -124,7 +124,8 @@ std::vector<ComponentType> make_types() {
     types.push_back({"Hydra", "multiplies its children as a star about the axis",
                      joined({multiplier("5", "45"), placing(), recursion()}), true});
     types.push_back({"Ring", "multiplies its children on a circle about the axis",
-                     joined({multiplier("5", "0"), radius("1", "radius of the circle"), placing(), recursion()}), true});
+                     joined({multiplier("5", "0"), radius("1", "radius of the circle"), placing(), recursion()}),
+                     true});
     types.push_back(
         {"Phiball", "multiplies its children on a section of a sphere by the golden section",
          joined({multiplier("100", "0"),

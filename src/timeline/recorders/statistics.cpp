@@ -130,7 +130,8 @@ private:
 const Registered<RecorderType> entry{
     {"statistics", "statistics.csv: a row per step and plant",
      "statistics  true; false: the file is not written\n"
-     "quantities  {}; columns of your own, as { mass = \"sum(Stem.2)\" }: the sum, mean, min, max or count of a parameter\n"
+     "quantities  {}; columns of your own, as { mass = \"sum(Stem.2)\" }: the sum, mean, min, max or count of a "
+     "parameter\n"
      "            over the modules of a plant; parameters are counted from 1",
      [](Settings& settings, const RecorderContext& context) -> std::unique_ptr<Recorder> {
          if (!settings.flag_or("statistics", true)) return nullptr;
