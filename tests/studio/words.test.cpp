@@ -5,6 +5,7 @@
 #include "catch.h"
 #include "studio/document/scene_words.h"
 #include "studio/document/written_numbers.h"
+#include "studio/session/notation_help.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,4 +89,11 @@ TEST_CASE("words of a key are the first sentence of its row, which may go on in 
     CHECK(words_of_key(help, "voxel") == "m, 0.5; edge of a voxel");
     CHECK(words_of_key(help, "depth") == "6; number of layers below");
     CHECK(words_of_key(help, "full_light") == "full_light");
+}
+
+TEST_CASE("every word of skeletons is explained to the page", "[studio]") {
+    for (const HelpEntry& entry : words_of_languages().at("sdl")) {
+        INFO(entry.name);
+        CHECK_FALSE(entry.summary.empty());
+    }
 }

@@ -2,6 +2,7 @@
 
 #include "espalier/language/notation.h"
 
+#include "base/part_help.h"
 #include "base/text.h"
 #include "language/parser/keywords.h"
 #include "language/sdl/parser.h"
@@ -50,21 +51,28 @@ Entries species() {
     return list;
 }
 
-// What the help of the notation says of a word: the phrase that it begins.
-std::string phrase_of(const std::string& word, const std::string& help, char end) {
+// What the help of the notation says of a word: the line that it begins.
+std::string phrase_of(const std::string& word, const std::string& help) {
     const std::size_t begin = help.find(word);
     if (begin == std::string::npos) return "";
-    return help.substr(begin, help.find_first_of(std::string("\n") + end, begin) - begin);
+    return help.substr(begin, help.find('\n', begin) - begin);
+}
+
+std::string meaning_of(const std::string& setting, const std::string& help) {
+    for (const HelpRow& row : parameters_of(help)) {
+        if (row.name == setting) return row.meaning;
+    }
+    return "";
 }
 
 Entries skeletons() {
     Entries list;
     const std::string& help = registered<NotationType>().at("sdl")->help;
     for (const char* block : {"define", "rules", "fibres", "generations"}) {
-        list.push_back({block, phrase_of(block, help, '\n'), ""});
+        list.push_back({block, phrase_of(block, help), ""});
     }
     for (const std::string& name : language::sdl::fibre_settings()) {
-        list.push_back({name, phrase_of(name, help.substr(help.find("flat;")), ';'), ""});
+        list.push_back({name, meaning_of(name, help), ""});
     }
     return list;
 }
