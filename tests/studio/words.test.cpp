@@ -92,7 +92,8 @@ TEST_CASE("words of a key are the first sentence of its row, which may go on in 
 }
 
 TEST_CASE("every word of skeletons is explained to the page", "[studio]") {
-    for (const HelpEntry& entry : words_of_languages().at("sdl")) {
+    const auto words = words_of_languages();
+    for (const HelpEntry& entry : words.at("sdl")) {
         INFO(entry.name);
         CHECK_FALSE(entry.summary.empty());
     }
