@@ -7,8 +7,6 @@
 namespace espalier::language::pgraph {
 namespace {
 
-constexpr int sides_of_cylinder = 32;
-
 /// A rectangle around which the turtle goes, turning to one side; it has moved out along up to where the face is.
 std::string rectangle(const std::string& along, const std::string& across, char turn) {
     return fmt::format("{{ . f({0}) {2}(90) f({1}) {2}(90) f({0}) {2}(90) f({1}) }}", along, across, turn);
@@ -38,10 +36,10 @@ struct Shape {
     std::string drawn;
 };
 
-Shape shape_of(const std::string& name) {
-    if (name == "sphere") return {{"radius"}, "@O(2 * radius)"};
+Shape shape_of(const std::string& name, const std::string& sides) {
+    if (name == "sphere") return {{"radius"}, fmt::format("@!({}) @O(2 * radius)", sides)};
     if (name == "cylinder") {
-        return {{"length", "radius"}, fmt::format("@!({}) !(2 * radius) @Gs f(length) @Ge(1)", sides_of_cylinder)};
+        return {{"length", "radius"}, fmt::format("@!({}) !(2 * radius) @Gs f(length) @Ge(1)", sides)};
     }
     if (name == "box") return {{"length", "width", "depth"}, box()};
     return {{}, "*"};
@@ -64,7 +62,8 @@ std::vector<std::string> keys_of_place(const std::string& type) {
 }  // namespace
 
 void write_simple(ComponentText& text) {
-    const Shape shape = shape_of(value_of(text.component(), "shape").parts.front());
+    const Shape shape =
+        shape_of(value_of(text.component(), "shape").parts.front(), value_of(text.component(), "sides").parts.front());
     const Parameters parameters = text.parameters(shape.keys);
     text.productions.push_back(fmt::format("{}({}) --> {}{}{}", text.bud(), text.place(), text.placing(),
                                            ComponentText::call(text.kept(), values_of(parameters)),

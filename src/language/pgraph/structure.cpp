@@ -199,7 +199,8 @@ const Component* Structure::world_of(const std::string& component) const {
 }
 
 int sides_of(const Component& component) {
-    const bool has_axis = find_type(component.type)->find("sides") != nullptr;
+    const ComponentType& type = *find_type(component.type);
+    const bool has_axis = type.find("sides") && type.find("pieces");
     return has_axis ? std::stoi(value_of(component, "sides").parts.front()) : 0;
 }
 
