@@ -61,6 +61,7 @@ void review_scene(const Scene& scene, Findings& findings) {
     const World world(scene);
     const TemporaryFolder folder("check");  // for the recorders to be made in
     const Timeline timeline(folder.path(), scene.timeline, world.last_step());
+    timeline.require(world.environment().fields());
     std::set<const CompiledModel*> seen;
     for (const Plant& plant : scene.plants) {
         if (seen.insert(plant.model.get()).second) review_model(plant.model, findings);

@@ -256,6 +256,46 @@ TEST_CASE_METHOD(Workplace, "checking a scene grows nothing and leaves nothing",
     CHECK_FALSE(std::filesystem::exists(path() / "output"));
 }
 
+TEST_CASE_METHOD(Workplace, "check finds a field that no process has, as a run does, with the nearest name", "[app]") {
+    write("bush.l", models::bush);
+    const std::string scene =
+        "[[plant]]\nmodel = 'bush.l'\n[environment.light]\nprocess = 'voxel-shade'\nvoxel = 0.5\n";
+    write("scene.toml", scene + "[timeline]\nfields = ['lihgt']\n");
+    for (const char* command : {"check scene.toml", "run scene.toml"}) {
+        const Outcome outcome = run(command);
+        CHECK(outcome.code != 0);
+        CHECK_THAT(outcome.err, Contains("scene.toml:7:1") && Contains("no field 'lihgt' (did you mean 'light'?)"));
+    }
+    for (const char* fields : {"['light', 'light.shade']", "['all']", "[]"}) {
+        write("scene.toml", scene + "[timeline]\nfields = " + fields + "\n");
+        CHECK(run("check scene.toml").code == 0);
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "a wrong name of a process is answered with the nearest one", "[app]") {
+    write("bush.l", models::bush);
+    for (const auto& [wrong, right] : {std::pair{"voxel-shde", "voxel-shade"},
+                                       {"soilwater", "soil-water"},
+                                       {"cannopy-light", "canopy-light"},
+                                       {"desity", "density"}}) {
+        write("scene.toml", fmt::format("[[plant]]\nmodel = 'bush.l'\n[environment.light]\nprocess = '{}'\n", wrong));
+        const Outcome outcome = run("check scene.toml");
+        CHECK(outcome.code != 0);
+        CHECK_THAT(outcome.err,
+                   Contains("scene.toml:4:1") && Contains(fmt::format("'{}' (did you mean '{}'?)", wrong, right)));
+    }
+}
+
+TEST_CASE_METHOD(Workplace, "a polygon within a polygon is warned of, and grows all the same", "[app]") {
+    write("leaf.l",
+          "lsystem: 1\nderivation length: 1\naxiom: A\nA --> {.f+(90)f{.+(90)f+(90)f.}+(90)f.}\nendlsystem\n");
+    const Outcome checked = run("check leaf.l");
+    CHECK(checked.code == 0);
+    CHECK_THAT(checked.out + checked.err, Contains("leaf.l:4") && Contains("begins within another one"));
+    CHECK(run("run leaf.l --output leaf --quiet").code == 0);
+    CHECK(run("derive leaf.l").code == 0);
+}
+
 TEST_CASE_METHOD(Workplace, "list documents what is registered", "[app]") {
     CHECK_THAT(run("list").out, Contains("processes") && Contains("symbols") && Contains("recorders"));
     CHECK_THAT(run("list processes").out, Contains("voxel-shade") && Contains("soil-water") && Contains("shape"));

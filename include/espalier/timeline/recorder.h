@@ -49,6 +49,8 @@ public:
     virtual std::vector<std::string> fields() const { return {}; }
     /// What it reads of organs, as processes call it: "light.absorbed". Asked for once, as fields().
     virtual std::vector<std::string> organs() const { return {}; }
+    /// Throws UserError if `fields` lacks one that it reads. For those who want to know before the first frame.
+    virtual void require(const Fields&) const {}
     /// The frame is gone when this returns. Copies of its plants keep their values, and grids of fields may be kept.
     virtual void record(const Frame& frame) = 0;
     /// After the last frame, also of an interrupted or failed run; frees what is not needed any more.

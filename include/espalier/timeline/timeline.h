@@ -30,6 +30,8 @@ public:
     const std::filesystem::path& folder() const { return folder_; }
     /// One of its recorders does.
     bool reads_plants() const override;
+    /// All its recorders find the fields that they read.
+    void require(const Fields& fields) const override;
     /// Exactly these steps become frames, instead of those that the table's `first` and `every` choose.
     void choose(FrameSelection frames);
     /// Frames come in the order of their steps. Recorders see those chosen; by `first` and `every` the run's last one

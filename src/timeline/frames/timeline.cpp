@@ -155,6 +155,10 @@ bool Timeline::reads_plants() const {
                        [](const auto& recorder) { return recorder->reads_plants(); });
 }
 
+void Timeline::require(const Fields& fields) const {
+    for (const auto& recorder : recorders_) recorder->require(fields);
+}
+
 void Timeline::choose(FrameSelection frames) {
     frames_ = std::move(frames);
     if (!resumed_) next_ = frames_.first;

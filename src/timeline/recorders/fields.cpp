@@ -39,6 +39,21 @@ public:
 
     bool reads_plants() const override { return false; }
     std::vector<std::string> fields() const override { return names_; }
+    void require(const Fields& fields) const override {
+        const std::vector<std::string> known = names_of(fields);
+        for (const std::string& name : names_) {
+            if (!fields.find(name) && names_ != std::vector<std::string>{"all"}) {
+                throw UserError(place_,
+                                fmt::format("there is no field '{}'{}; the fields of this scene are: {}", name,
+                                            did_you_mean(name, known),
+                                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+            }
+            if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
+                throw UserError(place_,
+                                fmt::format("field '{}' cannot be recorded: its name must serve as a folder's", name));
+            }
+        }
+    }
     bool wanted() const { return !names_.empty() && (vti_ || vdb_); }
 
     void record(const Frame& frame) override {
@@ -87,23 +102,16 @@ private:
         std::uint64_t digest = 0;  ///< digest of the grid, all that a checkpoint holds of it
     };
 
+    static std::vector<std::string> names_of(const Fields& fields) {
+        std::vector<std::string> names;
+        for (const auto& [name, field] : fields.all()) names.push_back(name);
+        return names;
+    }
+
     // At the first frame every process has provided its fields.
     void find_fields(const Fields& fields) {
-        std::vector<std::string> known;
-        for (const auto& [name, field] : fields.all()) known.push_back(name);
-        if (names_ == std::vector<std::string>{"all"}) names_ = known;
-        for (const std::string& name : names_) {
-            if (!fields.find(name)) {
-                throw UserError(place_,
-                                fmt::format("there is no field '{}'{}; the fields of this scene are: {}", name,
-                                            did_you_mean(name, known),
-                                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
-            }
-            if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos) {
-                throw UserError(place_,
-                                fmt::format("field '{}' cannot be recorded: its name must serve as a folder's", name));
-            }
-        }
+        if (names_ == std::vector<std::string>{"all"}) names_ = names_of(fields);
+        require(fields);
         written_ = restored_;
         written_.resize(names_.size());
     }
