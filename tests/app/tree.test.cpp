@@ -103,7 +103,9 @@ json measures_of(const Workplace& place, const std::string& folder) {
 
 }  // namespace
 
-TEST_CASE_METHOD(Workplace, "trees of all presets have branching ratios from 3 to 5 and pipe exponents from 1.8 to 2.3",
+// Two in nine decurrent trees have 5.7: one order less of the same tree.
+TEST_CASE_METHOD(Workplace,
+                 "a tree of each preset has a branching ratio from 3 to 5 and a pipe exponent from 1.8 to 2.3",
                  "[tree]") {
     int seed = 90;
     for (const char* preset : {"decurrent", "excurrent", "flat", "gnarly", "orchard", "shrub", "weeping"}) {

@@ -148,7 +148,8 @@ parameters       none; a file with these keys in words, as cpfg's program densit
 numbers          "exact", or "cpfg"; exact: a is from -180 to 180; cpfg (the default with `parameters` and in .e
                  files): a is from 0 to 360, or 90 where nothing falls; the query itself adds nothing; m is a sixth of
                  the fall between the middle ones of the 36 places, 0.2 apart, unless one_point_value is true;
-                 return_vector does nothing
+                 return_vector does nothing. That a turns towards +y is assumed: of cpfg's program only answers along x
+                 are known
 
 Time grows with the square of the number of queries. Statistics of a plant: mean, min, max of r, queries.
 )",

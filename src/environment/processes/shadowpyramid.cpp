@@ -201,7 +201,9 @@ parameters          none; a file with these keys in words, as cpfg's program sha
 verbose             accepted and ignored: the messages of cpfg's program
 numbers             "exact", or "cpfg"; cpfg (the default with `parameters` and in .e files): the grid reaches from 0 to
                     2 X in y, a caster's height in voxels is cut off instead of rounded, and the gradient is the
-                    difference of the light over the two sample radii, not per metre
+                    difference of the light over the two sample radii, not per metre. Full light
+                    below the grid is assumed: within the sample radius above its lower border, the y of the gradient
+                    differs from that of cpfg's program
 
 Outside the grid is full light. Field: name (the light). Statistics of a plant: mean, min, max of the light, queries.
 )",
