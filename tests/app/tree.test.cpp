@@ -2,6 +2,7 @@
 #include "espalier/archive/recorded_run.h"
 
 #include "catch.h"
+#include "formats/silhouette.h"
 #include "program.h"
 
 #include <fmt/format.h>
@@ -318,6 +319,32 @@ TEST_CASE_METHOD(Nursery, "tubes have three sides unless told otherwise", "[tree
     CHECK(triangles("--sides 6") > 1.8 * triangles(""));
     CHECK(triangles("--sides 3") == triangles(""));
     CHECK(triangles("--sides 12 --triangles 400") <= 440);
+}
+
+TEST_CASE_METHOD(Workplace, "bare trees of six sides keep nine tenths of their silhouette with half of the triangles",
+                 "[tree]") {
+    const auto tree = [&](const std::string& options, const std::string& name) {
+        const std::string out = run("tree --json --quiet --leaves 0 --sides 6 " + options + " --output " + name).out;
+        return json::parse(out)["files"][0]["triangles"].get<std::size_t>();
+    };
+    int seed = 7103;
+    for (const std::string preset : {"", "decurrent", "excurrent", "flat", "shrub"}) {
+        const std::string name = preset + "x";
+        const std::string options = fmt::format("{} --seed {}", preset.empty() ? "" : "--preset " + preset, ++seed);
+        const std::size_t whole = tree(options, name + ".obj");
+        tree(options + fmt::format(" --triangles {}", whole / 2), name + "-half.obj");
+        const espalier::ObjFile before(path() / (name + ".obj")), after(path() / (name + "-half.obj"));
+        INFO(options << ": " << whole << " to " << after.faces.size());
+        CHECK(after.faces.size() <= whole / 2);
+        double top = 0;
+        for (const glm::dvec3& point : before.points) top = std::max({top, point.y, std::abs(point.x)});
+        for (const int right : {0, 2}) {
+            const auto outline = [&](const espalier::ObjFile& mesh) {
+                return espalier::Silhouette(mesh, right, 1, {0, top / 2, 0}, 1.1 * top);
+            };
+            CHECK(outline(before).overlap(outline(after)) >= 0.89);
+        }
+    }
 }
 
 TEST_CASE_METHOD(Workplace, "a run takes the settings of tree, and the tree by default warns of nothing", "[app]") {
