@@ -56,6 +56,7 @@ void Richards::save(std::ostream& out) const {
     out.write(reinterpret_cast<const char*>(&balance_), sizeof balance_);
     out.write(reinterpret_cast<const char*>(&rates_), sizeof rates_);
     out.write(reinterpret_cast<const char*>(&forcing_), sizeof forcing_);
+    movement_.save(out);
 }
 
 void Richards::restore(std::istream& in) {
@@ -70,6 +71,7 @@ void Richards::restore(std::istream& in) {
     in.read(reinterpret_cast<char*>(&balance_), sizeof balance_);
     in.read(reinterpret_cast<char*>(&rates_), sizeof rates_);
     in.read(reinterpret_cast<char*>(&forcing_), sizeof forcing_);
+    movement_.restore(in);
     measure();
 }
 
