@@ -26,17 +26,20 @@ double harmonic(double a, double b) {
 /// The cells along an axis.
 struct SoluteTransport::Line {
     const SoilLayout& layout;
-    int count;
+    int along, count;
     bool joined;
     std::ptrdiff_t stride;
 
     Line(const SoilLayout& soil, int axis)
         : layout(soil),
+          along(axis),
           count(soil.grid().size()[axis]),
           joined(axis == 0 ? soil.joined_x() : axis == 2 && soil.joined_z()),
           stride(axis == 0
                      ? 1
                      : static_cast<std::ptrdiff_t>(soil.grid().stride()) * (axis == 1 ? 1 : soil.grid().size().y)) {}
+
+    bool vertical() const { return along == 1; }
 
     /// The free cell so many places on, or `nowhere`.
     std::size_t beyond(std::size_t cell, int place, int steps) const {
@@ -142,13 +145,19 @@ int SoluteTransport::parts(const SoilMovement& movement, const WaterBrick& conte
 }
 
 double SoluteTransport::face_concentration(const Line& line, std::size_t cell, std::size_t next, int place,
-                                           double water) const {
+                                           double water, const SoluteSides& sides) const {
     const bool onward = water > 0;
     const std::size_t from = onward ? cell : next, to = onward ? next : cell;
     const std::size_t behind = onward ? line.beyond(cell, place, -1) : line.beyond(cell, place, 2);
-    if (behind == nowhere) return concentration[from];
-    return concentration[from] +
-           limited_half(concentration[from] - concentration[behind], concentration[to] - concentration[from]);
+    const bool at_side = line.vertical() && (onward ? place == 0 : place + 2 == line.count);
+    if (behind == nowhere && !at_side) return concentration[from];
+    // What comes in at a side is known on its face, half a voxel behind.
+    const double beyond_side =
+        onward ? sides.held_bottom.value_or(sides.entering_bottom) : sides.held_top.value_or(sides.entering_top);
+    const double difference =
+        behind == nowhere ? 2 * (concentration[from] - beyond_side) : concentration[from] - concentration[behind];
+    const double ahead = concentration[to] - concentration[from];
+    return concentration[from] + std::min(limited_half(difference, ahead), concentration[from]);
 }
 
 void SoluteTransport::find_fluxes(const SoilMovement& movement, std::size_t row, const SoluteSides& sides) {
@@ -162,7 +171,7 @@ void SoluteTransport::find_fluxes(const SoilMovement& movement, std::size_t row,
             flux_[axis][c] = 0;
             if (next == nowhere) continue;
             const double water = movement.flux[axis][c];
-            flux_[axis][c] = water * face_concentration(line, c, next, place, water) -
+            flux_[axis][c] = water * face_concentration(line, c, next, place, water, sides) -
                              spread_[axis][c] * (concentration[next] - concentration[c]) / edge_;
         }
     }

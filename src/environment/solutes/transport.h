@@ -56,7 +56,8 @@ private:
     struct Line;
     void find_dispersion(const SoilMovement& movement);
     void find_fluxes(const SoilMovement& movement, std::size_t row, const SoluteSides& sides);
-    double face_concentration(const Line& line, std::size_t cell, std::size_t next, int place, double water) const;
+    double face_concentration(const Line& line, std::size_t cell, std::size_t next, int place, double water,
+                              const SoluteSides& sides) const;
     double outflow(std::size_t row, std::size_t cell) const;
     void pass_sides(double days);
     template <class Work>
