@@ -238,6 +238,9 @@ entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Lee
 entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
 entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975"
 entry environments/barley-rich.toml "Barley in rich soil" "Drew 1975"
+entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
+entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
+entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"
 grown_by environments/barley-layers.toml models/roots/barley.l "Barley root" "Drew 1975; Pagès et al. 1989"
 entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 grown_by environments/root-2d.toml models/water/root.l "Root that takes up water" "Mech & Prusinkiewicz 1996"

@@ -136,6 +136,7 @@ voxel          required, m; edge of a voxel
 content        0.3 m3/m3; water content everywhere, if no linear soil gives it
 porosity       0.43 m3/m3, 0.01 to 1; content of full soil, for the tortuosity
 flow           0 cm/d; Darcy flux downwards, everywhere
+obstacles      []; shapes without soil; obstacle_field, container_field and dimensions are as in soil-water
 sides          "closed", or "periodic"; closed: nothing passes; periodic: what leaves at a side enters at the other
 days           1 d, > 0; days that a unit of the scene's time stands for
 
