@@ -47,10 +47,10 @@ private:
         put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<rsml xmlns:po=\"http://www.plantontology.org/xml-dtd/po.dtd\">\n"
             "  <metadata>\n    <version>1</version>\n    <unit>m</unit>\n    <resolution>1</resolution>\n"
-            "    <software>espalier</software>\n    <file-key>{}</file-key>\n"
+            "    <software>espalier</software>\n    <up>{}</up>\n    <file-key>{}</file-key>\n"
             "    <time-sequence>\n      <label>{}</label>\n      <index>{}</index>\n      <unified>true</unified>\n"
             "    </time-sequence>\n    <property-definitions>\n",
-            xml_text(job_.run.scene()), xml_text(job_.run.scene()), frame_.step);
+            job_.options.up, xml_text(job_.run.scene()), xml_text(job_.run.scene()), frame_.step);
         for (const auto& [label, type, unit] : {std::tuple{"length", "float", "m"},
                                                 {"birth", "integer", "step"},
                                                 {"order", "integer", "1"},
