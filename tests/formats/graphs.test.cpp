@@ -132,7 +132,7 @@ TEST_CASE("RSML nests laterals in what bears them, with polylines and diameters"
     CHECK(number(child(child(lateral, "properties"), "parent-node"), "value") == 1);
     CHECK(number(*polyline.GetNestedElement(1), "y") == 1);
     CHECK(std::stod(children(child(lateral, "functions"), "function")[1]->GetNestedElement(0)->GetCharacterData()) ==
-          1);
+          0.5);  // step 1
     CHECK(children(lateral, "root").empty());
 }
 
