@@ -234,6 +234,8 @@ entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewi
 entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
+entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend
+entry environments/hydraulic-lift-off.toml "Roots that do not conduct" "Richards & Caldwell 1987" --steps 72 -- --field water:slice --no-legend
 entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
 entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
 entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975"
