@@ -360,6 +360,27 @@ TEST_CASE("a solute goes on from a checkpoint to the same bytes", "[environment]
     CHECK(a.str() == b.str());
 }
 
+TEST_CASE("soil and solute go on from a checkpoint to the same figures, substeps among them",
+          "[environment][nutrient]") {
+    const std::string soil =
+        "model = \"richards\"\nsoil = \"loam\"\ninitial = { head = -300 }\nvoxel = 0.05\ndomain = { "
+        "lower = [0, -0.4, 0], upper = [0.05, 0, 0.05] }\nboundaries = { top = { rain = 20 }, bottom "
+        "= \"free-drainage\" }\n";
+    Solute first("soil = \"water\"\ninitial = 1\n", soil), second("soil = \"water\"\ninitial = 1\n", soil);
+    first.step(2);
+    std::stringstream water, solute;
+    first.water->process->save(water);
+    first.process->save(solute);
+    second.water->process->restore(water);
+    second.process->restore(solute);
+    second.world().step = first.world().step;
+    first.step(2);
+    second.step(2);
+    CHECK(first.water->quantity("substeps") == second.water->quantity("substeps"));
+    CHECK(first.quantity("stored") == second.quantity("stored"));
+    CHECK(first.quantity("leached") == second.quantity("leached"));
+}
+
 TEST_CASE("a solute works beside a linear soil", "[environment][nutrient]") {
     const std::string space = "domain = { lower = [0, -0.04, 0], upper = [0.04, 0, 0.04] }\nvoxel = 0.01\n";
     Solute solute(space + "soil = \"water\"\ninitial = 1\n", space + "initial = 0.25\ndiffusion = 1e-5\n");
