@@ -5,6 +5,7 @@ find_path(OPENVDB_CMAKE_DIR FindOpenVDB.cmake REQUIRED PATHS ${CMAKE_SYSTEM_PREF
 list(APPEND CMAKE_MODULE_PATH ${OPENVDB_CMAKE_DIR})
 find_package(OpenVDB REQUIRED)
 find_package(PNG REQUIRED)
+find_package(EXPAT REQUIRED)
 find_package(glm REQUIRED)
 find_package(Eigen3 REQUIRED)
 find_package(fmt REQUIRED)

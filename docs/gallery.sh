@@ -234,6 +234,16 @@ entry environments/root-2d-stones.toml "Root between stones" "Mech & Prusinkiewi
 entry environments/root-2d-uniform.toml "Root in evenly moist soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/storm-on-layers.toml "A storm on layers of loam, clay and sand" "Richards 1931; Celia et al. 1990" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
+entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend
+entry environments/hydraulic-lift-off.toml "Roots that do not conduct" "Richards & Caldwell 1987" --steps 72 -- --field water:slice --no-legend
+entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
+entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
+entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975"
+entry environments/barley-rich.toml "Barley in rich soil" "Drew 1975"
+entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
+entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
+entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"
+grown_by environments/barley-layers.toml models/roots/barley.l "Barley root" "Drew 1975; Pagès et al. 1989"
 entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 grown_by environments/root-2d.toml models/water/root.l "Root that takes up water" "Mech & Prusinkiewicz 1996"
 entry environments/root-flare.toml "Tree with its roots" "Runions, Lane & Prusinkiewicz 2007"

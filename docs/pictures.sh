@@ -29,6 +29,12 @@ grow two-roots environments/two-roots.toml
 grow root-2d environments/root-2d.toml
 grow storm-on-layers environments/storm-on-layers.toml
 grow root-drought environments/root-drought.toml
+grow nitrate-in-rain environments/nitrate-in-rain.toml
+grow hydraulic-lift environments/hydraulic-lift.toml
+for nitrate in poor layers rich; do
+    grow "barley-$nitrate" "environments/barley-$nitrate.toml"
+    render "barley-$nitrate.png" "barley-$nitrate" --size 260x330 --no-legend --azimuth 10 --elevation 3
+done
 grow topiary environments/topiary-3d.toml
 grow forest environments/forest.toml --set plant.0.grid.columns=7 --set plant.0.grid.rows=7
 grow forest-patch environments/forest-patch.toml --every 50
@@ -40,6 +46,8 @@ render topiary.png topiary --size 640x480 --azimuth 25 --elevation 10
 render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar
 render storm-on-layers.png storm-on-layers --size 300x270 --sheet 3x1 --step 10:40:14 --field water:slice --time
 render root-drought.png root-drought --size 180x400 --sheet 5x1 --step 8:72:16 --field water:slice --azimuth 15 --elevation 5 --time
+render hydraulic-lift.png hydraulic-lift --size 200x400 --sheet 2x1 --step 68:72:4 --field roots:slice --azimuth 15 --elevation 5 --time
+render nitrate-in-rain.png nitrate-in-rain --size 180x400 --sheet 5x1 --step 12:60:12 --field nitrate:slice --azimuth 15 --elevation 5 --time
 render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth
 render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --zoom 1.15 --scale-bar --dark
 render light.png forest --size 720x450 --colour-by light --elevation 25 --scale-bar

@@ -112,7 +112,12 @@ TEST_CASE("RSML nests laterals in what bears them, with polylines and diameters"
     vtkXMLDataElement& polyline = child(child(stem, "geometry"), "polyline");
     REQUIRE(polyline.GetNumberOfNestedElements() == 3);
     CHECK(number(*polyline.GetNestedElement(2), "y") == 3);
-    vtkXMLDataElement& diameter = child(child(stem, "functions"), "function");
+    const auto functions = children(child(stem, "functions"), "function");
+    REQUIRE(functions.size() == 2);
+    vtkXMLDataElement& diameter = *functions[0];
+    CHECK(std::string(functions[1]->GetAttribute("name")) == "node_creation_time");
+    REQUIRE(functions[1]->GetNumberOfNestedElements() == 3);
+    CHECK(std::stod(functions[1]->GetNestedElement(0)->GetCharacterData()) == 0);
     REQUIRE(diameter.GetNumberOfNestedElements() == 3);
     CHECK(std::stod(diameter.GetNestedElement(0)->GetCharacterData()) == Approx(0.2));
     CHECK(std::stod(diameter.GetNestedElement(2)->GetCharacterData()) == Approx(0.1));
@@ -123,6 +128,11 @@ TEST_CASE("RSML nests laterals in what bears them, with polylines and diameters"
     CHECK(number(*line.GetNestedElement(0), "y") == 1);
     CHECK(number(child(child(lateral, "properties"), "identity"), "value") == 2);
     CHECK(number(child(child(lateral, "properties"), "birth"), "value") == 1);
+    // It stands on the first node behind the base of the stem.
+    CHECK(number(child(child(lateral, "properties"), "parent-node"), "value") == 1);
+    CHECK(number(*polyline.GetNestedElement(1), "y") == 1);
+    CHECK(std::stod(children(child(lateral, "functions"), "function")[1]->GetNestedElement(0)->GetCharacterData()) ==
+          0.5);  // step 1
     CHECK(children(lateral, "root").empty());
 }
 

@@ -51,25 +51,29 @@ void Richards::save(std::ostream& out) const {
     for (const WaterBrick* brick : {&head_, &content_, &rate_, &ponding_}) {
         write_doubles(out, {brick->data(), brick->size()});
     }
-    const double numbers[] = {day_, next_substep_, last_days_, has_rate_ ? 1.0 : 0.0, smooth_ ? 1.0 : 0.0};
+    const double numbers[] = {
+        day_, next_substep_, last_days_, has_rate_ ? 1.0 : 0.0, smooth_ ? 1.0 : 0.0, static_cast<double>(substeps_)};
     write_doubles(out, numbers);
     out.write(reinterpret_cast<const char*>(&balance_), sizeof balance_);
     out.write(reinterpret_cast<const char*>(&rates_), sizeof rates_);
     out.write(reinterpret_cast<const char*>(&forcing_), sizeof forcing_);
+    movement_.save(out);
 }
 
 void Richards::restore(std::istream& in) {
     for (WaterBrick* brick : {&head_, &content_, &rate_, &ponding_}) read_doubles(in, {brick->data(), brick->size()});
-    double numbers[5];
+    double numbers[6];
     read_doubles(in, numbers);
     day_ = numbers[0];
     next_substep_ = numbers[1];
     last_days_ = numbers[2];
     has_rate_ = numbers[3] != 0;
     smooth_ = numbers[4] != 0;
+    substeps_ = static_cast<std::size_t>(numbers[5]);
     in.read(reinterpret_cast<char*>(&balance_), sizeof balance_);
     in.read(reinterpret_cast<char*>(&rates_), sizeof rates_);
     in.read(reinterpret_cast<char*>(&forcing_), sizeof forcing_);
+    movement_.restore(in);
     measure();
 }
 

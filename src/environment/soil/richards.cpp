@@ -87,6 +87,11 @@ void Richards::begin() {
     layout_.for_rows([&](std::size_t row) { find_fluxes(row); });
 }
 
+void Richards::attach(SoilFollower& follower) {
+    if (followers_.empty()) movement_.resize(grid_);
+    followers_.push_back(&follower);
+}
+
 double Richards::flux(std::size_t cell, int axis) const {
     if (!layout_.free(cell)) return 0;
     const std::size_t row = cell / grid_.stride();
@@ -177,6 +182,7 @@ Richards::Outcome Richards::substep(double days, std::span<SoilSink* const> sink
     error = has_rate_ ? error_of(days) : 0;
     if (error > 4 * parameters_.accuracy && days > 100 * shortest_substep) return Outcome::too_long;
     account(days, weight);
+    if (!followers_.empty()) record_movement(days, weight);
     for (SoilSink* sink : sinks) sink->accept(days, weight);
     return Outcome::good;
 }
@@ -261,6 +267,23 @@ void Richards::account(double days, double weight) {
     smooth_ = !ponded;
     last_days_ = days;
     ++substeps_;
+}
+
+void Richards::record_movement(double days, double weight) {
+    movement_.day = day_;
+    movement_.days = days;
+    layout_.for_rows([&](std::size_t row) {
+        const std::size_t begin = grid_.row_begin(row);
+        for (std::size_t c = begin; c < begin + grid_.size().x; ++c) {
+            for (int axis = 0; axis < 3; ++axis) bring_on(movement_.flux[axis][c], fluxes_[axis].flux[c], weight);
+            bring_on(movement_.uptake[c], uptake_[c], weight);
+        }
+    });
+    for (std::size_t column = 0; column < floor_.size(); ++column) {
+        bring_on(movement_.floor[column], floor_[column].flux, weight);
+        bring_on(movement_.surface[column], surface_[column].into.flux, weight);
+    }
+    for (SoilFollower* follower : followers_) follower->follow(movement_, content_);
 }
 
 void Richards::give_up(double days) const {

@@ -66,6 +66,9 @@ public:
     /// Lets the sinks draw from the soil as it is; no time passes.
     void show_to(std::span<SoilSink* const> sinks);
 
+    /// Tells `follower` of every substep.
+    void attach(SoilFollower& follower);
+
     /// Takes what the wishes obtain together, in content times voxels, down to the wilting point.
     std::vector<double> share(std::span<const WaterWish> wishes);
     std::vector<double> lend(std::span<const WaterWish> wishes) const;
@@ -94,6 +97,7 @@ private:
     double choose_start(double days);
     bool stands_on_surface() const;
     void account(double days, double weight);
+    void record_movement(double days, double weight);
     double longest_substep(double end, std::span<SoilSink* const> sinks) const;
     [[noreturn]] void give_up(double days) const;
     WaterBrick available() const;
@@ -112,6 +116,8 @@ private:
     std::vector<double> row_norm_, row_sum_;
     SoilLinearSystem system_;
     SoilForcing forcing_;
+    std::vector<SoilFollower*> followers_;
+    SoilMovement movement_;  ///< empty without followers
 
     WaterBrick ponding_;
     SoilBalance balance_;

@@ -60,6 +60,7 @@ public:
                 "a shape in the soil has moved: stones and pots of model = \"richards\" stay where they are");
         }
         for (SoilSink* sink : sinks_) sink->begin(world, layout_);
+        for (SoilFollower* follower : followers_) follower->begin(world, soil_.contents());
         if (world.step > 0) {
             soil_.advance(world.dt * parameters_.days, sinks_);
         } else {
@@ -122,6 +123,11 @@ public:
     }
 
     void attach(SoilSink& sink) override { sinks_.push_back(&sink); }
+    void attach(SoilFollower& follower) override {
+        followers_.push_back(&follower);
+        soil_.attach(follower);
+    }
+    const WaterBrick& contents() const override { return soil_.contents(); }
     const SoilLayout& layout() const override { return layout_; }
     double days_per_unit() const override { return parameters_.days; }
 
@@ -200,6 +206,7 @@ private:
     SoilLayout layout_;
     Richards soil_;
     std::vector<SoilSink*> sinks_;
+    std::vector<SoilFollower*> followers_;
     std::vector<WaterField> shown_;
     WaterBrick shown_values_;            ///< of the field that is being made
     std::vector<double> uptake_, wish_;  ///< per plant, this step

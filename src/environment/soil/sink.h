@@ -3,7 +3,7 @@
 
 #include "espalier/environment/environment_process.h"
 
-#include "environment/soil/cells.h"
+#include "environment/soil/movement.h"
 
 #include <span>
 
@@ -34,7 +34,10 @@ class SharedSoil : public FieldSource {
 public:
     /// From now on `sink` takes water in every step; it lives as long as the soil.
     virtual void attach(SoilSink& sink) = 0;
+    /// From now on `follower` is told of every substep.
+    virtual void attach(SoilFollower& follower) = 0;
     virtual const SoilLayout& layout() const = 0;
+    virtual const WaterBrick& contents() const = 0;
     virtual double days_per_unit() const = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <iterator>
 
 namespace espalier::formats {
@@ -46,13 +47,14 @@ private:
         put("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<rsml xmlns:po=\"http://www.plantontology.org/xml-dtd/po.dtd\">\n"
             "  <metadata>\n    <version>1</version>\n    <unit>m</unit>\n    <resolution>1</resolution>\n"
-            "    <software>espalier</software>\n    <file-key>{}</file-key>\n"
+            "    <software>espalier</software>\n    <up>{}</up>\n    <file-key>{}</file-key>\n"
             "    <time-sequence>\n      <label>{}</label>\n      <index>{}</index>\n      <unified>true</unified>\n"
             "    </time-sequence>\n    <property-definitions>\n",
-            xml_text(job_.run.scene()), xml_text(job_.run.scene()), frame_.step);
+            job_.options.up, xml_text(job_.run.scene()), xml_text(job_.run.scene()), frame_.step);
         for (const auto& [label, type, unit] : {std::tuple{"length", "float", "m"},
                                                 {"birth", "integer", "step"},
                                                 {"order", "integer", "1"},
+                                                {"parent-node", "integer", "1"},
                                                 {"identity", "string", "1"}}) {
             put("      <property-definition>\n        <label>{}</label>\n        <type>{}</type>\n"
                 "        <unit>{}</unit>\n      </property-definition>\n",
@@ -98,9 +100,23 @@ private:
         put("      <root ID=\"{}\" label=\"axis {}\" po:accession=\"{}\">\n", number, number,
             depth == 0 ? "PO:0020127" : "PO:0020121");
         put("        <properties>\n          <length value=\"{}\"/>\n          <birth value=\"{}\"/>\n"
-            "          <order value=\"{}\"/>\n          <identity value=\"{}\"/>\n        </properties>\n",
+            "          <order value=\"{}\"/>\n          <identity value=\"{}\"/>\n",
             format_exact(length), first.birth, first.order, first.identity);
+        if (depth > 0) put("          <parent-node value=\"{}\"/>\n", node_of_bearer(axis));
+        put("        </properties>\n");
         add_geometry(axis);
+    }
+
+    /// The node of the bearing axis, from 0, that an axis stands on: the tip of its bearer, or where both begin.
+    std::int32_t node_of_bearer(const AxisTree::Axis& axis) const {
+        const auto bearer = static_cast<std::uint32_t>(axis.bearer);
+        const auto bearing = std::find_if(tree_.axes.begin(), tree_.axes.end(), [&](const AxisTree::Axis& other) {
+            return other.first <= bearer && bearer < other.end;
+        });
+        const glm::vec3 base = tree_.internodes[axis.first].base;
+        const FrameInternode& internode = tree_.internodes[bearer];
+        const bool at_tip = glm::distance(base, internode.tip) <= glm::distance(base, internode.base);
+        return static_cast<std::int32_t>(bearer - bearing->first) + (at_tip ? 1 : 0);
     }
 
     void add_geometry(const AxisTree::Axis& axis) {
@@ -114,7 +130,14 @@ private:
         for (std::uint32_t i = axis.first; i < axis.end; ++i) {
             put("            <sample>{}</sample>\n", 2 * tree_.internodes[i].tip_radius);
         }
+        put("          </function>\n          <function name=\"node_creation_time\" domain=\"polyline\">\n");
+        add_time(first.birth);
+        for (std::uint32_t i = axis.first; i < axis.end; ++i) add_time(tree_.internodes[i].birth);
         put("          </function>\n        </functions>\n");
+    }
+
+    void add_time(std::int32_t birth) {
+        put("            <sample>{}</sample>\n", format_general(birth * job_.run.dt()));
     }
 
     void add_point(const glm::vec3& position) {
@@ -144,8 +167,10 @@ public:
 
 const Registered<ExporterType> entry{
     {"rsml", "Root System Markup Language, a file per frame: for root software",
-     "Plants, axes as polylines in metres with a diameter at every node, laterals nested in the axis that bears them;\n"
-     "length, birth, order and identity as properties.\n"
+     "Plants, axes as polylines in metres with a diameter and the time of birth at every node, in the run's unit of\n"
+     "time; laterals nested in the axis that bears them; length, birth, order, identity and the bearing axis's node as "
+     "properties.\n"
+     "For CPlantBox, --up z.\n"
      "Lost: organs and surfaces, parameters",
      construct<Rsml>}};
 
