@@ -1,0 +1,23 @@
+"""Espalier: open L-systems that grow in an environment. Metres; strings and frames as arrays of numpy.
+
+>>> import espalier as es
+>>> str(es.Model(text="lsystem: 1\\nderivation length: 2\\naxiom: A\\nA --> AB\\nendlsystem\\n").derive())
+'ABB'
+"""
+
+from ._espalier import Error, Field, Model, Module, ModuleString, PlantFrame, RunError, __version__
+from .world import Frame, Internodes, World
+
+__all__ = [
+    "Error",
+    "Field",
+    "Frame",
+    "Internodes",
+    "Model",
+    "Module",
+    "ModuleString",
+    "PlantFrame",
+    "RunError",
+    "World",
+    "__version__",
+]
