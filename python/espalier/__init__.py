@@ -6,6 +6,7 @@
 """
 
 from ._espalier import Error, Field, Model, Module, ModuleString, PlantFrame, RunError, __version__
+from .scene import Plant, Process, Scene, process, record
 from .world import Frame, Internodes, World
 
 __all__ = [
@@ -16,8 +17,13 @@ __all__ = [
     "Model",
     "Module",
     "ModuleString",
+    "Plant",
     "PlantFrame",
+    "Process",
     "RunError",
+    "Scene",
     "World",
     "__version__",
+    "process",
+    "record",
 ]

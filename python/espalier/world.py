@@ -3,6 +3,7 @@
 import numpy
 
 from . import _espalier
+from .scene import Scene
 
 
 class _Parameters:
@@ -84,10 +85,10 @@ class Frame:
 
 
 class World:
-    """The world of a scene (.toml) or of one model. The same scene and seed give the same bytes."""
+    """The world of a Scene, or of the file of a scene (.toml) or model. The same scene and seed give the same bytes."""
 
     def __init__(self, scene, seed=None):
-        self._world = _espalier.World(scene, seed)
+        self._world = _espalier.World(Scene.of(scene, seed)._scene)
 
     def run(self, steps=None):
         """Yields frame 0 and a frame after every derivation step, up to `steps` or the scene's end.

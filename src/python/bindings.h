@@ -3,6 +3,7 @@
 
 #include "espalier/geometry/field.h"
 #include "espalier/lsystem/derivation.h"
+#include "espalier/simulation/scene.h"
 #include "espalier/turtle/interpretation.h"
 
 #include <memory>
@@ -29,6 +30,29 @@ struct BoundString {
     double parameter(std::size_t place, const std::string& symbol, int number) const;
 };
 
+/// A process in Python that scenes may name by its number while this lives.
+class OfferedProcess {
+public:
+    explicit OfferedProcess(py::object process);
+    ~OfferedProcess();
+    OfferedProcess(const OfferedProcess&) = delete;
+    OfferedProcess& operator=(const OfferedProcess&) = delete;
+
+    std::int64_t number() const { return number_; }
+
+private:
+    std::int64_t number_;
+};
+
+/// The exception of a process in Python that ended this thread's work, until it is raised again; null: none.
+std::unique_ptr<py::error_already_set>& error_of_process();
+
+/// A scene, and the processes in Python that it names.
+struct BoundScene {
+    Scene scene;
+    std::vector<std::shared_ptr<OfferedProcess>> processes = {};
+};
+
 /// "I.3": symbol and number of a parameter, counted from 1. Throws UserError for other texts.
 std::pair<std::string, int> parameter_named(const std::string& name);
 
@@ -47,6 +71,7 @@ py::array view(const std::shared_ptr<Owner>& owner, const T* first, std::vector<
 void bind_errors(py::module_& module);
 void bind_model(py::module_& module);
 void bind_field(py::module_& module);
+void bind_scene(py::module_& module);
 void bind_world(py::module_& module);
 
 /// numpy and the rest of one field, as it is now. Throws UserError if it is not there.

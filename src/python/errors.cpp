@@ -29,7 +29,11 @@ void translate(std::exception_ptr thrown) {
     } catch (const UserError& error) {
         raise(error_type, error.what(), error.diagnostics().empty() ? Place{} : error.diagnostics().front().place);
     } catch (const RunError& error) {
-        raise(run_error_type, error.what(), {});
+        if (const auto cause = std::move(error_of_process())) {
+            cause->restore();
+        } else {
+            raise(run_error_type, error.what(), {});
+        }
     }
 }
 

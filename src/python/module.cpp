@@ -9,6 +9,7 @@ PYBIND11_MODULE(_espalier, module) {
     bind_errors(module);
     bind_model(module);
     bind_field(module);
+    bind_scene(module);
     bind_world(module);
 }
 

@@ -97,14 +97,9 @@ py::object field_in(const BoundFrame& frame, const std::string& name) {
     return field_of(frame.bound->world.environment().fields(), name);
 }
 
-Scene scene_at(const std::filesystem::path& path, const std::optional<std::uint64_t>& seed) {
-    const SceneOptions options{.overrides = {}, .steps = {}, .seed = seed};
-    return path.extension() == ".toml" ? read_scene(path, options) : scene_of_model(path, options);
-}
-
-std::shared_ptr<BoundWorld> world_at(const std::filesystem::path& path, const std::optional<std::uint64_t>& seed) {
+std::shared_ptr<BoundWorld> world_of(const BoundScene& scene) {
     const py::gil_scoped_release free;
-    return std::make_shared<BoundWorld>(scene_at(path, seed));
+    return std::make_shared<BoundWorld>(scene.scene);
 }
 
 void start(BoundWorld& bound, const std::optional<int>& steps) {
@@ -154,7 +149,7 @@ void bind_frame(py::module_& module) {
 void bind_world(py::module_& module) {
     bind_frame(module);
     py::class_<BoundWorld, std::shared_ptr<BoundWorld>>(module, "World")
-        .def(py::init(&world_at), py::arg("scene"), py::arg("seed") = py::none())
+        .def(py::init(&world_of), py::arg("scene"))
         .def("start", start, py::arg("steps") = py::none(), "Frame 0: every axiom, interpreted and exchanged.")
         .def("step", advance, "Derives, interprets and exchanges once; other threads of Python go on meanwhile.")
         .def("frame", frame_of, "The frame of the current step.")
