@@ -6,6 +6,7 @@
 """
 
 from ._espalier import Error, Field, Model, Module, ModuleString, PlantFrame, RunError, __version__
+from .recorded import Run, open
 from .scene import Plant, Process, Scene, process, record
 from .world import Frame, Internodes, World
 
@@ -21,9 +22,11 @@ __all__ = [
     "PlantFrame",
     "Process",
     "RunError",
+    "Run",
     "Scene",
     "World",
     "__version__",
+    "open",
     "process",
     "record",
 ]
