@@ -1,6 +1,6 @@
 // grow: base -> geometry -> lsystem -> language -> turtle -> environment -> timeline -> simulation
 // look: base -> geometry -> archive -> analysis | formats | picture -> view
-// studio stands behind both, and the command line, app, above all.
+// studio and python stand behind both, and the command line, app, above all.
 #include "catch.h"
 #include "sources.h"
 

@@ -16,8 +16,8 @@ inline const std::vector<std::string> growing{"base",   "geometry",    "lsystem"
                                               "turtle", "environment", "timeline", "simulation"};
 inline const std::vector<std::string> looking{"base", "geometry", "archive", "analysis", "formats", "picture", "view"};
 
-/// Grows and looks: it stands behind both lines.
-inline const std::vector<std::string> both{"studio"};
+/// What grows and looks: these stand behind both lines.
+inline const std::vector<std::string> both{"studio", "python"};
 
 inline bool is_in(const std::vector<std::string>& line, const std::string& station) {
     return std::find(line.begin(), line.end(), station) != line.end();

@@ -1,0 +1,118 @@
+"""Worlds that grow step by step, and what their frames show."""
+
+import numpy
+
+from . import _espalier
+from .scene import Scene
+
+
+class _Parameters:
+    """Parameters of internodes by name: parameters["I.3"], float64 (n,), NaN where a module has none."""
+
+    def __init__(self, plants):
+        self._plants = plants
+
+    def __getitem__(self, name):
+        return _joined([plant.column(name) for plant in self._plants])
+
+
+class Internodes:
+    """The internodes of all plants of a frame, plant after plant.
+
+    Of one plant the arrays tip, base, radius and order are views without a copy, which keep the values of their step
+    when the world goes on; of several plants they are joined copies.
+    """
+
+    def __init__(self, plants):
+        self._plants = plants
+
+    def __len__(self):
+        return sum(len(plant) for plant in self._plants)
+
+    @property
+    def base(self):
+        """Lower ends, float64 (n, 3), metres."""
+        return _joined([plant.base for plant in self._plants])
+
+    @property
+    def tip(self):
+        """Upper ends, float64 (n, 3), metres."""
+        return _joined([plant.tip for plant in self._plants])
+
+    @property
+    def radius(self):
+        """Radii at the tips, float64 (n,), metres; 0 for lines without width."""
+        return _joined([plant.radius for plant in self._plants])
+
+    @property
+    def order(self):
+        """Depths of branching, uint16 (n,); 0: the main axis."""
+        return _joined([plant.order for plant in self._plants])
+
+    @property
+    def identity(self):
+        """Identities of the modules for life, uint64 (n,); unique within a plant."""
+        return _joined([plant.identity for plant in self._plants])
+
+    @property
+    def plant(self):
+        """Numbers of the plants, uint32 (n,)."""
+        return numpy.repeat(numpy.arange(len(self._plants), dtype=numpy.uint32), [len(p) for p in self._plants])
+
+    @property
+    def parameters(self):
+        """Parameters of the modules by name: parameters["I.3"]."""
+        return _Parameters(self._plants)
+
+
+class Frame:
+    """One step of a world after its exchange: step, time (the scene's unit), plants, internodes, fields."""
+
+    def __init__(self, frame):
+        self._frame = frame
+        self.step = frame.step
+        self.time = frame.time
+        self.plants = frame.plants
+
+    @property
+    def internodes(self):
+        """What the turtles drew as segments."""
+        return Internodes(self.plants)
+
+    def field(self, name):
+        """The field of that name, such as "light"; raises Error once the world has gone on."""
+        return self._frame.field(name)
+
+
+class World:
+    """The world of a Scene, or of the file of a scene (.toml) or model. The same scene and seed give the same bytes."""
+
+    def __init__(self, scene, seed=None):
+        self._world = _espalier.World(Scene.of(scene, seed)._scene)
+
+    def run(self, steps=None):
+        """Yields frame 0 and a frame after every derivation step, up to `steps` or the scene's end.
+
+        Called again it goes on from the present frame, for `steps` more. Ctrl-C ends it after a step.
+        """
+        last = None if steps is None else self.steps_done + steps
+        if not self._world.started:
+            self._world.start(steps)
+            yield self.frame
+        while not self._world.at_end and (last is None or self.steps_done < last):
+            self._world.step()
+            yield self.frame
+
+    @property
+    def frame(self):
+        """The frame of the present step."""
+        return Frame(self._world.frame())
+
+    @property
+    def steps_done(self):
+        """How many derivation steps were made."""
+        return self._world.steps_done
+
+
+def _joined(arrays):
+    return arrays[0] if len(arrays) == 1 else numpy.concatenate(arrays)
