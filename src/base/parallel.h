@@ -7,8 +7,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <type_traits>
+#include <utility>
 
 namespace espalier {
 
@@ -48,6 +50,22 @@ void for_in_parallel(Index first, Index end, const Body& body, const Partitioner
         }
     };
     for_in_parallel(tbb::blocked_range<Index>(first, end), each, partitioner...);
+}
+
+/// tbb::parallel_reduce of values: add(range, value) adds a part to a value, join(a, b) makes one of two.
+template <class Range, class Value, class Add, class Join>
+Value reduce_in_parallel(const Range& range, const Value& identity, const Add& add, const Join& join) {
+    SharedWork work;
+    return tbb::parallel_reduce(
+        range, identity,
+        [&](const Range& part, Value value) {
+            const SharedWork::Part shared(work);
+            return add(part, std::move(value));
+        },
+        [&](Value a, const Value& b) {
+            const SharedWork::Part shared(work);
+            return join(std::move(a), b);
+        });
 }
 
 }  // namespace espalier

@@ -2,10 +2,10 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/holders.h"
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 
 namespace espalier::environment {
 namespace {
@@ -53,7 +53,9 @@ struct ShadeGrids::Grids {
         Version copy() const;
         void remove_stale(const ShadeBricks& bricks);
         void add_new(const ShadeBricks& bricks);
-        bool is_read(long holders) const { return field.use_count() > holders || field->grid.use_count() > 1; }
+        bool is_read(long holders) const {
+            return is_held_by_others(field, holders) || is_held_by_others(field->grid, 1);
+        }
 
     private:
         void place_leaf(std::size_t number, Leaf& leaf);
@@ -130,7 +132,6 @@ void ShadeGrids::Grids::One::require_own() {
             if (before.size() < most_before()) before.push_back(std::move(made));
         }
     }
-    std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
 }
 
 void ShadeGrids::Grids::Version::remove_stale(const ShadeBricks& bricks) {

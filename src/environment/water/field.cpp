@@ -2,11 +2,10 @@
 
 #include "espalier/geometry/openvdb_grid.h"
 
+#include "base/holders.h"
 #include "geometry/grids/active_values.h"
 
 #include <openvdb/tree/LeafManager.h>
-
-#include <atomic>
 
 namespace espalier::environment {
 namespace {
@@ -74,10 +73,8 @@ void WaterField::provide(std::function<const WaterBrick&()> contents, Fields& fi
 std::shared_ptr<const FieldGrid> WaterField::current() {
     if (!stale_) return published_;
     // With more holders than the field and ourselves, someone reads the grid of a step before: it is left to them.
-    if (published_ == nullptr || published_.use_count() > 2 || published_->grid.use_count() > 1) {
+    if (published_ == nullptr || is_held_by_others(published_, 2) || is_held_by_others(published_->grid, 1)) {
         published_ = std::make_shared<FieldGrid>(FieldGrid{topology_->grid->deepCopy(), topology_->box});
-    } else {
-        std::atomic_thread_fence(std::memory_order_acquire);  // what the last reader read comes before what we write
     }
     write(contents_(), grid_, published_->grid->tree());
     stale_ = false;

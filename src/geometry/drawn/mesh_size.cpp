@@ -1,9 +1,9 @@
 #include "geometry/drawn/mesh_size.h"
 
+#include "base/parallel.h"
 #include "geometry/drawn/organ_mesh.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 
@@ -76,8 +76,8 @@ MeshSize size_of_organs(const std::vector<Organ>& organs, const std::map<std::ui
         return a;
     };
     if (organs.size() < 2 * worth_sharing) return sum_of({0, organs.size()}, {});
-    return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, organs.size(), worth_sharing), MeshSize(), sum_of,
-                                join);
+    return reduce_in_parallel(tbb::blocked_range<std::size_t>(0, organs.size(), worth_sharing), MeshSize(), sum_of,
+                              join);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Values that are written anew every step, while frames still read those of earlier steps.
 #pragma once
 
+#include "base/holders.h"
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -17,7 +19,7 @@ public:
     T* operator->() { return now_.get(); }
     const T* operator->() const { return now_.get(); }
     std::shared_ptr<const T> share() const { return now_; }
-    bool is_shared() const { return now_.use_count() > 1; }
+    bool is_shared() const { return is_held_by_others(now_, 1); }
 
     /// A value that others may read, too: while they do, it is not written.
     void hold(std::shared_ptr<const T> value) { now_ = std::const_pointer_cast<T>(std::move(value)); }
@@ -30,7 +32,7 @@ public:
 
 private:
     void set_aside() {
-        const auto is_free = [](const std::shared_ptr<T>& one) { return one.use_count() == 1; };
+        const auto is_free = [](const std::shared_ptr<T>& one) { return !is_held_by_others(one, 1); };
         const auto free = std::find_if(held_.begin(), held_.end(), is_free);
         std::shared_ptr<T> next = free == held_.end() ? std::make_shared<T>() : std::move(*free);
         // One is enough: of more that are free, some would stay so for ever.

@@ -4,10 +4,10 @@
 #include "espalier/base/random.h"
 
 #include "base/bytes.h"
+#include "base/parallel.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <bit>
@@ -33,7 +33,7 @@ std::size_t internodes_born(int step, const ModuleString& string, const Column<I
     constexpr std::size_t worth_sharing = std::size_t{1} << 15;
     const tbb::blocked_range<std::size_t> all(0, internodes.size(), worth_sharing);
     if (internodes.size() < 2 * worth_sharing) return count(all, 0);
-    return tbb::parallel_reduce(all, std::size_t{0}, count, std::plus<>());
+    return reduce_in_parallel(all, std::size_t{0}, count, std::plus<>());
 }
 
 bool InternodeLives::is(std::uint32_t life, Identity identity, std::uint32_t part) const {
