@@ -20,7 +20,9 @@ compile_lightly(espalier_python)
 target_include_directories(espalier_python PRIVATE src)
 target_link_libraries(espalier_python PRIVATE espalier_options OpenVDB::openvdb espalier_library)
 
-file(GLOB package_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/python/espalier python/espalier/*)
+file(GLOB package_files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/python/espalier python/espalier/*.py
+  python/espalier/*.pyi python/espalier/py.typed)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/python/espalier)
 foreach(name IN LISTS package_files)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/espalier/${name} ${PROJECT_BINARY_DIR}/python/espalier/${name} SYMBOLIC)
 endforeach()
