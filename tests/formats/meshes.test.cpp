@@ -94,10 +94,10 @@ TEST_CASE("tubes of an STL are closed and hold what their rings hold", "[export]
     CHECK(ring_area(256) == Approx(std::numbers::pi).epsilon(0.001));
 }
 
-TEST_CASE("a sphere exports ever more of its volume: 98.9 % with 32 sides, 99.7 % with 64", "[export]") {
+TEST_CASE("a sphere exports ever more of its volume: 99.1 % with 36 sides, 99.7 % with 64", "[export]") {
     const double ball = std::numbers::pi / 6 * 0.7 * 0.7 * 0.7;
     double before = 0;
-    for (const int sides : {8, 16, 32, 64, 128}) {
+    for (const int sides : {8, 16, 36, 64, 128}) {
         HandmadePlant plant;
         Pose pose;
         pose.position = {0.3, 1, -2};
@@ -108,7 +108,7 @@ TEST_CASE("a sphere exports ever more of its volume: 98.9 % with 32 sides, 99.7 
         CHECK(is_closed(*data));
         CHECK(volume(*data) > before);
         CHECK(volume(*data) < ball);
-        if (sides >= 32) CHECK(volume(*data) > 0.989 * ball);
+        if (sides >= 36) CHECK(volume(*data) > 0.99 * ball);
         if (sides >= 64) CHECK(volume(*data) > 0.997 * ball);
         before = volume(*data);
     }

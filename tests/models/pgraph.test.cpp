@@ -183,7 +183,7 @@ TEST_CASE("Simple: the volumes of a cylinder and a box, and the diameter of a sp
     const double pi = std::numbers::pi;
     const Organ sphere = drawn("Simple core\n  shape sphere\n  radius 1.5\ncamera -> core\n").organs.at(0);
     CHECK(sphere.size.x == Approx(3));
-    CHECK(sphere.sides == 32);
+    CHECK(sphere.sides == 36);
     CHECK(drawn("Simple core\n  shape sphere\n  sides 64\ncamera -> core\n").organs.at(0).sides == 64);
     const PlantGeometry cylinder = drawn("Simple core\n  shape cylinder\n  radius 0.7\n  length 2\ncamera -> core\n");
     CHECK(volume_of(cylinder.mesh) == Approx(pi * 0.49 * 2).epsilon(0.02));
