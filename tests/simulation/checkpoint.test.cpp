@@ -95,10 +95,11 @@ TEST_CASE_METHOD(Saved, "a restored world goes on bit for bit", "[simulation]") 
     for (int step = 7; step < 12; ++step) {
         through.step();
         resumed.step();
+        const timeline::Frame frame = through.frame(), resumed_frame = resumed.frame();
         for (std::size_t plant = 0; plant < 2; ++plant) {
             REQUIRE(same(through.string(plant), resumed.string(plant)));
-            const auto &here = through.frame().plants[plant].quantities,
-                       there = resumed.frame().plants[plant].quantities;
+            const auto& here = frame.plants[plant].quantities;
+            const auto& there = resumed_frame.plants[plant].quantities;
             REQUIRE(here.size() == there.size());
             for (std::size_t i = 0; i < here.size(); ++i) CHECK(here[i].value == there[i].value);
         }

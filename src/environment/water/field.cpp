@@ -3,6 +3,7 @@
 #include "espalier/geometry/openvdb_grid.h"
 
 #include "base/holders.h"
+#include "base/parallel.h"
 #include "geometry/grids/active_values.h"
 
 #include <openvdb/tree/LeafManager.h>
@@ -31,9 +32,15 @@ void for_voxels(const Leaf& leaf, const WaterGrid& grid, Visit visit) {
     }
 }
 
-void write(const WaterBrick& contents, const WaterGrid& grid, openvdb::FloatTree& tree) {
+/// Calls visit(leaf) for every leaf, on several threads.
+template <class Visit>
+void for_leaves(openvdb::FloatTree& tree, Visit visit) {
     openvdb::tree::LeafManager<openvdb::FloatTree> leaves(tree);
-    leaves.foreach ([&](Leaf& leaf, std::size_t) {
+    for_in_parallel(std::size_t{0}, leaves.leafCount(), [&](std::size_t i) { visit(leaves.leaf(i)); });
+}
+
+void write(const WaterBrick& contents, const WaterGrid& grid, openvdb::FloatTree& tree) {
+    for_leaves(tree, [&](Leaf& leaf) {
         float* values = leaf.buffer().data();
         for_voxels(leaf, grid, [&](openvdb::Index offset, std::size_t cell) {
             values[offset] = static_cast<float>(contents[cell]);
@@ -54,8 +61,7 @@ void WaterField::set_faces(const WaterFaces& faces) {
     grid->setTransform(cell_centred_transform(grid_.voxel(), grid_.lower()));
     grid->tree().denseFill(box_of(grid_), 0, true);
     use_only_active_values(*grid);
-    openvdb::tree::LeafManager<openvdb::FloatTree> leaves(grid->tree());
-    leaves.foreach ([&](Leaf& leaf, std::size_t) {
+    for_leaves(grid->tree(), [&](Leaf& leaf) {
         for_voxels(leaf, grid_, [&](openvdb::Index offset, std::size_t cell) {
             if (!faces.free(cell)) leaf.setValueOff(offset);
         });
