@@ -236,6 +236,12 @@ entry environments/storm-on-layers.toml "A storm on layers of loam, clay and san
 entry environments/root-drought.toml "A root in a drought" "Doussan et al. 1998; Schroeder et al. 2008" --steps 48 -- --field water:slice --no-legend
 entry environments/hydraulic-lift.toml "Water lifted at night" "Richards & Caldwell 1987" --steps 72 -- --field roots:slice --no-legend
 entry environments/hydraulic-lift-off.toml "Roots that do not conduct" "Richards & Caldwell 1987" --steps 72 -- --field water:slice --no-legend
+entry environments/drought-deep.toml "Deep roots in a dry season" "Couvreur et al. 2012" -- --field water:slice --no-legend
+entry environments/drought-shallow.toml "Shallow roots in a dry season" "Couvreur et al. 2012" -- --field water:slice --no-legend
+entry environments/intercrop.toml "Maize and lupine in one soil" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
+entry environments/intercrop-maize.toml "Two maize plants" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
+entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
+entry environments/split-pot.toml "Split roots" "Couvreur et al. 2012" -- --field roots:slice --no-legend --azimuth 0 --elevation 5
 entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
 entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
 entry environments/barley-poor.toml "Barley in poor soil" "Drew 1975"
@@ -243,6 +249,7 @@ entry environments/barley-rich.toml "Barley in rich soil" "Drew 1975"
 entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"
+grown_by environments/split-pot.toml models/roots/split.l "Roots in two halves" "Pagès, Jordan & Picard 1989"
 grown_by environments/barley-layers.toml models/roots/barley.l "Barley root" "Drew 1975; Pagès et al. 1989"
 entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0
 grown_by environments/root-2d.toml models/water/root.l "Root that takes up water" "Mech & Prusinkiewicz 1996"

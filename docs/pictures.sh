@@ -31,6 +31,11 @@ grow storm-on-layers environments/storm-on-layers.toml
 grow root-drought environments/root-drought.toml
 grow nitrate-in-rain environments/nitrate-in-rain.toml
 grow hydraulic-lift environments/hydraulic-lift.toml
+for scene in drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
+    grow "$scene" "environments/$scene.toml"
+done
+grow split-wet environments/split-pot.toml --set environment.water.regions.0.initial.head=-100
+grow split-feddes environments/split-pot.toml --set 'environment.roots.model="feddes"'
 for nitrate in poor layers rich; do
     grow "barley-$nitrate" "environments/barley-$nitrate.toml"
     render "barley-$nitrate.png" "barley-$nitrate" --size 260x330 --no-legend --azimuth 10 --elevation 3
@@ -47,6 +52,11 @@ render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar
 render storm-on-layers.png storm-on-layers --size 300x270 --sheet 3x1 --step 10:40:14 --field water:slice --time
 render root-drought.png root-drought --size 180x400 --sheet 5x1 --step 8:72:16 --field water:slice --azimuth 15 --elevation 5 --time
 render hydraulic-lift.png hydraulic-lift --size 200x400 --sheet 2x1 --step 68:72:4 --field roots:slice --azimuth 15 --elevation 5 --time
+for plant in drought-deep drought-shallow; do
+    render "$plant.png" "$plant" --size 150x480 --sheet 2x1 --step 20:60:40 --field water:slice --azimuth 15 --elevation 5 --time
+done
+render intercrop.png intercrop --size 240x480 --sheet 2x1 --step 20:40:20 --field water:slice --azimuth 15 --elevation 5 --time
+render split-pot.png split-pot --size 500x380 --field roots:slice --azimuth 0 --elevation 5
 render nitrate-in-rain.png nitrate-in-rain --size 180x400 --sheet 5x1 --step 12:60:12 --field nitrate:slice --azimuth 15 --elevation 5 --time
 render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth
 render shade.png two-trees --size 800x600 --field light:slice=z --azimuth 15 --zoom 1.15 --scale-bar --dark
@@ -189,6 +199,12 @@ with_palette view.png
 
 "$espalier" plot "$work/two-trees" --quantity height,organs,length,light.mean --output "$pictures/plot.png" \
     --size 960x620
+"$espalier" plot "$work/intercrop" "$work/intercrop-maize" "$work/intercrop-lupine" --quantity roots.transpiration,roots.depth \
+    --output "$pictures/intercrop-plot.png"
+"$espalier" plot "$work/drought-deep" "$work/drought-shallow" --quantity roots.transpiration,roots.depth \
+    --output "$pictures/drought-plot.png"
+"$espalier" plot "$work/split-pot" "$work/split-wet" "$work/split-feddes" --quantity roots.transpiration,roots.collar \
+    --output "$pictures/split-plot.png"
 "$espalier" plot "$work/two-trees" "$work/lone-tree" --per total --quantity organs,light.mean --dark \
     --output "$pictures/plot-dark.png" --size 960x330
 "$espalier" analyse "$work/two-trees" --size 1100x760 --output "$work/trees-measured" >/dev/null

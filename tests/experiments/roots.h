@@ -90,8 +90,8 @@ struct Grown {
     double worst_balance = 0, least_content = 1e300, drunk = 0;  ///< over all steps
 };
 
-inline double quantity(const World& world, const std::string& name) {
-    for (const Quantity& quantity : world.environment().statistics(0)) {
+inline double quantity(const World& world, const std::string& name, std::uint32_t plant = 0) {
+    for (const Quantity& quantity : world.environment().statistics(plant)) {
         if (quantity.name == name) return quantity.value;
     }
     throw RunError("no quantity " + name);
