@@ -53,10 +53,20 @@ struct Transpired {
     double lowest = std::numeric_limits<double>::infinity();  ///< head at the collar in the step, cm
 };
 
+/// Mean depth of the uptake from uniform soil (SUF), cm.
+double standard_depth(const PlantUptake& plant) {
+    double sum = 0;
+    for (std::size_t i = 0; i < plant.water().fractions.size(); ++i) {
+        sum += plant.water().fractions[i] * plant.roots().depths[i];
+    }
+    return sum;
+}
+
 class RootWater final : public EnvironmentProcess, public SoilSink {
 public:
     RootWater(Settings& settings, const EnvironmentContext& context, Fields& fields)
-        : shared_(soil_of(settings, fields)),
+        : name_(context.name),
+          shared_(soil_of(settings, fields)),
           grid_(shared_.layout().grid()),
           orders_(read_root_conductances(settings)),
           measure_(settings.choice_or("along", "age", {"age", "distance from tip"}) == "age"
@@ -86,7 +96,7 @@ public:
         std::fill(lengths_.begin(), lengths_.end(), 0);
         for (const PlantView& plant : world.plants) {
             plants_.push_back(plant.plant);
-            roots_.emplace_back(roots_in_soil(plant, world, shared_.days_per_unit(), soil, orders_, measure_), soil);
+            roots_.emplace_back(roots_of(plant, world, soil), soil);
             roots_.back().add_lengths(lengths_);
         }
         for (PlantUptake& roots : roots_) roots.surround(lengths_, zone_ && model_ == UptakeModel::network);
@@ -166,10 +176,11 @@ public:
                 {"collar",
                  any && model_ != UptakeModel::feddes ? std::min(water.lowest, roots->water().collar) : nothing, "cm"},
                 {"depth", water.taken > 0 ? water.taken_depth / water.taken : nothing, "cm"},
-                {"conductance", any ? roots->water().conductance : 0, "cm2/d"}};
+                {"conductance", any ? roots->water().conductance : 0, "cm2/d"},
+                {"suf_depth", any ? standard_depth(*roots) : nothing, "cm"}};
     }
 
-    std::pair<int, int> query_arity() const override { return {1, 5}; }
+    std::pair<int, int> query_arity() const override { return {1, 6}; }
 
     void save(std::ostream& out) const override {
         const double common[] = {level_, last_demand_};
@@ -195,6 +206,12 @@ public:
     }
 
 private:
+    PlantRoots roots_of(const PlantView& plant, const WorldView& world, const SoilLayout& soil) const {
+        if (!plant.interpretation || !plant.string) return {};
+        const SaidConductances said = SaidConductances::of(plant, name_);
+        return roots_in_soil(plant, world, shared_.days_per_unit(), soil, orders_, measure_, said);
+    }
+
     /// Each query is answered the water of the internode before it: potential in it, uptake, soil at its surface, share
     /// of the uptake from uniform soil.
     void tell(const PlantView& view, const PlantUptake& plant, std::span<const Query> queries,
@@ -237,6 +254,7 @@ private:
         return values_;
     }
 
+    std::string name_;
     SharedSoil& shared_;
     WaterGrid grid_;
     std::vector<RootConductances> orders_;
@@ -278,9 +296,12 @@ heads          [-10, -25, -800, -16000] cm; for feddes, between which the uptake
 ?name(a)                 -> pressure head in the internode before the query, cm
 ?name(a, b, c, d)        -> ..., uptake (cm3/d), pressure head of the soil at its surface (cm), fraction of the uptake from
                          uniform soil
+?name(a, b, c, d, kr, kx)  also says the conductances of the internode before the query: kr (1/d) and kx (cm3/d) count for it
+                         instead of radial and axial
 
 Fields: `name`, uptake (1/d); `name.length_density` (cm/cm3). Statistics of each plant: transpiration and potential (cm3, in the
-step), total (cm3), collar (cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs, cm2/d).)";
+step), total (cm3), collar (cm, the lowest in the step), depth of the uptake (cm), conductance of the root system (Krs, cm2/d), suf_depth (mean depth
+of the uptake from uniform soil, cm).)";
 
 const Registered<ProcessType> entry{{"root-water",
                                      "water in roots: potentials, uptake and transpiration in soil with pressure", help,

@@ -64,13 +64,14 @@ std::vector<double> distances_from_tips(const Column<Internode>& internodes) {
 class Cutting {
 public:
     Cutting(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
-            const std::vector<RootConductances>& orders, RootMeasure measure)
+            const std::vector<RootConductances>& orders, RootMeasure measure, const SaidConductances& said)
         : plant_(plant),
           internodes_(plant.interpretation->geometry.internodes),
           world_(world),
           days_(days),
           soil_(soil),
           orders_(orders),
+          said_(said),
           top_(soil.grid().upper().y),
           last_piece_(internodes_.size(), RootPiece::collar) {
         if (measure == RootMeasure::distance_from_tip) distances_ = distances_from_tips(internodes_);
@@ -100,7 +101,9 @@ private:
         const double length = 100 * glm::length(internode.tip - internode.base);
         if (!(length > 1e-9)) return;
         const RootConductances& order = orders_[std::min<std::size_t>(internode.order, orders_.size() - 1)];
-        const double x = measure_of(i), radial = order.radial(x), axial = order.axial(x);
+        const double x = measure_of(i);
+        const bool own = !said_.axial.empty() && said_.axial[i] > 0;
+        const double radial = own ? said_.radial[i] : order.radial(x), axial = own ? said_.axial[i] : order.axial(x);
         const double radius = std::max(100 * 0.5 * (internode.base_radius + internode.tip_radius), 1e-3);
         const std::vector<double> parts = cuts(internode, soil_.grid());
         for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
@@ -125,6 +128,7 @@ private:
     double days_;
     const SoilLayout& soil_;
     const std::vector<RootConductances>& orders_;
+    const SaidConductances& said_;
     double top_;
     std::vector<std::uint32_t> last_piece_;  ///< of each internode, or of what bears it
     std::vector<double> distances_;
@@ -134,9 +138,9 @@ private:
 }  // namespace
 
 PlantRoots roots_in_soil(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
-                         const std::vector<RootConductances>& orders, RootMeasure measure) {
-    if (!plant.interpretation || !plant.string) return {};
-    return Cutting(plant, world, days, soil, orders, measure).cut();
+                         const std::vector<RootConductances>& orders, RootMeasure measure,
+                         const SaidConductances& said) {
+    return Cutting(plant, world, days, soil, orders, measure, said).cut();
 }
 
 }  // namespace espalier::environment

@@ -5,6 +5,7 @@
 
 #include "environment/roots/conductances.h"
 #include "environment/roots/hydraulic_tree.h"
+#include "environment/roots/said_conductances.h"
 #include "environment/soil/cells.h"
 
 #include <vector>
@@ -26,8 +27,9 @@ struct PlantRoots {
 };
 
 /// Cuts the internodes below the soil's surface at the faces of voxels. Throws RunError for a root that leaves the soil
-/// elsewhere. `days`: what a unit of time is.
+/// elsewhere. `days`: what a unit of time is. What a model says of an internode counts instead of `orders`.
 PlantRoots roots_in_soil(const PlantView& plant, const WorldView& world, double days, const SoilLayout& soil,
-                         const std::vector<RootConductances>& orders, RootMeasure measure);
+                         const std::vector<RootConductances>& orders, RootMeasure measure,
+                         const SaidConductances& said = {});
 
 }  // namespace espalier::environment

@@ -1,8 +1,6 @@
 #include "environment/sky/light_series.h"
 
-#include "espalier/base/file.h"
-
-#include "base/csv_file.h"
+#include "base/csv_rows.h"
 #include "base/number.h"
 #include "base/text.h"
 
@@ -15,7 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 namespace espalier::environment {
 
@@ -78,26 +75,24 @@ void LightSeries::refuse(int line, int column, const std::string& message) const
 }
 
 LightSeries::LightSeries(const std::filesystem::path& path, double photons) : path_(path) {
-    std::istringstream text(read_text(path));
-    std::string line;
+    const CsvRows table(path, true);
     std::vector<Column> columns;
-    for (int number = 1; std::getline(text, line); ++number) {
-        if (trimmed(line).empty() || line.front() == '#') continue;
+    for (const CsvRow& row : table.rows()) {
         if (columns.empty()) {
-            columns = columns_of(line, photons);
+            columns = columns_of(row, photons);
         } else {
-            read_row(line, number, columns);
+            read_row(row, columns);
         }
     }
     if (rows_.size() < 2) refuse(0, 0, "a series of light needs a header and two rows at least");
     require_even_times();
 }
 
-std::vector<LightSeries::Column> LightSeries::columns_of(const std::string& header, double photons) const {
+std::vector<LightSeries::Column> LightSeries::columns_of(const CsvRow& header, double photons) const {
     const std::vector<KnownColumn> known = known_columns(photons);
     std::vector<Column> columns;
     bool has_time = false, has_light = false;
-    for (const std::string& cell : csv_cells(header)) {
+    for (const std::string& cell : header.cells) {
         const auto [name, unit] = name_and_unit(cell);
         Column column;
         column.name = name;
@@ -111,7 +106,7 @@ std::vector<LightSeries::Column> LightSeries::columns_of(const std::string& head
             if (found == one.units.end()) {
                 std::vector<std::string> units;
                 for (const ColumnUnit& known_unit : one.units) units.push_back(known_unit.unit);
-                refuse(1, static_cast<int>(columns.size() + 1),
+                refuse(header.line, static_cast<int>(columns.size() + 1),
                        fmt::format("the column '{}' has the unit '{}': write {} ({}), where the unit is one of: {}",
                                    name, unit, name, units.front(), fmt::join(units, ", ")));
             }
@@ -120,8 +115,9 @@ std::vector<LightSeries::Column> LightSeries::columns_of(const std::string& head
         }
         columns.push_back(column);
     }
-    if (!has_time) refuse(1, 0, "the header names no column 'time (h)' or 'date': when was the light measured?");
-    if (!has_light) refuse(1, 0, "the header names neither 'global (W m-2)' nor 'par (umol m-2 s-1)'");
+    if (!has_time)
+        refuse(header.line, 0, "the header names no column 'time (h)' or 'date': when was the light measured?");
+    if (!has_light) refuse(header.line, 0, "the header names neither 'global (W m-2)' nor 'par (umol m-2 s-1)'");
     return columns;
 }
 
@@ -145,19 +141,20 @@ double LightSeries::read_date(const std::string& cell, int number, int column) {
     return 24.0 * static_cast<double>(midnight - first_midnight_) + *hour + *minute / 60.0 + *second / 3600.0;
 }
 
-void LightSeries::read_row(const std::string& line, int number, std::span<const Column> columns) {
+void LightSeries::read_row(const CsvRow& read, std::span<const Column> columns) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const int number = read.line;
     MeasuredLight row{unknown, unknown, unknown, unknown, unknown, number};
-    const std::vector<std::string> cells = csv_cells(line);
+    const std::vector<std::string>& cells = read.cells;
     if (cells.size() != columns.size()) {
         refuse(number, 0, fmt::format("this row has {} cells, and the header {}", cells.size(), columns.size()));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const int column = static_cast<int>(i + 1);
-        const std::string cell = trimmed(cells[i]);
+        const std::string& cell = cells[i];
         if (columns[i].is_date) row.hours = read_date(cell, number, column);
         if (!columns[i].value) continue;
-        const std::optional<double> value = finite_number(cell);
+        const std::optional<double> value = read.number(i);
         if (!value) {
             refuse(number, column,
                    fmt::format("'{}' is '{}', which is no number: a series has no holes", columns[i].name, cell));

@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+namespace espalier {
+struct CsvRow;
+}
+
 namespace espalier::environment {
 
 /// A row. NaN: not measured. All on level ground.
@@ -41,8 +45,8 @@ public:
 
 private:
     struct Column;
-    std::vector<Column> columns_of(const std::string& header, double photons) const;
-    void read_row(const std::string& line, int number, std::span<const Column> columns);
+    std::vector<Column> columns_of(const CsvRow& header, double photons) const;
+    void read_row(const CsvRow& read, std::span<const Column> columns);
     double read_date(const std::string& cell, int number, int column);
     void require_even_times() const;
     [[noreturn]] void refuse(int line, int column, const std::string& message) const;

@@ -60,6 +60,9 @@ void SoilLayout::place_kinds(const Fields& fields) {
                 }
                 use(parameters_.map_kinds[static_cast<std::size_t>(value)]);
             }
+            if (!parameters_.map_file.empty()) {
+                use(parameters_.map_kinds[parameters_.map_file.at(point, {grid_.lower(), grid_.upper()})]);
+            }
             for (const SoilLayer& layer : parameters_.layers) {
                 if (in_layer(layer, point)) use(layer.kind);
             }

@@ -21,7 +21,10 @@ initial        { head = -100 }; the water of frame 0, by one of
     content    water content everywhere, m3/m3
 layers         []; tables { bottom, top (heights, m), slope (degrees, along x), soil, initial } that do not overlap
 regions        []; tables of a shape with soil and initial, such as lenses and stones; of two the later one counts
-map            none; { field = "ground", soils = ["loam", "sand"] }, where a field has the value 0 lies the first of the soils
+map            none; { field = "ground", soils = ["loam", "sand"] }, where a field has the value 0 lies the first of the soils;
+               or of a file that covers the domain in x and y, or with plane = "xz" in x and z: { file = "ground.csv", soils },
+               rows of numbers that count the soils from 0, the highest row first; or { file = "ground.png", soils,
+               colours = ["#c8a060", "#604020"] }, a picture with a colour for each of the soils
 boundaries     closed; what happens at the sides of the domain, in a table
     top        "no-flux" (the default), or a table with the keys rain, evaporation, ponding and dry_limit, or { flux } in mm/d
                into the soil, or { head } in cm

@@ -66,11 +66,18 @@ void read_layers(const Settings& settings, const Settings& named, SoilParameters
 void read_map(const Settings& settings, const Settings& named, SoilParameters& parameters) {
     if (!settings.has("map")) return;
     const Settings map = settings.table("map");
-    parameters.map_field = map.text("field");
     for (const std::string& name : map.texts_or("soils", {})) {
         parameters.map_kinds.push_back(find_soil_kind(name, map.place("soils"), named, parameters));
     }
     if (parameters.map_kinds.empty()) throw UserError(map.place(), "a map needs soils = [\"...\", ...]");
+    if (map.has("file") == map.has("field")) {
+        throw UserError(map.place(), "a map needs one of 'file' (a picture or a table) and 'field'");
+    }
+    if (map.has("file")) {
+        parameters.map_file = TextureMap(map, parameters.map_kinds.size());
+    } else {
+        parameters.map_field = map.text("field");
+    }
 }
 
 void read_surface(const Settings& boundaries, SoilSurface& surface) {

@@ -5,6 +5,7 @@
 
 #include "environment/soil/hydraulics.h"
 #include "environment/soil/series.h"
+#include "environment/soil/texture_map.h"
 #include "environment/water/parameters.h"
 
 #include <memory>
@@ -60,7 +61,8 @@ struct SoilParameters {
     std::vector<SoilHydraulics> kinds;
     std::vector<std::string> kind_names;
     std::string map_field;               ///< a field whose values count `map`, from 0; empty: none
-    std::vector<std::size_t> map_kinds;  ///< kinds that its values stand for
+    TextureMap map_file;                 ///< instead of a field
+    std::vector<std::size_t> map_kinds;  ///< kinds that the values of either stand for
     std::size_t kind = 0;                ///< of soil that no layer, region or map names
     SoilBeginning beginning;
     std::vector<SoilLayer> layers;

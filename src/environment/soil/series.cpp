@@ -1,32 +1,22 @@
 #include "environment/soil/series.h"
 
-#include "espalier/base/file.h"
-
-#include "base/csv_file.h"
-#include "base/number.h"
+#include "base/csv_rows.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace espalier::environment {
 namespace {
 
-std::string trimmed(const std::string& text) {
-    const std::vector<std::string> words = words_of(text, " \t\r");
-    return words.empty() ? "" : fmt::format("{}", fmt::join(words, " "));
-}
-
 /// A cell as a finite number in the range.
-double number_in(const std::vector<std::string>& cells, std::size_t column, const std::string& what, const Place& place,
+double number_in(const CsvRow& row, std::size_t column, const std::string& what, const Place& place,
                  const Range& range) {
-    const std::string text = column < cells.size() ? trimmed(cells[column]) : "";
+    const std::string text = column < row.cells.size() ? row.cells[column] : "";
     if (text.empty()) throw UserError(place, fmt::format("there is no '{}' in this line: a series has no gaps", what));
-    const std::optional<double> value = finite_number(text);
+    const std::optional<double> value = row.number(column);
     if (!value) throw UserError(place, fmt::format("'{}' is not a number", text));
     if (*value < range.lowest || *value > range.highest) {
         throw UserError(place, fmt::format("'{}' is {}, which is not between {} and {}", what, text,
@@ -46,30 +36,26 @@ SoilSeries SoilSeries::read(const Settings& settings, const std::string& key, do
     series.name_ = path.filename().string() + ": " + column_name;
     series.values_.clear();
 
-    std::istringstream lines(read_text(path));
-    std::string line;
-    Place place{path.string(), 1, 0};
-    std::getline(lines, line);
-    const std::vector<std::string> header = csv_cells(line);
-    const auto named = std::find_if(header.begin(), header.end(),
-                                    [&](const std::string& name) { return trimmed(name) == column_name; });
+    const CsvRows table_rows(path, false);
+    const std::vector<CsvRow>& rows = table_rows.rows();
+    const std::vector<std::string> header = rows.empty() ? std::vector<std::string>() : rows[0].cells;
+    const auto named = std::find(header.begin(), header.end(), column_name);
     const auto column = static_cast<std::size_t>(named - header.begin());
     if (named == header.end() || column == 0) {
-        throw UserError(place, fmt::format("this file has no column '{}' behind the one of the days", column_name));
+        throw UserError({path.string(), 1, 0},
+                        fmt::format("this file has no column '{}' behind the one of the days", column_name));
     }
-    while (std::getline(lines, line)) {
-        ++place.line;
-        if (trimmed(line).empty()) continue;
-        const std::vector<std::string> cells = csv_cells(line);
-        const double day = number_in(cells, 0, trimmed(header[0]), place, Range::any());
+    for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
+        const Place place = table_rows.place(*row);
+        const double day = number_in(*row, 0, header[0], place, Range::any());
         if (!series.times_.empty() && day <= series.times_.back()) {
             throw UserError(place, fmt::format("day {} is not behind day {} of the line before", format_general(day),
                                                format_general(series.times_.back())));
         }
         series.times_.push_back(day);
-        series.values_.push_back(number_in(cells, column, column_name, place, range));
+        series.values_.push_back(number_in(*row, column, column_name, place, range));
     }
-    if (series.times_.empty()) throw UserError(place, "this series has no lines");
+    if (series.times_.empty()) throw UserError({path.string(), 1, 0}, "this series has no lines");
     return series;
 }
 

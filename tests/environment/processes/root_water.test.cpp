@@ -240,6 +240,35 @@ TEST_CASE("a query is told the water of the internode before it", "[environment]
     CHECK(values[3] < 0.25);  // less than its share of the length
 }
 
+TEST_CASE("a model says the conductances of its roots", "[environment][roots]") {
+    const std::string soil = pot(0.02, "soil = \"loam\"\n"), held = "collar = { head = -500 }\n";
+    RootedSoil pair(soil, "radial = 1e-9\naxial = 1e-3\n" + held);
+    pair.model.processes = {"water", "roots"};
+    pair.add_root(0.01, 0.01, 0.2);  // four internodes, a query behind each
+    ModuleString& string = pair.strings[0];
+    string = {};
+    const LetterId internode = pair.model.alphabet.letter("F", 0), asks = pair.model.alphabet.letter("?roots", 6);
+    std::deque<std::vector<double>> parameters;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        string.append(internode, {});
+        parameters.push_back({0, 0, 0, 0, 1.73e-4, 0.0432});
+        string.append(asks, parameters.back());
+        pair.interpretations[0].geometry.internodes[i].module = 2 * i;
+        Query query;
+        query.process = 1;
+        query.module = 2 * i + 1;
+        query.parameters = parameters.back();
+        pair.interpretations[0].queries.push_back(query);
+    }
+    pair.step(0.01);
+    const double around = 2 * std::numbers::pi * 0.1, tau = std::sqrt(around * 1.73e-4 / 0.0432);
+    CHECK(pair.quantity("conductance") == Approx(0.0432 * tau * std::tanh(20 * tau)).epsilon(1e-9));
+    // The uptake at a depth z is proportional to cosh((20 - z) tau).
+    CHECK(pair.quantity("suf_depth") == Approx(std::tanh(10 * tau) / tau).epsilon(2e-3));
+    parameters[2][5] = 0;
+    CHECK_THROWS_WITH(pair.step(0.01), Catch::Matchers::Contains("axial conductance 0 cm3/d"));
+}
+
 TEST_CASE("mistakes of roots are clear lines", "[environment][roots]") {
     const std::string soil = pot(0.02, "soil = \"loam\"\n");
     const auto mistake = [&](const std::string& in, const std::string& roots) {

@@ -1,8 +1,10 @@
 // soil-water with model = "richards" as a scene meets it.
 #include "espalier/base/file.h"
 
+#include "base/png_file.h"
 #include "catch.h"
 #include "environment/water/soil.h"
+#include "temporary_folder.h"
 
 #include <fmt/format.h>
 
@@ -125,6 +127,39 @@ TEST_CASE("mistakes in a soil are clear lines", "[environment][soil]") {
     check_mistake(
         "model = \"richards\"\ndomain = { lower = [0, -1, 0], upper = [1, 0, 1] }\nvoxel = 1e-5\nsoil = \"loam\"",
         "use larger voxels");
+}
+
+TEST_CASE("a table or a picture places soils", "[environment][soil]") {
+    const TemporaryFolder folder;
+    const std::string begin =
+        "model = \"richards\"\ndomain = { lower = [0, -0.2, 0], upper = [0.3, 0, 0.2] }\nvoxel = 0.1\nsoil = "
+        "\"loam\"\ninitial = { head = -1e-3 }\nmap = { soils = [\"sand\", \"clay\"], file = \"" +
+        folder.path().string();
+    const auto check_profile = [&](const std::string& rest) {
+        const Soil soil(begin + rest);
+        CHECK(value(soil, "water", {0, 1, 0}) == Approx(0.43).margin(1e-4));  // sand, at the left above
+        CHECK(value(soil, "water", {2, 1, 1}) == Approx(0.38).margin(1e-4));  // clay
+        CHECK(value(soil, "water", {1, 0, 1}) == Approx(0.43).margin(1e-4));
+    };
+    write_text(folder.path() / "map.csv", "# a profile\n0, 1, 1\n1, 0, 0\n");
+    check_profile("/map.csv\" }");
+    const Soil plan(begin + "/map.csv\", plane = \"xz\" }");
+    CHECK(value(plan, "water", {0, 0, 1}) == Approx(0.43).margin(1e-4));  // the row of the greatest z
+    CHECK(value(plan, "water", {0, 0, 0}) == Approx(0.38).margin(1e-4));
+
+    const OpacityPicture::Pixel sand{200, 160, 96, 255}, clay{96, 64, 32, 255};
+    write_text(folder.path() / "map.png", png_bytes({3, 2, {sand, clay, clay, clay, sand, sand}}));
+    check_profile("/map.png\", colours = [\"#c8a060\", \"#604020\"] }");
+    check_mistake(begin + "/map.png\" }", "a picture needs a colour for each of the 2 soils");
+    check_mistake(begin + "/map.png\", colours = [\"#c8a060\", \"#604021\"] }",
+                  "the pixel 2 of row 1 from above is #604020, which is none of 'colours'");
+    check_mistake(begin + "/map.png\", colours = [\"#c8a060\", \"brown\"] }", "'brown' is no colour");
+
+    write_text(folder.path() / "map.csv", "0,1,1\n1,2,0\n");
+    check_mistake(begin + "/map.csv\" }", "map.csv:2:2: '2' is not a number from 0 to 1");
+    write_text(folder.path() / "map.csv", "0,1,1\n1,0\n");
+    check_mistake(begin + "/map.csv\" }", "map.csv:2: this row has 2 cells, and the first 3");
+    check_mistake(begin + "/map.csv\", field = \"ground\" }", "a map needs one of 'file'");
 }
 
 TEST_CASE("a series with gaps, words, or days that do not rise names its line", "[environment][soil]") {
