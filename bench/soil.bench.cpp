@@ -1,10 +1,13 @@
 // Water after Richards: rain on a block of soil, beside a plain column, and how the cost grows with the voxels. Water
-// in a tree of roots.
+// in a tree of roots. A solute that moves.
+#include "espalier/environment/environment_process.h"
+
 #include "environment/roots/hydraulic_tree.h"
 #include "environment/soil/column.h"
 #include "environment/soil/reference.h"
 #include "table.h"
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
 #include <vector>
@@ -50,13 +53,17 @@ void rain_on_plain_column(benchmark::State& state) {
 }
 BENCHMARK(rain_on_plain_column)->UseRealTime();
 
-void tree_of_roots(benchmark::State& state) {
-    constexpr std::uint32_t count = 100'000;
+std::vector<environment::RootPiece> many_pieces() {
     std::vector<environment::RootPiece> pieces;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < 100'000; ++i) {
         const std::uint32_t bearer = i == 0 ? environment::RootPiece::collar : i % 7 == 0 ? i / 2 : i - 1;
         pieces.push_back({bearer, 0.5, 0.2, 0.05, 1e-4, -200.0 - i % 100});
     }
+    return pieces;
+}
+
+void tree_of_roots(benchmark::State& state) {
+    const std::vector<environment::RootPiece> pieces = many_pieces();
     environment::HydraulicTree tree;
     environment::RootFlow flow;
     double seconds = 0;
@@ -67,9 +74,46 @@ void tree_of_roots(benchmark::State& state) {
         seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
         benchmark::DoNotOptimize(flow.transpiration);
     }
-    state.counters["value"] = seconds / double(state.iterations()) / count * 1e9;
+    state.counters["value"] = seconds / double(state.iterations()) / double(pieces.size()) * 1e9;
 }
 BENCHMARK(tree_of_roots)->UseRealTime();
+
+void copy_of_roots(benchmark::State& state) {
+    const std::vector<environment::RootPiece> pieces = many_pieces();
+    std::vector<environment::RootPiece> copy(pieces.size());
+    for (auto _ : state) {
+        std::copy(pieces.begin(), pieces.end(), copy.begin());
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(copy_of_roots)->UseRealTime();
+
+/// A step of Heun's on 64^3 voxels: a solute that flows and disperses.
+void solute_in_block(benchmark::State& state) {
+    Settings settings = Settings::parse_toml(
+        "domain = { lower = [0, -0.64, 0], upper = [0.64, 0, 0.64] }\nvoxel = 0.01\ncontent = 0.3\nflow = 1\n"
+        "dispersivity = 1\ninitial = 1\nboundaries = { top = { entering = 0 } }",
+        "solute.toml");
+    Fields fields;
+    EnvironmentContext context;
+    context.name = "nitrate";
+    const auto process = registered<ProcessType>().at("nutrient")->make(settings, context, fields);
+    WorldView world{1, 0, 0.02, {}};
+    for (auto _ : state) process->advance(world, {}, fields);
+    state.SetItemsProcessed(state.iterations() * 64 * 64 * 64);
+}
+BENCHMARK(solute_in_block)->UseRealTime();
+
+void copy_of_a_solute(benchmark::State& state) {
+    const std::vector<double> field(64 * 64 * 64, 1.0);
+    std::vector<double> copy(field.size());
+    for (auto _ : state) {
+        std::copy(field.begin(), field.end(), copy.begin());
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * 64 * 64 * 64);
+}
+BENCHMARK(copy_of_a_solute)->UseRealTime();
 
 using Measure = Row::Measure;
 using Goal = Row::Goal;
@@ -92,6 +136,18 @@ const Row tree{"water in a tree of 100,000 pieces of root, per piece, ns",
                Measure::value,
                Goal::at_most,
                100};
+const Row roots_copied{"the same, against copying the pieces",
+                       "tree_of_roots/real_time",
+                       "copy_of_roots/real_time",
+                       Measure::time,
+                       Goal::at_most,
+                       30};
+const Row solute{"a step of a solute on 64^3 voxels, per voxel, against copying the field",
+                 "solute_in_block/real_time",
+                 "copy_of_a_solute/real_time",
+                 Measure::time_per_item,
+                 Goal::at_most,
+                 300};
 
 }  // namespace
 }  // namespace espalier::bench

@@ -34,6 +34,7 @@ grow hydraulic-lift environments/hydraulic-lift.toml
 for scene in drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
     grow "$scene" "environments/$scene.toml"
 done
+grow hydrotropism environments/hydrotropism.toml
 grow split-wet environments/split-pot.toml --set environment.water.regions.0.initial.head=-100
 grow split-feddes environments/split-pot.toml --set 'environment.roots.model="feddes"'
 for nitrate in poor layers rich; do
@@ -56,6 +57,7 @@ for plant in drought-deep drought-shallow; do
     render "$plant.png" "$plant" --size 150x480 --sheet 2x1 --step 20:60:40 --field water:slice --azimuth 15 --elevation 5 --time
 done
 render intercrop.png intercrop --size 240x480 --sheet 2x1 --step 20:40:20 --field water:slice --azimuth 15 --elevation 5 --time
+render hydrotropism.png hydrotropism --size 400x400 --field water.head:slice --azimuth 0 --elevation 5
 render split-pot.png split-pot --size 500x380 --field roots:slice --azimuth 0 --elevation 5
 render nitrate-in-rain.png nitrate-in-rain --size 180x400 --sheet 5x1 --step 12:60:12 --field nitrate:slice --azimuth 15 --elevation 5 --time
 render growth.png two-trees --sheet 4x2 --size 250x190 --colour-by birth

@@ -41,7 +41,7 @@ accuracy       0.005; error in the water content (m3/m3) that a substep may have
 max_substep    1; longest substep, days
 wilting_head   -15000 cm; water that is held more strongly is not for queries
 
-?name(...) as above; a tenth parameter is answered the pressure head, cm.
+?name(...) as above; a tenth parameter is answered the pressure head, cm, and three more its gradient, cm/cm.
 
 Fields: `name` (m3/m3), `name.head` (cm), `name.flux_x`, `_y`, `_z` (cm/d), `name.ponding` (mm). Statistics: uptake and
 wish (this plant, this step); storage, ponding; and since the beginning, in mm over the surface: rain, evaporation, runoff,

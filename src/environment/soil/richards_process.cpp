@@ -192,11 +192,14 @@ private:
         return shown_values_;
     }
 
-    /// The tenth parameter of a query is answered the pressure head around it, cm.
+    /// The tenth parameter of a query is answered the pressure head around it, cm; three more its gradient, cm/cm.
     void answer_heads(std::span<const Query> queries, std::span<Answer> answers) const {
         for (std::size_t q = 0; q < queries.size(); ++q) {
             if (answers[q].size() < 10) continue;
-            answers[q][9] = sample_water(grid_, layout_.faces(), soil_.heads(), queries[q].pose.position).content;
+            const WaterSample sample = sample_water(grid_, layout_.faces(), soil_.heads(), queries[q].pose.position);
+            const glm::dvec3 gradient = 0.01 * sample.gradient;
+            const double all[] = {sample.content, gradient.x, gradient.y, gradient.z};
+            std::copy_n(all, std::min<std::size_t>(4, answers[q].size() - 9), answers[q].begin() + 9);
         }
     }
 
