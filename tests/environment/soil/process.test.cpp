@@ -131,7 +131,7 @@ TEST_CASE("mistakes in a soil are clear lines", "[environment][soil]") {
 
 TEST_CASE("a query is told the pressure head and its gradient", "[environment][soil]") {
     Soil soil(bed);
-    const std::vector<double> answer = soil.step({{{0.01, -0.15, 0.03}, std::vector<double>(13, 0.0)}})[0];
+    const std::vector<double> answer = soil.ask({{{0.01, -0.15, 0.03}, std::vector<double>(13, 0.0)}})[0];
     CHECK(answer[9] == Approx(-35).margin(1e-3));  // 35 cm above the water table, at rest
     CHECK(answer[10] == Approx(0).margin(1e-4));
     CHECK(answer[11] == Approx(-1).margin(1e-4));  // cm per cm of height
