@@ -45,7 +45,7 @@ double length_after(double k, double r, double days) {
 }  // namespace
 
 TEST_CASE("roots: lengths and numbers of axes do not depend on the length of a step", "[roots-models]") {
-    for (const std::string name : {"maize", "wheat", "lupine"}) {
+    for (const std::string name : {"maize", "wheat", "lupine", "split"}) {
         const auto coarse = roots_after(name, 20, 2), fine = roots_after(name, 20, 0.25);
         REQUIRE(coarse.size() == 3);
         for (int order = 0; order < 3; ++order) {
