@@ -69,6 +69,9 @@ TEST_CASE("the parameters of a species have sliders, each where its line writes 
     const std::string changed = with_number(text, numbers[4], "12");
     CHECK(changed.find("= 8, 12, -8") != std::string::npos);
     CHECK(numbers[4].group == "Trunk");
+    CHECK(numbers[6].lowest == 0);
+    CHECK_FALSE(std::isfinite(numbers[6].highest));  // 100,000 branches, a guard, are no end of a slider
+    CHECK(numbers[4].highest == 360);
     CHECK(numbers[6].group == "Level 1");
     for (const fs::path& file : files_below("models", {".species"})) CHECK(numbers_of(file).size() > 20);
 }

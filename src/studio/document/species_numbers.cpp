@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 
 namespace espalier::studio {
 namespace {
@@ -57,6 +59,18 @@ std::string heading(const std::string& written) {
     return written.front() == '0' ? "Trunk" : fmt::format("Level {}", written.front());
 }
 
+/// Many bounds only keep a model from growing without end, such as 100,000 branches. A slider between them would move
+/// in steps that are too large, so they are left out; where none is left, zero is in the middle.
+void leave_out_guards(WrittenNumber& number) {
+    constexpr double usual = 50, turn = 360, infinite = std::numeric_limits<double>::infinity();
+    const double size = std::max(1.0, std::abs(number.value));
+    if (number.highest > usual * size) number.highest = infinite;
+    if (number.lowest < -usual * size) number.lowest = -infinite;
+    if (std::isfinite(number.lowest) || std::isfinite(number.highest)) return;
+    number.highest = number.unit == "degrees" ? turn : 10 * size;
+    number.lowest = -number.highest;
+}
+
 /// The parameters of a line of the file, from `begin` to `end`, that are settings.
 void add_line(const std::string& text, std::size_t begin, std::size_t end, const std::vector<ModelSetting>& settings,
               std::vector<WrittenNumber>& numbers) {
@@ -78,6 +92,7 @@ void add_line(const std::string& text, std::size_t begin, std::size_t end, const
                            .lowest = setting->lowest,
                            .highest = setting->highest,
                            .offset = values[i].offset});
+        leave_out_guards(numbers.back());
     }
 }
 
