@@ -13,7 +13,7 @@
 namespace espalier::studio {
 namespace {
 
-struct Part {
+struct ListPart {
     std::string text;
     std::size_t offset;  ///< in the file
 };
@@ -32,8 +32,8 @@ std::string blank_comments(std::string text) {
     return text;
 }
 
-std::vector<Part> parts_of_list(const std::string& text, std::size_t begin, std::size_t end) {
-    std::vector<Part> parts;
+std::vector<ListPart> parts_of_list(const std::string& text, std::size_t begin, std::size_t end) {
+    std::vector<ListPart> parts;
     for (std::size_t from = begin; from <= end;) {
         const std::size_t comma = std::min(text.find(',', from), end);
         const std::size_t first = std::min(text.find_first_not_of(" \t\r", from), comma);
@@ -76,7 +76,8 @@ void add_line(const std::string& text, std::size_t begin, std::size_t end, const
               std::vector<WrittenNumber>& numbers) {
     const std::size_t equals = text.find('=', begin);
     if (equals >= end) return;
-    const std::vector<Part> names = parts_of_list(text, begin, equals), values = parts_of_list(text, equals + 1, end);
+    const std::vector<ListPart> names = parts_of_list(text, begin, equals),
+                                values = parts_of_list(text, equals + 1, end);
     for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) {
         const std::string name = name_of_setting(names[i].text);
         const auto setting =
