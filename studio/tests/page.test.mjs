@@ -72,6 +72,8 @@ test("wide and narrow pages show the plant", async () => {
     assert.ok(box.width >= least && box.height >= 300, `${width}: ${box.width} x ${box.height}`);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width, `${width} wide`);
     assert.deepEqual(await toolsCutOff(), [], `${width} wide`);
+    const status = await page.locator(".status").evaluate((line) => [line.scrollWidth, line.clientWidth]);
+    assert.ok(status[0] <= status[1], `${width} wide: the counts have ${status}`);
     await shot(page, `width-${width}`);
   }
   await page.setViewportSize({ width: 390, height: 844 });
