@@ -98,7 +98,6 @@ export class Gallery {
 
   private draw(): void {
     const { library, files } = this.library ?? { library: [], files: [] };
-    for (const [shelf, button] of this.buttons) button.setAttribute("aria-selected", String(shelf === this.shelf));
     const words = this.search.value.toLowerCase().split(/\s+/).filter(Boolean);
     const fits = ({ name, summary, path, shelf }: LibraryEntry) => {
       const text = `${name} ${summary} ${path} ${shelf}`.toLowerCase();
@@ -106,6 +105,8 @@ export class Gallery {
     };
     const onShelf = this.shelf === ownFiles ? files : library.filter(({ shelf }) => [everything, shelf].includes(this.shelf));
     // A search looks on every shelf.
+    const shown = words.length > 0 ? everything : this.shelf;
+    for (const [shelf, button] of this.buttons) button.setAttribute("aria-selected", String(shelf === shown));
     const entries = words.length > 0 ? [...library, ...files].filter(fits) : onShelf;
     const sections = new Map<string, LibraryEntry[]>();
     for (const entry of entries) sections.set(entry.shelf, [...(sections.get(entry.shelf) ?? []), entry]);

@@ -63,8 +63,13 @@ export class Viewport {
       "viewport",
       {},
       this.canvas,
-      this.toolbar(film),
-      h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
+      h(
+        "div",
+        "picture-over",
+        {},
+        this.toolbar(film),
+        h("div", "picture-left", {}, this.limbs.element, this.fieldTools, this.legend),
+      ),
       this.scale,
       this.hints.element,
     );
@@ -144,11 +149,15 @@ export class Viewport {
       { role: "toolbar", "aria-label": "Picture" },
       h("label", "", {}, h("span", "", {}, "Colour"), this.colourSelect),
       h("label", "field-choice", {}, h("span", "", {}, "Field"), this.fieldSelect),
-      h("span", "spread"),
-      iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
-      iconButton("home", "First view (Home)", () => this.scene.home()),
-      look,
-      pictures,
+      h(
+        "div",
+        "picture-buttons",
+        {},
+        iconButton("fit", "Show the whole plant (F)", () => this.scene.fit()),
+        iconButton("home", "First view (Home)", () => this.scene.home()),
+        look,
+        pictures,
+      ),
     );
   }
 

@@ -29,6 +29,15 @@ async function openFromGallery(words, which = page) {
   await which.locator(".gallery").waitFor({ state: "hidden" });
 }
 
+/** Tools over the picture that its edges cut off. */
+const toolsCutOff = () =>
+  page.evaluate(() => {
+    const edges = document.querySelector(".viewport").getBoundingClientRect();
+    const cut = ({ left, right }) => left < edges.left || right > edges.right;
+    const tools = [...document.querySelectorAll(".picture-over :is(select, button, input, .field-tools *)")];
+    return tools.filter((tool) => cut(tool.getBoundingClientRect()) && tool.offsetParent).map((tool) => tool.outerHTML.slice(0, 80));
+  });
+
 const text = () => page.locator(".cm-content").textContent();
 
 before(async () => {
@@ -62,6 +71,9 @@ test("wide and narrow pages show the plant", async () => {
     const box = await page.locator(".viewport canvas").boundingBox();
     assert.ok(box.width >= least && box.height >= 300, `${width}: ${box.width} x ${box.height}`);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width, `${width} wide`);
+    assert.deepEqual(await toolsCutOff(), [], `${width} wide`);
+    const status = await page.locator(".status").evaluate((line) => [line.scrollWidth, line.clientWidth]);
+    assert.ok(status[0] <= status[1], `${width} wide: the counts have ${status}`);
     await shot(page, `width-${width}`);
   }
   await page.setViewportSize({ width: 390, height: 844 });
@@ -198,6 +210,19 @@ test("the cloud of points shows while a slider of the crown moves, and goes afte
   assert.match(await page.locator(".status .counts").textContent(), /[\d,]+ vertices.*[\d,]+ triangles/);
 });
 
+test("a search looks on every shelf, and its marked shelf says so", async () => {
+  await page.getByRole("button", { name: "Gallery", exact: true }).click();
+  const marked = page.locator(".gallery [role=tab][aria-selected=true]");
+  await page.getByRole("tab", { name: "Cells" }).click();
+  assert.equal(await marked.textContent(), "Cells");
+  await page.fill(".gallery .search", "two-trees.toml");
+  assert.equal(await marked.textContent(), "All");
+  await page.fill(".gallery .search", "");
+  assert.equal(await marked.textContent(), "Cells");
+  await page.getByRole("tab", { name: "All", exact: true }).click();
+  await page.getByRole("button", { name: "Back to the plant" }).click();
+});
+
 test("a field and the counts are those of the step that shows", async () => {
   await openFromGallery("two-trees.toml");
   await page.waitForFunction(() => document.title.startsWith("two-trees"));
@@ -208,6 +233,12 @@ test("a field and the counts are those of the step that shows", async () => {
   await shows(24);
   await page.getByLabel("Field", { exact: true }).selectOption("light");
   await page.waitForSelector(".viewport[data-field='light 24']");
+  for (const width of [768, 900, 1024, 1280]) {
+    await page.setViewportSize({ width, height: 720 });
+    await rests(page);
+    await shot(page, `field-${width}`);
+    assert.deepEqual(await toolsCutOff(), [], `${width} wide`);
+  }
   const modules = async () => Number(/([\d,]+) modules/.exec(await page.locator(".status .counts").textContent())[1].replace(",", ""));
   const last = await modules();
   await page.locator(".scrub").fill("3");

@@ -1,5 +1,6 @@
 // What is saved keeps its meaning, and what other programs write is neither overlooked nor overwritten.
 #include "session_fixture.h"
+#include "studio/document/plain_name.h"
 #include "studio/document/saved_places.h"
 
 using namespace studio_test;
@@ -82,6 +83,23 @@ TEST_CASE("what reads files of folders above is saved with them at their relativ
     studio.change({{"seed", 3}});
     studio.wait_until_grown();
     CHECK(studio.page.last("problems")["problems"].empty());
+}
+
+TEST_CASE("every file that models and scenes of the library read may be saved", "[studio]") {
+    std::size_t files = 0;
+    for (const char* part : {"models", "environments"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(fs::path(ESPALIER_SOURCE_DIR) / part)) {
+            const fs::path name = entry.path().filename();
+            if (!entry.is_regular_file() || name.extension() == ".md") continue;
+            INFO(entry.path());
+            CHECK(espalier::studio::refusal_of_name(name) == std::nullopt);
+            ++files;
+        }
+    }
+    CHECK(files > 250);
+    for (const char* picture : {"bark.jpg", "bark.jpeg", "leaf.tif", "leaf.tiff"}) {
+        CHECK(espalier::studio::refusal_of_name(picture) == std::nullopt);
+    }
 }
 
 TEST_CASE("a view file that a model finds by its name follows the name", "[studio]") {

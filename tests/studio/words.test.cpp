@@ -52,6 +52,30 @@ TEST_CASE("every slider of every model has words and a range", "[studio]") {
     CHECK(sliders > 500);
 }
 
+TEST_CASE("the parameters of a species have sliders, each where its line writes it", "[studio]") {
+    const std::string text =
+        "/* Scale = 3 */\nLevels = 2\nScale, ScaleV = 10, 3  // Ratio = 5\nRatio=0.02\n"
+        "0CurveRes, 0Curve , 0CurveBack = 8, 8, -8\n1Branches = 30\n";
+    const std::vector<WrittenNumber> numbers = written_numbers("oak.species", text);
+    std::vector<std::string> names;
+    for (const WrittenNumber& number : numbers) {
+        INFO(number.name);
+        names.push_back(number.name);
+        CHECK(text.substr(number.offset, number.text.size()) == number.text);
+        CHECK(std::stod(number.text) == number.value);
+    }
+    CHECK(names ==
+          std::vector<std::string>{"Scale", "ScaleV", "Ratio", "CurveRes_0", "Curve_0", "CurveBack_0", "Branches_1"});
+    const std::string changed = with_number(text, numbers[4], "12");
+    CHECK(changed.find("= 8, 12, -8") != std::string::npos);
+    CHECK(numbers[4].group == "Trunk");
+    CHECK(numbers[6].lowest == 0);
+    CHECK_FALSE(std::isfinite(numbers[6].highest));  // 100,000 branches, a guard, are no end of a slider
+    CHECK(numbers[4].highest == 360);
+    CHECK(numbers[6].group == "Level 1");
+    for (const fs::path& file : files_below("models", {".species"})) CHECK(numbers_of(file).size() > 20);
+}
+
 TEST_CASE("the sliders of a scene say what the model and the documentation say of them", "[studio]") {
     int sliders = 0, described = 0;
     for (const fs::path& file : files_below("environments", {".toml"})) {

@@ -98,9 +98,10 @@ public:
             borne_.assign(tubes_.size(), 0);
             for (std::size_t i = 0; i < tubes_.size(); ++i) borne_[bearer_[i]] += bearer_[i] != i;
         }
+        for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
+        of_organs_ = areas_of_organs(of_points);
         const std::vector<double> areas = limits_.keeps_outline ? borne_areas(tubes_, bearer_) : std::vector<double>();
         for (std::size_t i = 0; i < tubes_.size(); ++i) add_tube(i, of_points, areas);
-        for (std::size_t i = 0; i < organs_.parts.size(); ++i) add_organ(i);
         add_removals();
     }
 
@@ -180,6 +181,20 @@ private:
         push_tube(i);
     }
 
+    // Without the tubes on which a plant stands its organs would hang in the air: each of those counts its share.
+    std::vector<double> areas_of_organs(const FrameAttributes& of_points) const {
+        std::vector<double> result(tubes_.size(), 0);
+        if (!limits_.keeps_outline) return result;
+        const auto plant_of = [&](std::size_t tube) { return of_points.plants[tubes_[tube].line.nodes.back().row]; };
+        std::map<std::uint32_t, double> areas, feet;
+        for (std::size_t i = 0; i < organs_.parts.size(); ++i) areas[organs_.parts[i].plant] += organ_states_[i].area;
+        for (std::size_t i = 0; i < tubes_.size(); ++i) feet[plant_of(i)] += bearer_[i] == i;
+        for (std::size_t i = 0; i < tubes_.size(); ++i) {
+            if (bearer_[i] == i) result[i] = areas[plant_of(i)] / feet[plant_of(i)];
+        }
+        return result;
+    }
+
     void add_organ(std::size_t i) {
         const MeshPart& organ = organs_.parts[i];
         organ_states_.push_back(
@@ -227,7 +242,7 @@ private:
     double error_of_tube(std::size_t i) const {
         const TubeState& state = states_[i];
         if (!limits_.keeps_outline) return outline_error(state.area);
-        return outline_error(std::max(0.0, state.area - state.changed / 2), triangles_of_tube(i));
+        return outline_error(std::max(0.0, state.area - state.changed / 2) + of_organs_[i], triangles_of_tube(i));
     }
 
     // A tube that has lost nodes saves fewer triangles than when its move was made.
@@ -383,6 +398,7 @@ private:
     OrganLevels shapes_;
     std::vector<TubeState> states_;
     std::vector<std::size_t> bearer_, borne_;  ///< the tube that each stands on, and how many stand on it
+    std::vector<double> of_organs_;            ///< area of organs that would hang in the air without a tube
     std::vector<OrganState> organ_states_;
     std::priority_queue<Move> moves_;
     std::size_t count_ = 0;

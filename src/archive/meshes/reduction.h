@@ -21,8 +21,9 @@ inline constexpr double smallest_angle = 1e-3;
 
 /// Leaves out middles of caps, nodes, sides, vertices of organs, thin tubes and whole organs, always where the outline
 /// changes by the smallest area for a triangle, until `triangles` are left, or a few per cent less. An axis goes after
-/// all that stands on it, and keeps its foot and its course as long as it bears something. Of organs that look alike,
-/// those that stay grow by the area of those that went, up to twice their length (Cook et al. 2007).
+/// all axes on it, and keeps its foot and its course as long as it bears some; those on which a plant stands count its
+/// organs as theirs, and go last. Of organs that look alike, those that stay grow by the area of those that went, up to
+/// twice their length (Cook et al. 2007).
 void reduce(std::vector<PlannedTube>& tubes, FrameMesh& organs, const FrameAttributes& of_points,
             std::size_t triangles);
 

@@ -101,8 +101,9 @@ std::vector<LightSeries::Column> LightSeries::columns_of(const CsvRow& header, d
         has_light = has_light || name == "global" || name == "par";
         for (const KnownColumn& one : known) {
             if (name != one.name) continue;
-            const auto found = std::find_if(one.units.begin(), one.units.end(),
-                                            [&](const ColumnUnit& known_unit) { return unit == known_unit.unit; });
+            const auto found =
+                std::find_if(one.units.begin(), one.units.end(),
+                             [&unit = unit](const ColumnUnit& known_unit) { return unit == known_unit.unit; });
             if (found == one.units.end()) {
                 std::vector<std::string> units;
                 for (const ColumnUnit& known_unit : one.units) units.push_back(known_unit.unit);

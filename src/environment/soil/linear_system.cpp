@@ -62,7 +62,7 @@ void SoilLinearSystem::precondition(const FaceFluxes& vertical, const WaterBrick
 
 void SoilLinearSystem::multiply(const std::array<FaceFluxes, 3>& fluxes, WaterBrick& v, WaterBrick& product) const {
     const int n = layout_.grid().size().x;
-    const auto& [fx, fy, fz] = fluxes;
+    const FaceFluxes &fx = fluxes[0], &fy = fluxes[1], &fz = fluxes[2];
     layout_.for_rows([&](std::size_t row) { layout_.wrap(v.data() + layout_.grid().row_begin(row)); });
     layout_.for_rows([&](std::size_t row) {
         const NeighbourRows at = layout_.neighbours(row);

@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "studio/document/scene_words.h"
+#include "studio/document/species_numbers.h"
 
 #include <fmt/format.h>
 
@@ -281,6 +282,7 @@ private:
 
 std::vector<WrittenNumber> written_numbers(const fs::path& file, const std::string& text) {
     try {
+        if (file.extension() == ".species") return numbers_of_species(file, text);
         if (file.extension() != ".toml") return numbers_of_model(file, text);
         return SceneNumbers(text).of(Settings::parse_toml(text, file.string(), file.parent_path()));
     } catch (const std::exception&) {
