@@ -23,6 +23,11 @@ class Run:
 
         return pandas.read_csv(self.folder / "statistics.csv")
 
+    def _repr_png_(self):
+        from .looking import png
+
+        return png(self)
+
 
 def open(folder):
     """Opens the folder of a run; raises Error if there is none."""
