@@ -102,9 +102,9 @@ class Scene:
         return read
 
 
-def record(scene, output, overwrite=False, seed=None):
+def record(scene, output, overwrite=False, seed=None, steps=None):
     """Grows a scene and records it in the folder `output`, as `espalier run` does; returns the number of steps.
 
-    Ctrl-C ends it after a step. If it fails, the frames recorded so far are whole.
+    steps: instead of those of the scene. Ctrl-C ends it after a step. If it fails, the frames recorded so far are whole.
     """
-    return Scene.of(scene, seed)._scene.record(output, overwrite)
+    return Scene.of(scene, seed)._scene.record(output, overwrite, steps)

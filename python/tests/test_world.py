@@ -94,3 +94,11 @@ def test_two_worlds_in_two_threads_give_what_each_gives_alone():
     for thread in threads:
         thread.join()
     assert together == alone and len(alone[0]) > 0
+
+
+def test_a_bar_of_progress_ends_with_the_last_step(shoot, capsys):
+    world = es.World(shoot)
+    assert len(list(world.run(2, progress=True))) == 3
+    assert capsys.readouterr().err.splitlines()[-1].startswith("[" + "#" * 30 + "] step 2/2")
+    list(world.run())
+    assert capsys.readouterr().err == ""

@@ -155,6 +155,7 @@ void bind_world(py::module_& module) {
         .def("frame", frame_of, "The frame of the current step.")
         .def_readonly("started", &BoundWorld::started)
         .def_property_readonly("steps_done", [](const BoundWorld& bound) { return bound.world.steps_done(); })
+        .def_property_readonly("last_step", [](const BoundWorld& bound) { return bound.world.last_step(); })
         .def_property_readonly("at_end", [](const BoundWorld& bound) { return bound.world.at_end(); });
 }
 
