@@ -7,6 +7,7 @@
 
 from ._espalier import Error, Field, Module, ModuleString, PlantFrame, RunError, __version__
 from .looking import analyse, check, export, fit, plot, render, sweep, translate, tree
+from .lpy import from_lpy
 from .recorded import Run, open
 from .scene import Model, Plant, Process, Scene, process, record
 from .world import Frame, Internodes, World
@@ -31,6 +32,7 @@ __all__ = [
     "check",
     "export",
     "fit",
+    "from_lpy",
     "open",
     "plot",
     "process",

@@ -14,6 +14,11 @@ class Model(_espalier.Model):
         super().__init__(path, text, **defines)
         self._read_from = (None if path is None else pathlib.Path(os.path.abspath(path)), text, defines)
 
+    @property
+    def text(self):
+        """The text that it was made of; None for a file."""
+        return self._read_from[1]
+
     def __reduce__(self):
         return _read_model, self._read_from
 
