@@ -103,14 +103,16 @@ class World:
         self._world = _espalier.World(self._scene._scene)
 
     def run(self, steps=None, progress=False):
-        """Yields frame 0 and a frame after every derivation step, up to `steps` or the scene's end.
+        """Yields frame 0 and a frame after every derivation step, `steps` of them or up to the scene's end.
 
-        Called again it goes on from the present frame, for `steps` more. Ctrl-C ends it after a step. progress=True
+        Called again it goes on from the present frame, for `steps` more; what the first call asks for may be longer
+        than the scene. Ctrl-C ends it after a step. progress=True
         draws a bar on standard error, which notebooks show below the cell.
         """
         last = None if steps is None else self.steps_done + steps
         if not self._world.started:
-            self._world.start(steps)
+            longer = steps is not None and steps > self._world.last_step
+            self._world.start(steps if longer else None)  # otherwise run() could not go on later
             yield self.frame
         bar = Bar(self._world.last_step if last is None else min(last, self._world.last_step)) if progress else None
         while not self._world.at_end and (last is None or self.steps_done < last):
@@ -123,6 +125,11 @@ class World:
     def frame(self):
         """The frame of the present step."""
         return Frame(self._world.frame(), self._scene)
+
+    @property
+    def stage_seconds(self):
+        """Seconds of the last step, by stage: {"derive": ..., "interpret": ..., "exchange": ...}."""
+        return self._world.stage_seconds
 
     @property
     def steps_done(self):
