@@ -5,9 +5,11 @@
 'ABB'
 """
 
-from ._espalier import Error, Field, Model, Module, ModuleString, PlantFrame, RunError, __version__
+from ._espalier import Error, Field, Module, ModuleString, PlantFrame, RunError, __version__
+from .looking import analyse, check, export, fit, plot, render, sweep, translate, tree
+from .lpy import from_lpy
 from .recorded import Run, open
-from .scene import Plant, Process, Scene, process, record
+from .scene import Model, Plant, Process, Scene, process, record
 from .world import Frame, Internodes, World
 
 __all__ = [
@@ -21,12 +23,22 @@ __all__ = [
     "Plant",
     "PlantFrame",
     "Process",
-    "RunError",
     "Run",
+    "RunError",
     "Scene",
     "World",
     "__version__",
+    "analyse",
+    "check",
+    "export",
+    "fit",
+    "from_lpy",
     "open",
+    "plot",
     "process",
     "record",
+    "render",
+    "sweep",
+    "translate",
+    "tree",
 ]

@@ -3,11 +3,112 @@
 import json
 import pathlib
 
+import numpy
+
 from . import _espalier
 
 
+class RecordedInternodes:
+    """The internodes of all plants of a recorded frame, axis after axis. Arrays are views without a copy.
+
+    base, tip: float32 (n, 3), metres; base_radius, radius (at the tips): float32 (n,), metres; identity, parent (of the
+    modules): uint64 (n,); plant: uint32 (n,); order: uint16 (n,); birth: step, int32 (n,); bearer: the row of the
+    internode that each stands on, int32 (n,), -1 for the first of a plant.
+    """
+
+    _COLUMNS = ("base", "tip", "base_radius", "radius", "identity", "parent", "plant", "order", "birth", "bearer")
+
+    def __init__(self, loaded):
+        self._loaded = loaded
+
+    def __len__(self):
+        return len(self._loaded)
+
+    def __getattr__(self, name):
+        if name not in self._COLUMNS:
+            raise AttributeError(name)
+        return getattr(self._loaded, name)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._COLUMNS]
+
+    @property
+    def symbols(self):
+        """Symbols of the modules, a list of n texts."""
+        return self._loaded.symbols
+
+    @property
+    def parameters(self):
+        """The recorded parameters by name, float64 (n,) each; NaN where a module has none."""
+        return {name: self._loaded.parameter(name) for name in self._loaded.parameter_names}
+
+
+class RecordedFrame:
+    """A recorded step: step, time (the scene's unit), internodes, fields. Its files are read when they are asked for."""
+
+    def __init__(self, run, step, time):
+        self._run = run
+        self.step = step
+        self.time = time
+
+    @property
+    def internodes(self):
+        """What the turtles drew as segments."""
+        return RecordedInternodes(self._run._reader.frame(self.step))
+
+    def field(self, name):
+        """The recorded field of that name, such as "light"."""
+        return self._run.field(name, self.step)
+
+    def _repr_png_(self):
+        from .looking import png
+
+        return png(self._run, step=self.step)
+
+
+class RecordedField:
+    """A field as it was recorded: values, float32 (nx, ny, nz); origin, its lower corner, and voxel, metres; unit."""
+
+    def __init__(self, name, values, origin, voxel, unit):
+        self.name = name
+        self.values = values
+        self.origin = origin
+        self.voxel = voxel
+        self.unit = unit
+
+    def at(self, points):
+        """Values at points (n, 3) in metres, trilinear between centres of voxels, those of the rim beyond them."""
+        size = numpy.array(self.values.shape)
+        place = (numpy.asarray(points, float) - self.origin) / self.voxel - 0.5
+        place = numpy.clip(place, 0, size - 1)
+        low = numpy.minimum(place.astype(int), numpy.maximum(size - 2, 0))
+        part = place - low
+        total = numpy.zeros(len(place))
+        for corner in numpy.ndindex(2, 2, 2):
+            index = numpy.minimum(low + corner, size - 1)
+            weight = numpy.where(corner, part, 1 - part).prod(axis=1)
+            total += weight * self.values[tuple(index.T)]
+        return total
+
+
+class History:
+    """The life of one organ: identity, plant, symbol, parent, order, birth, death (steps; None: unknown), and rows."""
+
+    def __init__(self, lasting, rows):
+        self.__dict__.update(lasting)
+        self.rows = rows
+
+    @property
+    def table(self):
+        """A DataFrame with a row for each frame that has the organ: step, time, base, tip, length, radii, area and the
+        recorded parameters."""
+        import pandas
+
+        return pandas.DataFrame(self.rows)
+
+
 class Run:
-    """A run as it lies in a folder."""
+    """A run as it lies in a folder, also one that is still going."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -17,11 +118,66 @@ class Run:
             raise _espalier.Error(f"{self.folder}: no recorded run ({error})") from error
 
     @property
+    def _reader(self):
+        from . import _recorded  # what reads runs loads libraries: only where it is asked for
+
+        return _recorded.RecordedRun(self.folder)
+
+    @property
     def statistics(self):
         """statistics.csv as a DataFrame of pandas: a row for each step and plant."""
         import pandas  # takes half a second: only where it is asked for
 
         return pandas.read_csv(self.folder / "statistics.csv")
+
+    @property
+    def frames(self):
+        """The recorded frames, in the order of time: a list of RecordedFrame."""
+        return [RecordedFrame(self, step, time) for step, time in self._reader.frames]
+
+    @property
+    def organs(self):
+        """A DataFrame with a row for each internode, organ and answered query of the last frame."""
+        return self.organs_at("last")
+
+    def organs_at(self, step):
+        """The same of other frames: a step, "first", "last", "all" or "FROM:TO[:EVERY]"."""
+        import io
+
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self._exported("csv", step)))
+
+    def history(self, identity, plant=0):
+        """The life of the organ of that identity; of a plant by its number or name. Raises Error if no frame has it."""
+        reader = self._reader
+        number = reader.plant(plant) if isinstance(plant, str) else int(plant)
+        found = reader.history(int(identity), number)
+        if found is None:
+            raise _espalier.Error(f"{self.folder}: plant {plant} has no organ {identity}")
+        return History(*found)
+
+    def field(self, name, step=None):
+        """The recorded field of that name and step; default: the last."""
+        reader = self._reader
+        return RecordedField(name, *reader.field(name, reader.frames[-1][0] if step is None else step))
+
+    def to_mtg(self, step="last"):
+        """The plants of a frame as the text of a multiscale tree graph, which openalea.mtg reads."""
+        return self._exported("mtg", step)
+
+    def _exported(self, format, step):
+        import tempfile
+
+        from .looking import export
+
+        with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+            return export(self, pathlib.Path(folder) / f"run.{format}", step=step).read_text(encoding="utf-8")
+
+    def _repr_png_(self):
+        from .looking import png
+
+        return png(self)
 
 
 def open(folder):

@@ -1,9 +1,12 @@
 """Worlds that grow step by step, and what their frames show."""
 
+import tempfile
+
 import numpy
 
 from . import _espalier
-from .scene import Scene
+from .progress import Bar
+from .scene import Scene, record
 
 
 class _Parameters:
@@ -68,8 +71,9 @@ class Internodes:
 class Frame:
     """One step of a world after its exchange: step, time (the scene's unit), plants, internodes, fields."""
 
-    def __init__(self, frame):
+    def __init__(self, frame, scene):
         self._frame = frame
+        self._scene = scene
         self.step = frame.step
         self.time = frame.time
         self.plants = frame.plants
@@ -83,30 +87,49 @@ class Frame:
         """The field of that name, such as "light"; raises Error once the world has gone on."""
         return self._frame.field(name)
 
+    def _repr_png_(self):  # of the same scene grown anew up to this step, which gives the same plants
+        from .looking import png
+
+        with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+            record(self._scene, folder, overwrite=True, steps=self.step)
+            return png(folder)
+
 
 class World:
     """The world of a Scene, or of the file of a scene (.toml) or model. The same scene and seed give the same bytes."""
 
     def __init__(self, scene, seed=None):
-        self._world = _espalier.World(Scene.of(scene, seed)._scene)
+        self._scene = Scene.of(scene, seed)
+        self._world = _espalier.World(self._scene._scene)
 
-    def run(self, steps=None):
-        """Yields frame 0 and a frame after every derivation step, up to `steps` or the scene's end.
+    def run(self, steps=None, progress=False):
+        """Yields frame 0 and a frame after every derivation step, `steps` of them or up to the scene's end.
 
-        Called again it goes on from the present frame, for `steps` more. Ctrl-C ends it after a step.
+        Called again it goes on from the present frame, for `steps` more; what the first call asks for may be longer
+        than the scene. Ctrl-C ends it after a step. progress=True
+        draws a bar on standard error, which notebooks show below the cell.
         """
         last = None if steps is None else self.steps_done + steps
         if not self._world.started:
-            self._world.start(steps)
+            longer = steps is not None and steps > self._world.last_step
+            self._world.start(steps if longer else None)  # otherwise run() could not go on later
             yield self.frame
+        bar = Bar(self._world.last_step if last is None else min(last, self._world.last_step)) if progress else None
         while not self._world.at_end and (last is None or self.steps_done < last):
             self._world.step()
+            if bar:
+                bar.show(self.steps_done, at_end=self._world.at_end or self.steps_done == last)
             yield self.frame
 
     @property
     def frame(self):
         """The frame of the present step."""
-        return Frame(self._world.frame())
+        return Frame(self._world.frame(), self._scene)
+
+    @property
+    def stage_seconds(self):
+        """Seconds of the last step, by stage: {"derive": ..., "interpret": ..., "exchange": ...}."""
+        return self._world.stage_seconds
 
     @property
     def steps_done(self):

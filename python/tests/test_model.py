@@ -68,3 +68,12 @@ def test_a_growth_that_cannot_go_on_is_a_run_error():
 def test_models_of_every_notation_are_read(extension):
     file = sorted((ROOT / "models").rglob(f"*.{extension}"))[0]
     assert len(es.Model(file).derive(1)) > 0
+
+
+def test_parameters_are_a_mapping_of_columns():
+    string = es.Model(text=ROW).derive()
+    assert list(string.parameters) == ["F.1", "A.1"] and "F.1" in string.parameters
+    assert dict(string.parameters)["A.1"][-1] == 8
+    assert (string.parameters["F.1"][:3] == [1, 2, 4]).all()
+    with pytest.raises(KeyError):
+        string.parameters["F.2"]

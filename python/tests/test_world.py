@@ -53,6 +53,7 @@ def test_a_view_keeps_its_values_when_the_world_goes_on_and_dies(shoot):
 def test_run_goes_on_where_it_stopped():
     world = es.World(TREES, seed=3)
     assert [frame.step for frame in world.run(6)] == [0, 1, 2, 3, 4, 5, 6]
+    assert [frame.step for frame in world.run(2)] == [7, 8]
     with pytest.raises(es.Error, match="no-such-scene"):
         es.World(ROOT / "environments" / "no-such-scene.toml")
 
@@ -94,3 +95,12 @@ def test_two_worlds_in_two_threads_give_what_each_gives_alone():
     for thread in threads:
         thread.join()
     assert together == alone and len(alone[0]) > 0
+
+
+def test_a_bar_of_progress_ends_with_the_last_step(shoot, capsys):
+    world = es.World(shoot)
+    assert len(list(world.run(2, progress=True))) == 3
+    assert capsys.readouterr().err.splitlines()[-1].startswith("[" + "#" * 30 + "] step 2/2")
+    assert [frame.step for frame in world.run()] == [3, 4]
+    assert capsys.readouterr().err == ""
+    assert len(list(es.World(shoot).run(6))) == 7

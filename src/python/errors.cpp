@@ -47,6 +47,7 @@ void bind_errors(py::module_& module) {
     run_error_type = PyErr_NewExceptionWithDoc(
         "espalier.RunError", "A growth that cannot go on: memory, disk, a parameter that is no number.", error_type,
         nullptr);
+    for (const char* attribute : {"file", "line", "column"}) py::handle(error_type).attr(attribute) = py::none();
     module.add_object("Error", error_type);
     module.add_object("RunError", run_error_type);
     py::register_exception_translator(translate);

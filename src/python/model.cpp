@@ -3,9 +3,11 @@
 
 #include "python/bindings.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace espalier::python {
@@ -104,6 +106,44 @@ std::vector<std::string> symbols(const BoundString& bound) {
     return names;
 }
 
+/// The columns of a string by name.
+struct Parameters {
+    BoundString string;
+    std::vector<std::string> names;  ///< in the order of their first module
+};
+
+Parameters parameters_of(const BoundString& bound) {
+    Parameters parameters{bound, {}};
+    std::map<LetterId, std::size_t> known;
+    for (std::size_t i = 0; i < bound.string->size(); ++i) {
+        const LetterId letter = bound.string->letters[i];
+        const std::size_t count = bound.offsets[i + 1] - bound.offsets[i];
+        std::size_t& so_far = known[letter];
+        for (; so_far < count; ++so_far) {
+            parameters.names.push_back(bound.model->alphabet.name(letter) + "." + std::to_string(so_far + 1));
+        }
+    }
+    return parameters;
+}
+
+bool has_parameter(const Parameters& parameters, const std::string& name) {
+    return std::find(parameters.names.begin(), parameters.names.end(), name) != parameters.names.end();
+}
+
+py::array_t<double> parameter(const Parameters& parameters, const std::string& name) {
+    if (!has_parameter(parameters, name)) throw py::key_error(name);
+    return column(parameters.string, name);
+}
+
+void bind_parameters(py::module_& module) {
+    py::class_<Parameters>(module, "Parameters", "Columns of a string by name: parameters[\"A.1\"], as of column().")
+        .def("__len__", [](const Parameters& parameters) { return parameters.names.size(); })
+        .def("__iter__", [](const Parameters& parameters) { return py::iter(py::cast(parameters.names)); })
+        .def("__contains__", has_parameter)
+        .def("__getitem__", parameter)
+        .def("keys", [](const Parameters& parameters) { return parameters.names; });
+}
+
 std::string text_of(const BoundString& bound) {
     return to_text(*bound.string, bound.model->alphabet);
 }
@@ -128,6 +168,7 @@ std::pair<std::string, int> parameter_named(const std::string& name) {
 }
 
 void bind_model(py::module_& module) {
+    bind_parameters(module);
     py::class_<Module>(module, "Module", "One module: its symbol, its parameters and its identity for life.")
         .def_readonly("symbol", &Module::symbol)
         .def_readonly("parameters", &Module::parameters)
@@ -140,6 +181,7 @@ void bind_model(py::module_& module) {
         .def("__str__", text_of, "The string in cpfg's notation.")
         .def_property_readonly("symbols", symbols, "Symbols of the modules, a list of n texts.")
         .def_property_readonly("identity", identities, "Identities of the modules, uint64 (n,).")
+        .def_property_readonly("parameters", parameters_of, "Columns by name: parameters[\"A.1\"]; dict() takes all.")
         .def("column", column, py::arg("name"),
              "Parameter \"A.1\" (symbol, number from 1) of every module, float64 (n,); NaN where a module has none.");
 

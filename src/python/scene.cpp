@@ -43,7 +43,9 @@ void add_python_process(BoundScene& bound, const std::string& name, py::object p
     bound.scene.environment.add(name, "python", {{"number", bound.processes.back()->number()}});
 }
 
-int record(const BoundScene& bound, const std::filesystem::path& output, bool overwrite) {
+int record(const BoundScene& bound, const std::filesystem::path& output, bool overwrite, std::optional<int> steps) {
+    Scene scene = bound.scene;
+    if (steps) scene.steps = *steps;
     StopRequest request;
     bool interrupted = false;
     RunOptions options;
@@ -54,14 +56,14 @@ int record(const BoundScene& bound, const std::filesystem::path& output, bool ov
         interrupted = interrupted || PyErr_CheckSignals() != 0;
         if (interrupted) request.ask(patience_with_steps);
     };
-    int steps = 0;
+    int done = 0;
     {
         const py::gil_scoped_release free;
         const StopRequest::Scope scope(&request);
-        steps = run(bound.scene, options).steps;
+        done = run(scene, options).steps;
     }
     if (interrupted) throw py::error_already_set();
-    return steps;
+    return done;
 }
 
 }  // namespace
@@ -73,7 +75,7 @@ void bind_scene(py::module_& module) {
         .def("add_plant", add_plant)
         .def("add_process", add_process)
         .def("add_python_process", add_python_process)
-        .def("record", record, py::arg("output"), py::arg("overwrite") = false);
+        .def("record", record, py::arg("output"), py::arg("overwrite") = false, py::arg("steps") = py::none());
 }
 
 }  // namespace espalier::python

@@ -118,6 +118,15 @@ void advance(BoundWorld& bound) {
     bound.world.step();
 }
 
+py::dict stage_seconds(const BoundWorld& bound) {
+    const StageTimes& times = bound.world.times();
+    py::dict seconds;
+    seconds["derive"] = times.derive;
+    seconds["interpret"] = times.interpret;
+    seconds["exchange"] = times.exchange;
+    return seconds;
+}
+
 void bind_frame(py::module_& module) {
     py::class_<BoundPlant>(module, "PlantFrame",
                            "One plant of a frame; arrays of its internodes are views that stay valid and unchanged.")
@@ -155,6 +164,8 @@ void bind_world(py::module_& module) {
         .def("frame", frame_of, "The frame of the current step.")
         .def_readonly("started", &BoundWorld::started)
         .def_property_readonly("steps_done", [](const BoundWorld& bound) { return bound.world.steps_done(); })
+        .def_property_readonly("stage_seconds", stage_seconds)
+        .def_property_readonly("last_step", [](const BoundWorld& bound) { return bound.world.last_step(); })
         .def_property_readonly("at_end", [](const BoundWorld& bound) { return bound.world.at_end(); });
 }
 

@@ -1,0 +1,113 @@
+"""What the program does to models, scenes and runs. Keywords are the options of `espalier COMMAND --help`."""
+
+import pathlib
+import tempfile
+
+from .program import call, call_for_json, folder_for
+from .recorded import Run
+
+
+def render(what, output, **options):
+    """Draws a run, or a model or a scene (as an object or a file) at its end: render(run, "tree.png", colour_by="age").
+
+    The extension says whether it is a picture or a film; size="400x300". Returns the path.
+    """
+    with folder_for(what) as path:
+        call("render", path, output=output, quiet=True, **options)
+    return pathlib.Path(output)
+
+
+def png(what, **options):
+    """The bytes of a picture of a run, a model or a scene."""
+    with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+        return render(what, pathlib.Path(folder) / "picture.png", **{"size": "480x360", **options}).read_bytes()
+
+
+def export(run, output, **options):
+    """Writes the last frame of a run, or those of step="all", as a file of another program; its extension says which.
+
+    A model or a scene is grown first. Returns the path.
+    """
+    with folder_for(run) as path:
+        call("export", path, output=output, quiet=True, **options)
+    return pathlib.Path(output)
+
+
+def plot(runs, output, **options):
+    """Draws charts of one run or of a list of them, as .png or .svg: quantity="height,light.mean". Returns the path."""
+    several = runs if isinstance(runs, (list, tuple)) else [runs]
+    call("plot", *[_path_of(run) for run in several], output=output, **options)
+    return pathlib.Path(output)
+
+
+def analyse(run, **options):
+    """Measures the plants of a run; returns tables by name: {"analysis": DataFrame, "orders": ..., "layers": ...}.
+
+    With field="water", profile="y" the table is "water-y".
+    """
+    import pandas
+
+    with tempfile.TemporaryDirectory(prefix="espalier-") as folder:
+        call("analyse", _path_of(run), output=folder, no_picture=True, **options)
+        return {file.stem: pandas.read_csv(file) for file in sorted(pathlib.Path(folder).glob("*.csv"))}
+
+
+def fit(model, marks, **options):
+    """Finds the parameters of a model file from marks on a picture (.svg or .csv): a dict, as `fit --json` prints."""
+    return call_for_json("fit", model, marks, **options)
+
+
+def translate(file):
+    """The model, as text, that a file of another notation (.pgraph, .sdl, .species) stands for."""
+    return call("translate", file)
+
+
+def check(what, **options):
+    """Finds what looks wrong in a model, a scene or a side file: {"warnings": [...], "facts": [...]}. Raises Error at
+    a mistake."""
+    return call_for_json("check", what, **options)
+
+
+def sweep(scene, vary, jobs=None, output=None, **options):
+    """Grows the file of a scene or a model for every combination of values; a DataFrame with a row a run and plant.
+
+    vary: {"environment.light.strength": [0.2, 0.6], "simulation.seed": "1..4"}, lists or texts of `sweep --vary`; a
+    name without a dot is a #define. A sweep with output="folder" goes on where it stopped.
+    """
+    import pandas
+
+    varied = {key: value if isinstance(value, str) else ",".join(map(str, value)) for key, value in vary.items()}
+    with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
+        folder = pathlib.Path(output or pathlib.Path(scratch) / "sweep")
+        call("sweep", scene, vary=varied, jobs=jobs, output=folder, quiet=True, **options)
+        return pandas.read_csv(folder / "sweep.csv")
+
+
+class tree:
+    """A tree from a few settings, as `espalier tree`: tree(preset="weeping", seed=4, crown_width=6)."""
+
+    def __init__(self, preset=None, seed=0, **settings):
+        self._settings = {"preset": preset, "seed": seed, **settings}
+
+    def save(self, output, **options):
+        """Writes the mesh in the format of the extension (.obj, .glb, .ply, .stl, ...); returns the path.
+
+        A file that is there stays: the new one is numbered.
+        """
+        told = call_for_json("tree", output=output, **self._settings, **options)
+        return pathlib.Path(told["files"][0]["path"])
+
+    def save_run(self, folder):
+        """Records the growth in a folder, and opens it."""
+        with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
+            call("tree", output=pathlib.Path(scratch) / "tree.obj", run=folder, quiet=True, **self._settings)
+        return Run(folder)
+
+    def _repr_png_(self):
+        with tempfile.TemporaryDirectory(prefix="espalier-") as scratch:
+            return png(self.save_run(pathlib.Path(scratch) / "run"))
+
+
+def _path_of(run):
+    return run.folder if isinstance(run, Run) else run
+
