@@ -41,12 +41,23 @@ void record_in_python(benchmark::State& state) {
 }
 BENCHMARK(record_in_python)->UseRealTime()->Iterations(1);
 
+void internodes_to_numpy(benchmark::State& state) {
+    measure_in_python(state, "views");
+}
+BENCHMARK(internodes_to_numpy)->UseRealTime()->Iterations(1);
+
 const Row queries{"exchange of 100,000 queries, a process in Python against the same in C++",
                   "queries_to_python/iterations:1/real_time",
                   "",
                   Row::Measure::counters,
                   Row::Goal::at_most,
                   4};
+const Row views{"the tips of 100,000 internodes as an array of numpy, against copying them",
+                "internodes_to_numpy/iterations:1/real_time",
+                "",
+                Row::Measure::counters,
+                Row::Goal::at_most,
+                0.1};
 const Row recording_of_module{"es.record of a tree, against espalier run",
                               "record_in_python/iterations:1/real_time",
                               "",

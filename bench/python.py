@@ -60,6 +60,23 @@ def queries():
         print(*map(exchange_seconds, sides), flush=True)
 
 
+def seconds_of(work, times=100):
+    began = time.perf_counter()
+    for _ in range(times):
+        work()
+    return (time.perf_counter() - began) / times
+
+
+def views():
+    row = es.Model(text="lsystem: row\nderivation length: 1\naxiom: A\nA : Q < 6 --> AAAAAAAAAA\nA --> F(0.1)\nendlsystem\n")
+    for frame in es.World(es.Scene(plants=[es.Plant(row)])).run(6):
+        pass
+    internodes = frame.internodes
+    assert internodes.tip.shape == (100_000, 3)
+    for _ in range(5):
+        print(seconds_of(lambda: internodes.tip), seconds_of(lambda: internodes.tip.copy()), flush=True)
+
+
 def record():
     with tempfile.TemporaryDirectory(prefix="espalier-bench-") as folder:
         model = f"{folder}/tree.l"
@@ -73,4 +90,4 @@ def record():
             print(between - began, time.perf_counter() - between, flush=True)
 
 
-{"queries": queries, "record": record}[sys.argv[1]]()
+{"queries": queries, "record": record, "views": views}[sys.argv[1]]()
