@@ -23,6 +23,14 @@ PlannedTube tube(const std::vector<glm::vec3>& points, float radius, bool stands
     return planned;
 }
 
+/// All nodes of the tubes here stand for this one point.
+espalier::FrameAttributes of_one_point() {
+    espalier::FrameAttributes attributes;
+    attributes.colours.assign(1, 0);
+    attributes.plants.assign(1, 0);
+    return attributes;
+}
+
 constexpr int trunk_nodes = 30;
 
 /// A point of a trunk that bends like a bow: its middle stands far from the line between foot and tip.
@@ -71,8 +79,7 @@ std::size_t triangles_of(const std::vector<PlannedTube>& tubes) {
 }  // namespace
 
 TEST_CASE("a trunk keeps its foot and its course however few triangles are left", "[archive]") {
-    espalier::FrameAttributes of_points;
-    of_points.colours.assign(1, 0);
+    const espalier::FrameAttributes of_points = of_one_point();
     const std::vector<PlannedTube> whole = tree();
     for (const std::size_t wanted : {8000, 2000, 777, 300}) {
         INFO(wanted);
@@ -90,8 +97,7 @@ TEST_CASE("a trunk keeps its foot and its course however few triangles are left"
 }
 
 TEST_CASE("what bears others goes after them", "[archive]") {
-    espalier::FrameAttributes of_points;
-    of_points.colours.assign(1, 0);
+    const espalier::FrameAttributes of_points = of_one_point();
     std::vector<PlannedTube> tubes = tree();
     espalier::archive::FrameMesh organs;
     reduce(tubes, organs, of_points, 600);
@@ -104,8 +110,7 @@ TEST_CASE("what bears others goes after them", "[archive]") {
 }
 
 TEST_CASE("half of the triangles of smooth branches leave all of them in their wood", "[archive]") {
-    espalier::FrameAttributes of_points;
-    of_points.colours.assign(1, 0);
+    const espalier::FrameAttributes of_points = of_one_point();
     std::vector<PlannedTube> whole;
     for (int i = 0; i < 60; ++i) {
         std::vector<glm::vec3> twig;
