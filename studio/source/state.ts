@@ -216,7 +216,7 @@ export class Studio {
   }
 
   private fetchPictures(files: (number | null)[], reliefs: (number | null)[]): void {
-    this.pictures = files.map((file, i) => ({ colours: this.fileOf(file), normals: this.fileOf(reliefs[i]) }));
+    this.pictures = files.map((file, i) => ({ colours: this.fileOf(file), normals: this.fileOf(reliefs[i] ?? null) }));
     this.emit("pictures", this.pictures);
   }
 

@@ -138,7 +138,8 @@ export class Editor {
       this.dispatchTo(key, { effects: markLines.of(lines) });
     }
     const first = places[0];
-    const key = first ? this.keyOf(first.file) : null;
+    if (!first) return;
+    const key = this.keyOf(first.file);
     if (key === null || key !== this.shown) return;
     const { doc } = this.view.state;
     if (first.line <= doc.lines)
