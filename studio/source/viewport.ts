@@ -4,6 +4,7 @@ import {
   type Axis,
   mapGradient,
   PlantScene,
+  sameVector,
   steer,
   themes,
   triangleCount,
@@ -105,7 +106,7 @@ export class Viewport {
     this.hasAuthorLight = Boolean(view?.towards_light ?? view?.background);
     this.scene.setAuthor({
       // Where the file says nothing, the eye stands at 0 0 1.
-      towardsEye: eye && String(eye) !== "0,0,1" ? eye : null,
+      towardsEye: sameVector(eye, [0, 0, 1]) ? null : eye,
       towardsLight: view?.towards_light ?? null,
       background: view?.background ?? null,
     });

@@ -58,7 +58,10 @@ export class PlantScene {
   private readonly backdrop = new Backdrop();
   private readonly ground: Ground;
   private readonly internodes: Internodes;
-  private readonly pictures = new Pictures();
+  private readonly pictures = new Pictures(() => {
+    this.shadowStale = true;
+    this.request();
+  });
   private readonly triangles: Triangles;
   /** Limbs with bark or skin, instead of the internodes. */
   private readonly limbs: Triangles;
@@ -164,10 +167,8 @@ export class PlantScene {
 
   /** The pictures that a growth wears. */
   setPictures(sources: readonly PictureSource[]): void {
-    this.pictures.set(sources, () => {
-      this.shadowStale = true;
-      this.request();
-    });
+    this.pictures.set(sources);
+    this.request();
   }
 
   /** Draws a packet from now on. The camera stays, except for the first one. */
@@ -311,7 +312,7 @@ export class PlantScene {
 
   /** Tells in the page whether the picture is as it will stay. */
   private noteRest(rests: boolean): void {
-    this.canvas.toggleAttribute("data-draws", !rests);
+    this.canvas.toggleAttribute("data-draws", !rests || this.pictures.areLoading);
   }
 
   /** Without a graphics card, smooth edges wait until the picture rests. */
