@@ -1,4 +1,4 @@
-/** Reads the binary messages of the protocol (docs/studio-protocol.md). Arrays are views of the message: nothing is copied. */
+/** Reads the binary messages of the protocol (docs/developer/studio-protocol.md). Arrays are views of the message: nothing is copied. */
 import { at } from "../lists.js";
 import { axes, vectorOf, type Axis, type Box, type Vector } from "./vectors.js";
 
