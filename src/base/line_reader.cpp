@@ -47,14 +47,20 @@ int take_integer(TextCursor& line, std::string_view what, int least, int most) {
                          : fmt::format("'{}' needs a whole number from {} to {}", what, least, most));
 }
 
-std::vector<double> numbers_of(TextCursor line) {
+std::vector<double> take_numbers(TextCursor& line) {
     std::vector<double> numbers;
-    for (line.skip(TextCursor::blanks); !line.at_end(); line.skip(TextCursor::blanks)) {
-        const std::optional<double> number = line.number();
-        if (!number) line.fail(fmt::format("'{}' is no number", TextCursor(line).word()));
+    TextCursor next = line;
+    for (next.skip(TextCursor::blanks); !next.at_end(); next.skip(TextCursor::blanks)) {
+        const std::optional<double> number = next.number();
+        if (!number) next.fail(fmt::format("'{}' is no number", TextCursor(next).word()));
         numbers.push_back(*number);
+        line = next;
     }
     return numbers;
+}
+
+std::vector<double> numbers_of(TextCursor line) {
+    return take_numbers(line);
 }
 
 }  // namespace espalier

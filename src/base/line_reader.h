@@ -40,7 +40,8 @@ private:
 
 /// A whole number in the line, from `least` to `most`; `what` names it.
 int take_integer(TextCursor& line, std::string_view what, int least, int most);
-/// All numbers of a line, which has nothing else.
+/// All numbers of a line, which has nothing else. Goes behind the last one.
+std::vector<double> take_numbers(TextCursor& line);
 std::vector<double> numbers_of(TextCursor line);
 
 }  // namespace espalier

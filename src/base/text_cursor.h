@@ -27,6 +27,8 @@ public:
     /// The character here; '\0' at the end.
     char next() const { return at_end() ? '\0' : text()[at_]; }
     std::string_view rest() const { return text().substr(at_, end_ - at_); }
+    /// How many characters of the text stand before this place.
+    std::size_t offset() const { return at_; }
 
     void skip(std::string_view characters);
     /// Whether exactly this text stands here; goes behind it if so.

@@ -3,10 +3,10 @@
  * still open becomes lasting before a change of something else begins.
  */
 import { errorText, type Studio } from "./state.js";
-import type { ChangeRequest, GraphRequest } from "./protocol.js";
+import type { ChangeRequest, GraphRequest, PointsRequest } from "./protocol.js";
 
-/** What changes the document. */
-type Change = { name: "change"; fields: ChangeRequest } | { name: "graph"; fields: GraphRequest };
+/** Asks for a change of the document. */
+type Change = (more: { transient?: boolean }) => Promise<unknown>;
 
 interface Open {
   key: string;
@@ -19,6 +19,7 @@ export class Changes {
   private busy = false;
   private readonly queue: Change[] = [];
   private idle: (() => void)[] = [];
+  private readonly idleListeners: (() => void)[] = [];
 
   constructor(private readonly studio: Studio) {
     studio.on("connection", (state) => {
@@ -28,27 +29,46 @@ export class Changes {
     });
   }
 
+  /** Whether the server has yet to be told of a change, or to answer. */
+  get isBusy(): boolean {
+    return this.busy || this.unsent || this.queue.length > 0;
+  }
+
+  /** Calls a listener whenever the server has answered everything. */
+  onIdle(listener: () => void): void {
+    this.idleListeners.push(listener);
+  }
+
   /** `key` names what is changed: a slider, a text. */
   transient(key: string, fields: ChangeRequest, label: string): void {
-    this.begin(key, { name: "change", fields: { ...fields, label } });
+    this.begin(key, (more) => this.studio.connection.request("change", { ...fields, label, ...more }));
   }
 
   lasting(key: string, fields: ChangeRequest, label: string): void {
-    this.end(key, { name: "change", fields: { ...fields, label } });
+    this.end(key, (more) => this.studio.connection.request("change", { ...fields, label, ...more }));
   }
 
   /** The same for an edit of a graph of components. */
   graph(key: string, fields: GraphRequest, lasting: boolean): void {
-    if (lasting) this.end(key, { name: "graph", fields });
-    else this.begin(key, { name: "graph", fields });
+    this.add(key, (more) => this.studio.connection.request("graph", { ...fields, ...more }), lasting);
+  }
+
+  /** The same for the control points of a side file. */
+  points(key: string, fields: PointsRequest, lasting: boolean): void {
+    this.add(key, (more) => this.studio.connection.request("points", { ...fields, ...more }), lasting);
   }
 
   /** Makes the open change lasting; done when the server has everything. */
   settle(): Promise<void> {
     this.close();
     this.pump();
-    if (!this.busy && this.queue.length === 0) return Promise.resolve();
+    if (!this.isBusy) return Promise.resolve();
     return new Promise((done) => this.idle.push(done));
+  }
+
+  private add(key: string, change: Change, lasting: boolean): void {
+    if (lasting) this.end(key, change);
+    else this.begin(key, change);
   }
 
   private begin(key: string, change: Change): void {
@@ -83,19 +103,17 @@ export class Changes {
     } else {
       for (const done of this.idle) done();
       this.idle = [];
+      for (const listener of this.idleListeners) listener();
     }
   }
 
   private async send(change: Change, transient: boolean): Promise<void> {
     this.busy = true;
-    const { connection } = this.studio;
-    const more = transient ? { transient } : {};
     try {
-      if (change.name === "change") await connection.request("change", { ...change.fields, ...more });
-      else await connection.request("graph", { ...change.fields, ...more });
+      await change(transient ? { transient } : {});
     } catch (error) {
       // What was not heard because the connection broke is sent again when it stands.
-      if (connection.state === "open") this.studio.tell("error", errorText(error));
+      if (this.studio.connection.state === "open") this.studio.tell("error", errorText(error));
       else if (transient) this.unsent = this.open !== null;
       else this.queue.unshift(change);
     }

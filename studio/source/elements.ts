@@ -60,16 +60,21 @@ const icons = {
 export type IconName = keyof typeof icons;
 const solid = new Set<IconName>(["play", "pause", "stop", "first", "last", "forward", "back", "grow"]);
 
+/** Makes an element of a drawing, as `h` makes one of the page. */
+export function svg<Tag extends keyof SVGElementTagNameMap>(
+  tag: Tag,
+  attributes: Record<string, string | number>,
+  ...children: (Node | string)[]
+): SVGElementTagNameMap[Tag] {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  element.append(...children);
+  return element;
+}
+
 export function icon(name: IconName): SVGElement {
-  const space = "http://www.w3.org/2000/svg";
-  const svg = document.createElementNS(space, "svg");
-  svg.setAttribute("viewBox", "0 0 24 24");
-  svg.setAttribute("aria-hidden", "true");
-  svg.classList.add("icon", solid.has(name) ? "solid" : "line");
-  const path = document.createElementNS(space, "path");
-  path.setAttribute("d", icons[name]);
-  svg.append(path);
-  return svg;
+  const style = solid.has(name) ? "solid" : "line";
+  return svg("svg", { viewBox: "0 0 24 24", "aria-hidden": "true", class: `icon ${style}` }, svg("path", { d: icons[name] }));
 }
 
 /** A button with an icon, whose name shows as a tip. */

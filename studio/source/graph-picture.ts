@@ -1,8 +1,8 @@
 /** The picture of a graph of components: boxes in layers, from the camera downwards, joined by arrows. */
 import { componentSymbols } from "./component-symbols.js";
+import { svg } from "./elements.js";
 import type { ComponentGraph, GraphLink } from "./protocol.js";
 
-const space = "http://www.w3.org/2000/svg";
 const box = { width: 112, height: 36, across: 14, down: 34 };
 
 interface Spot {
@@ -43,19 +43,8 @@ function spotsOf(layers: readonly string[][], width: number): Map<string, Spot> 
   return spots;
 }
 
-function element<Tag extends keyof SVGElementTagNameMap>(
-  tag: Tag,
-  attributes: Record<string, string | number>,
-  ...children: Node[]
-) {
-  const made = document.createElementNS(space, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  made.append(...children);
-  return made;
-}
-
 function text(content: string, attributes: Record<string, string | number>): SVGElement {
-  return element("text", attributes, document.createTextNode(content));
+  return svg("text", attributes, content);
 }
 
 function arrow(link: GraphLink, spots: ReadonlyMap<string, Spot>): SVGElement | null {
@@ -66,15 +55,15 @@ function arrow(link: GraphLink, spots: ReadonlyMap<string, Spot>): SVGElement | 
   const d = loop
     ? `M${from.x + box.width} ${from.y + box.height / 2}C${from.x + box.width + 26} ${from.y},${to.x + box.width + 26} ${to.y + box.height},${to.x + box.width + 2} ${to.y + box.height / 2}`
     : `M${x1} ${y1}C${x1} ${y1 + 18},${x2} ${y2 - 18},${x2} ${y2 - 3}`;
-  return element(
+  return svg(
     "path",
     { d, class: `graph-link ${link.kind}`, "marker-end": "url(#graph-arrow)" },
-    element("title", {}, document.createTextNode(`${link.from} – ${link.kind} → ${link.to}`)),
+    svg("title", {}, `${link.from} – ${link.kind} → ${link.to}`),
   );
 }
 
 function arrowHead(): SVGElement {
-  const marker = element(
+  const marker = svg(
     "marker",
     {
       id: "graph-arrow",
@@ -85,14 +74,14 @@ function arrowHead(): SVGElement {
       markerHeight: 7,
       orient: "auto-start-reverse",
     },
-    element("path", { d: "M0 0L8 4L0 8z", class: "graph-head" }),
+    svg("path", { d: "M0 0L8 4L0 8z", class: "graph-head" }),
   );
-  return element("defs", {}, marker);
+  return svg("defs", {}, marker);
 }
 
 function symbol(type: string): SVGElement[] {
   const outline = componentSymbols[type];
-  return outline ? [element("path", { d: outline, class: "graph-symbol", transform: `translate(${box.width - 28} 6)` })] : [];
+  return outline ? [svg("path", { d: outline, class: "graph-symbol", transform: `translate(${box.width - 28} 6)` })] : [];
 }
 
 export function graphPicture(graph: ComponentGraph, chosen: string | null, choose: (name: string) => void): SVGSVGElement {
@@ -100,7 +89,7 @@ export function graphPicture(graph: ComponentGraph, chosen: string | null, choos
   const width = Math.max(300, ...layers.map((layer) => layer.length * (box.width + box.across) + 40));
   const height = layers.length * (box.height + box.down) - box.down + 14;
   const spots = spotsOf(layers, width);
-  const picture = element(
+  const picture = svg(
     "svg",
     { viewBox: `0 0 ${width} ${height}`, class: "graph-picture", role: "group", "aria-label": "Graph of components" },
     arrowHead(),
@@ -113,7 +102,7 @@ export function graphPicture(graph: ComponentGraph, chosen: string | null, choos
   for (const { name, type } of graph.components) {
     const spot = spots.get(name);
     if (!spot) continue;
-    const group = element(
+    const group = svg(
       "g",
       {
         class: `graph-box${name === chosen ? " chosen" : ""}`,
@@ -123,7 +112,7 @@ export function graphPicture(graph: ComponentGraph, chosen: string | null, choos
         "aria-label": `${name}, ${type}`,
         "aria-pressed": String(name === chosen),
       },
-      element("rect", { width: box.width, height: box.height, rx: 7 }),
+      svg("rect", { width: box.width, height: box.height, rx: 7 }),
       text(name.length > 12 ? `${name.slice(0, 11)}…` : name, { x: 9, y: 15, class: "graph-name" }),
       text(type, { x: 9, y: 29, class: "graph-type" }),
       ...symbol(type),

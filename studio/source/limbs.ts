@@ -12,6 +12,8 @@ export class LimbLook {
   private smooth = remembered("smooth", false);
   private asked = "";
   private timer = 0;
+  /** Of those who wait for limbs. */
+  private readonly waiting: (() => void)[] = [];
 
   constructor(
     private readonly studio: Studio,
@@ -55,13 +57,21 @@ export class LimbLook {
   private note(): void {
     const { canvas } = this.scene;
     canvas.dataset.limbs = this.studio.limbs ? (this.studio.limbs.smooth ? "smooth" : "tubes") : "";
-    canvas.toggleAttribute("data-waits", this.skin !== null && !this.studio.limbs);
+    canvas.toggleAttribute("data-waits", this.waits);
+    if (!this.waits) this.release();
   }
 
-  /** Waits until the limbs of the step that shows are drawn as they are to be. */
-  async settled(): Promise<void> {
-    for (let tries = 0; tries < 600 && this.skin && !this.studio.limbs; tries++)
-      await new Promise((done) => setTimeout(done, 50));
+  private get waits(): boolean {
+    return this.skin !== null && !this.studio.limbs;
+  }
+
+  /** Waits until the limbs of the step that shows are drawn as they are to be, or cannot be. */
+  settled(): Promise<void> {
+    return this.waits ? new Promise((done) => this.waiting.push(done)) : Promise.resolve();
+  }
+
+  private release(): void {
+    for (const done of this.waiting.splice(0)) done();
   }
 
   private get skin(): "smooth" | "tubes" | null {
@@ -92,7 +102,10 @@ export class LimbLook {
       const { growth, step } = packet;
       this.asked = `${growth} ${step} ${skin}`;
       this.element.hidden = skin !== "smooth";
-      this.studio.connection.request("limbs", { growth, step, skin }).catch(() => (this.element.hidden = true));
+      this.studio.connection.request("limbs", { growth, step, skin }).catch(() => {
+        this.element.hidden = true;
+        this.release();
+      });
     }, after);
   }
 

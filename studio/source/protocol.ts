@@ -396,6 +396,32 @@ export interface Place {
   column: number;
 }
 
+/** other control points of a curve. */
+export interface PointsRequest {
+  /** path of its text. */
+  path: string;
+  /** of the curve among those of its text, from 0 on; at least 0. */
+  number: number;
+  /** all that the curve is to have; a patch has 16. */
+  points: CurvePoint[];
+  /** what undo calls it. */
+  label?: string;
+  /** the next change replaces it. */
+  transient?: boolean;
+}
+
+/** a control point. */
+export interface CurvePoint {
+  /** coordinate. */
+  x: number;
+  /** coordinate. */
+  y: number;
+  /** coordinate; 0 where its file has none. */
+  z: number;
+  /** how often the point counts: three times make a corner; at least 1. */
+  times: number;
+}
+
 /** what a link would write, and where. */
 export interface LinkContents {
   /** a new one below the opened folder. */
@@ -468,6 +494,8 @@ export interface StudioDocument {
   settings: Setting[];
   /** texts in `pgraph` that can be read. */
   graphs: ComponentGraph[];
+  /** control points of side files that can be read, in the order of their texts. */
+  curves: PointCurve[];
   /** that the plants grow with. */
   seed: number;
   /** to which they grow. */
@@ -548,6 +576,20 @@ export interface GraphLink {
   to: string;
   /** how it is attached. */
   kind: "child" | "branch" | "leaf";
+}
+
+/** the control points of a function, a curve or a patch of a surface. */
+export interface PointCurve {
+  /** path of its text; several may stand in one. */
+  path: string;
+  /** as the file names it; may be empty. */
+  name: string;
+  /** x of a `function` grows from 0 to 1; a `patch` has 16 points in rows. */
+  kind: "function" | "contour" | "patch";
+  /** cubic B-spline, of which `clamped` reaches its ends; `other` is none. */
+  spline: "open" | "closed" | "clamped" | "other";
+  /** in the order of the text. */
+  points: CurvePoint[];
 }
 
 /** the files of an export. */
@@ -738,6 +780,8 @@ export interface Requests {
   "open-text": { send: SharedModel; get: OpenedLink };
   /** what is known of a module. */
   "pick": { send: PickRequest; get: Picked };
+  /** moves, adds or takes out control points of a side file; its text follows. */
+  "points": { send: PointsRequest; get: NewVersion };
   /** what `open-text` would write where. */
   "read-link": { send: SharedModel; get: LinkContents };
   /** brings back what was taken back. */

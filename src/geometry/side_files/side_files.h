@@ -5,6 +5,8 @@
 #include "espalier/geometry/contour.h"
 #include "espalier/geometry/surface.h"
 
+#include "geometry/side_files/control_points.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,12 +21,17 @@ namespace espalier::geometry {
 /// A contour (`cver 1 1` to `cver 1 3`, or the oldest form without version).
 std::optional<Contour> read_contour_text(std::string_view text, const std::string& name,
                                          std::vector<Diagnostic>& diagnostics);
+std::optional<ControlPoints> read_contour_points(std::string_view text, const std::string& name,
+                                                 std::vector<Diagnostic>& diagnostics);
 std::optional<Contour> read_contour(const std::filesystem::path& path, std::vector<Diagnostic>& diagnostics);
 
 /// A Bezier surface (.s), placed: the contact point at the origin, x along left, y along heading, z along up, `size`
 /// long where the file says SIZE.
 std::optional<Surface> read_surface_text(std::string_view text, const std::string& name, double size,
                                          std::vector<Diagnostic>& diagnostics);
+/// Sixteen points a patch, in rows, as the file writes them.
+std::vector<ControlPoints> read_surface_points(std::string_view text, const std::string& name,
+                                               std::vector<Diagnostic>& diagnostics);
 std::optional<Surface> read_surface(const std::filesystem::path& path, double size,
                                     std::vector<Diagnostic>& diagnostics);
 

@@ -38,6 +38,19 @@ public:
         : text_(text, name), diagnostics_(diagnostics) {}
 
     std::optional<Surface> read(double size) {
+        const Placement placement = read_file();
+        if (!link_neighbours()) return std::nullopt;
+        place(placement, size / placement.size);
+        return std::move(surface_);
+    }
+
+    std::vector<ControlPoints> read_points() {
+        read_file();
+        return std::move(points_);
+    }
+
+private:
+    Placement read_file() {
         Placement placement;
         try {
             placement = read_header();
@@ -45,12 +58,9 @@ public:
             text_.fail("the file ends before its first patch");
         }
         read_patches();
-        if (!link_neighbours()) return std::nullopt;
-        place(placement, size / placement.size);
-        return std::move(surface_);
+        return placement;
     }
 
-private:
     void skip() { text_.skip(TextCursor::white_space); }
 
     void expect(std::string_view literal) {
@@ -146,11 +156,16 @@ private:
             expect(neighbour_keys[i]);
             neighbours[i] = word();
         }
+        ControlPoints points{.name = patch.name, .spline = Spline::other, .coordinates = 3};
         for (auto& row : patch.points) {
             for (glm::dvec3& point : row) {
+                skip();
+                const std::size_t from = text_.offset();
                 for (int axis = 0; axis < 3; ++axis) point[axis] = number();
+                points.add({&point.x, 3}, from, text_.offset());
             }
         }
+        points_.push_back(std::move(points));
         return patch;
     }
 
@@ -210,6 +225,7 @@ private:
     std::vector<Diagnostic>& diagnostics_;
     Surface surface_;
     std::vector<NamedNeighbours> neighbours_;
+    std::vector<ControlPoints> points_;
 };
 
 }  // namespace
@@ -217,6 +233,11 @@ private:
 std::optional<Surface> read_surface_text(std::string_view text, const std::string& name, double size,
                                          std::vector<Diagnostic>& diagnostics) {
     return SurfaceReader(text, name, diagnostics).read(size);
+}
+
+std::vector<ControlPoints> read_surface_points(std::string_view text, const std::string& name,
+                                               std::vector<Diagnostic>& diagnostics) {
+    return SurfaceReader(text, name, diagnostics).read_points();
 }
 
 std::optional<Surface> read_surface(const std::filesystem::path& path, double size,

@@ -3,12 +3,16 @@
 
 #include "espalier/lsystem/resources.h"
 
+#include "geometry/side_files/control_points.h"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace espalier::language {
+
+using geometry::ControlPoints;
 
 /// A member of a function set; the name is cut at its last dot.
 struct NamedFunction {
@@ -26,6 +30,12 @@ FunctionCurve read_function_file(const std::filesystem::path& path, int samples_
 std::vector<NamedFunction> read_function_set_text(std::string_view text, const std::string& name);
 std::vector<NamedFunction> read_function_set(const std::filesystem::path& path);
 
+/// The control points of a function file, or of all functions of a set.
+std::vector<ControlPoints> read_function_points(std::string_view text, const std::string& name);
+
+/// Whether a file whose name ends with `.con` is a curve in space, not a contour.
+bool is_curve_text(std::string_view text);
+ControlPoints read_curve_points(std::string_view text, const std::string& name);
 /// A curve in space; `samples` chords measure its length.
 SpaceCurve read_curve_text(std::string_view text, const std::string& name, int samples = 100);
 SpaceCurve read_curve_file(const std::filesystem::path& path, int samples = 100);

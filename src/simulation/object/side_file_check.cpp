@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 #include "espalier/geometry/palette.h"
 
+#include "language/side_files/side_files.h"
 #include "simulation/object/animation_file.h"
 #include "simulation/object/environment_file.h"
 
@@ -83,9 +84,8 @@ std::string view_line(const fs::path& path) {
     if (extension == ".func") return fmt::format("function: {}\n", name);
     if (extension == ".fset") return fmt::format("function set: {}\n", name);
     if (extension != ".con") return "";
-    const std::string text = read_text(path);
-    const bool is_curve = text.starts_with("version:") || text.find("\nrange:") != std::string::npos;
-    return is_curve ? fmt::format("curve: {}\n", name) : fmt::format("contour: 1 {}\n", name);
+    return language::is_curve_text(read_text(path)) ? fmt::format("curve: {}\n", name)
+                                                    : fmt::format("contour: 1 {}\n", name);
 }
 
 // What a run passes over is a mistake here, where nothing else is looked at.

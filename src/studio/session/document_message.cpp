@@ -2,6 +2,7 @@
 
 #include "studio/document/document_files.h"
 #include "studio/document/graph_text.h"
+#include "studio/document/point_text.h"
 
 #include <algorithm>
 #include <cctype>
@@ -112,6 +113,14 @@ std::vector<ComponentGraph> shown_graphs(const DocumentTexts& texts, const Docum
             graphs.push_back(std::move(*graph));
     }
     return graphs;
+}
+
+std::vector<PointCurve> shown_curves(const DocumentTexts& texts, const DocumentState& state) {
+    std::vector<PointCurve> curves;
+    for (const fs::path& file : texts.editable(state)) {
+        for (PointCurve& curve : read_curves(file, text_of(file, state))) curves.push_back(std::move(curve));
+    }
+    return curves;
 }
 
 }  // namespace espalier::studio

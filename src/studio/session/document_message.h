@@ -3,6 +3,7 @@
 
 #include "studio/document/document.h"
 #include "studio/protocol/graph.h"
+#include "studio/protocol/points.h"
 #include "studio/session/document_texts.h"
 #include "studio/session/message.h"
 
@@ -65,6 +66,7 @@ struct DocumentMessage {
     std::vector<ShownText> texts;
     std::vector<ShownSetting> settings;
     std::vector<ComponentGraph> graphs;
+    std::vector<PointCurve> curves;
     std::uint64_t seed = 0;
     int steps = 0;
 
@@ -82,6 +84,7 @@ struct DocumentMessage {
         field("texts", self.texts, "none of a run that does not tell what it grew from");
         field("settings", self.settings, "numbers and switches that the texts write");
         field("graphs", self.graphs, "texts in `pgraph` that can be read");
+        field("curves", self.curves, "control points of side files that can be read, in the order of their texts");
         field("seed", self.seed, "that the plants grow with");
         field("steps", self.steps, "to which they grow");
     }
@@ -94,5 +97,6 @@ std::vector<ShownText> shown_texts(const DocumentTexts& texts, const DocumentSta
                                    const std::set<std::filesystem::path>& disputed);
 std::vector<ShownSetting> shown_settings(const DocumentTexts& texts, const DocumentState& state);
 std::vector<ComponentGraph> shown_graphs(const DocumentTexts& texts, const DocumentState& state);
+std::vector<PointCurve> shown_curves(const DocumentTexts& texts, const DocumentState& state);
 
 }  // namespace espalier::studio

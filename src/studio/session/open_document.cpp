@@ -156,6 +156,7 @@ Json OpenDocument::message() const {
         shown.texts = shown_texts(texts_, edited(), disputed_);
         shown.settings = shown_settings(texts_, edited());
         shown.graphs = shown_graphs(texts_, edited());
+        shown.curves = shown_curves(texts_, edited());
     }
     return document_message(shown);
 }

@@ -28,7 +28,7 @@ import { classHighlighter } from "@lezer/highlight";
 import type { Changes } from "../changes.js";
 import { menuButton } from "../dialog.js";
 import { h, iconButton, remember, remembered } from "../elements.js";
-import type { Problem, StudioDocument, TextFile } from "../protocol.js";
+import type { CurvePoint, Problem, StudioDocument, TextFile } from "../protocol.js";
 import { sideEditor, type SideEditor } from "../side/side.js";
 import type { Studio } from "../state.js";
 import { cpfg } from "./cpfg.js";
@@ -95,6 +95,7 @@ export class Editor {
     this.element = h("div", "editor", {}, h("div", "tab-row", {}, this.tabs, add), disputes, this.sideTools, place);
     this.view.contentDOM.addEventListener("blur", () => this.sendLasting());
     studio.on("document", (document) => this.hear(document));
+    changes.onIdle(() => this.side?.reread?.());
     studio.on("problems", (problems) => this.underline(problems));
     studio.on("connection", (state) => {
       if (state === "open") this.resend();
@@ -165,6 +166,13 @@ export class Editor {
     const change = { texts: { [path]: content } };
     if (lasting) this.changes.lasting(`text ${path}`, change, label);
     else this.changes.transient(`text ${path}`, change, label);
+  }
+
+  /** Moves control points of a text, which follows. */
+  private move(path: string, number: number, points: CurvePoint[], lasting: boolean): void {
+    this.sendLasting();
+    const label = `Edit ${shortName(path)}`;
+    this.changes.points(`points ${number} of ${path}`, { path, number, points, label }, lasting);
   }
 
   /** Sends what is typed; done before the document is saved or an undo is asked for. */
@@ -253,6 +261,7 @@ export class Editor {
     if (this.shown === null || !this.texts.has(this.shown)) this.showFirst(document);
     this.showAwaited();
     this.drawTabs();
+    this.side?.reread?.();
   }
 
   private hearText(file: TextFile): void {
@@ -287,6 +296,9 @@ export class Editor {
       path,
       content: () => this.contentOf(path),
       change: (content: string, lasting: boolean) => this.replace(path, content, lasting),
+      curves: () => this.studio.document?.curves.filter((curve) => curve.path === path) ?? [],
+      move: (number: number, points: CurvePoint[], lasting: boolean) => this.move(path, number, points, lasting),
+      isAhead: () => this.changes.isBusy,
     };
     this.side = sideEditor(side, () => this.studio.help);
     this.sideTools.replaceChildren(...this.side.elements);
@@ -410,7 +422,7 @@ export class Editor {
       EditorView.updateListener.of((update) => {
         const own = update.transactions.some((one) => one.docChanged && !one.annotation(fromServer));
         if (update.docChanged && own) this.typed();
-        if (update.docChanged) this.side?.refresh();
+        if (update.docChanged) this.side?.refresh?.();
       }),
     ];
   }

@@ -1,22 +1,12 @@
 /** A plane with a curve and points that are dragged with the pointer or moved with keys. */
-import { decimalField, h, numberIn } from "../elements.js";
+import { decimalField, h, numberIn, svg } from "../elements.js";
 import { at } from "../lists.js";
+import type { CurvePoint, PointCurve } from "../protocol.js";
 import type { Vector } from "../view/index.js";
 import { arrowStep } from "./arrows.js";
-import type { PointFile } from "./files.js";
-import type { Point } from "./spline.js";
+import { curveOf } from "./spline.js";
 
-const space = "http://www.w3.org/2000/svg";
 const [width, height, border] = [360, 230, 22];
-
-function svg<Tag extends keyof SVGElementTagNameMap>(
-  tag: Tag,
-  attributes: Record<string, string | number>,
-): SVGElementTagNameMap[Tag] {
-  const element = document.createElementNS(space, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  return element;
-}
 
 interface View {
   left: number;
@@ -25,15 +15,15 @@ interface View {
   perY: number;
 }
 
-function viewOf(file: PointFile): View {
-  const xs = file.points.map(({ x }) => x);
-  const ys = file.points.map(({ y }) => y);
-  const isFunction = file.kind === "function";
+function viewOf(curve: PointCurve): View {
+  const xs = curve.points.map(({ x }) => x);
+  const ys = curve.points.map(({ y }) => y);
+  const isFunction = curve.kind === "function";
   const [left, right] = isFunction ? [0, 1] : [Math.min(0, ...xs), Math.max(0, ...xs)];
   const [bottom, top] = [Math.min(0, ...ys), Math.max(isFunction ? 1 : 0, ...ys)];
   let perX = (width - 2 * border) / Math.max(right - left, 1e-9);
   let perY = (height - 2 * border) / Math.max(top - bottom, 1e-9);
-  if (file.kind === "contour") perX = perY = 0.8 * Math.min(perX, perY);
+  if (curve.kind === "contour") perX = perY = 0.8 * Math.min(perX, perY);
   return {
     left: (left + right) / 2 - width / 2 / perX,
     bottom: (bottom + top) / 2 - height / 2 / perY,
@@ -46,16 +36,16 @@ export class PointPlane {
   readonly element: HTMLElement;
   private readonly picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "point-plane" });
   private readonly fields: Record<"x" | "y" | "z" | "times", HTMLInputElement>;
-  private points: Point[];
+  private points: CurvePoint[];
   private view: View;
   private chosen = 0;
 
   constructor(
-    private file: PointFile,
-    private readonly changed: (text: string, lasting: boolean) => void,
+    private curve: PointCurve,
+    private readonly changed: (points: CurvePoint[], lasting: boolean) => void,
   ) {
-    this.points = file.points.map((point) => ({ ...point }));
-    this.view = viewOf(file);
+    this.points = curve.points.map((point) => ({ ...point }));
+    this.view = viewOf(curve);
     const field = (label: string) => decimalField({ "aria-label": label, title: label });
     this.fields = {
       x: field("x of the point"),
@@ -78,7 +68,7 @@ export class PointPlane {
         {},
         h("label", "", {}, "x ", this.fields.x),
         h("label", "", {}, "y ", this.fields.y),
-        h("label", "", { hidden: file.points.every(({ z }) => z === 0) }, "z ", this.fields.z),
+        h("label", "", { hidden: curve.points.every(({ z }) => z === 0) }, "z ", this.fields.z),
         h("label", "", {}, "× ", this.fields.times),
         add,
         remove,
@@ -89,12 +79,18 @@ export class PointPlane {
   }
 
   /** Another version of the same file, unless a point is being dragged. */
-  refresh(file: PointFile): void {
+  refresh(curve: PointCurve): void {
     if (this.picture.querySelector(".dragged")) return;
-    this.file = file;
-    this.points = file.points.map((point) => ({ ...point }));
+    this.curve = curve;
+    this.points = curve.points.map((point) => ({ ...point }));
     this.chosen = Math.min(this.chosen, this.points.length - 1);
+    const hasFocus = this.picture.contains(document.activeElement);
     this.draw();
+    if (hasFocus) this.focusPoint(this.chosen);
+  }
+
+  private get isClosed(): boolean {
+    return this.curve.spline === "closed";
   }
 
   private toPicture(x: number, y: number): [number, number] {
@@ -125,15 +121,15 @@ export class PointPlane {
       class: "frame",
       d: this.path(
         this.points.map(({ x, y, z }) => [x, y, z]),
-        this.file.closed,
+        this.isClosed,
       ),
     });
-    const curve = svg("path", { class: "curve", d: this.path(this.file.curve(this.points), this.file.closed) });
+    const curve = svg("path", { class: "curve", d: this.path(curveOf({ ...this.curve, points: this.points }), this.isClosed) });
     this.picture.replaceChildren(axes, unit, frame, curve, ...this.points.map((point, index) => this.handle(point, index)));
     this.showFields();
   }
 
-  private handle({ x, y, times }: Point, index: number): SVGElement {
+  private handle({ x, y, times }: CurvePoint, index: number): SVGElement {
     const [cx, cy] = this.toPicture(x, y);
     const circle = svg("circle", {
       cx,
@@ -191,7 +187,7 @@ export class PointPlane {
     if (event.key === "Delete" || event.key === "Backspace") this.remove();
     else if (event.key === "Insert") this.add();
     else if (step) {
-      const span = this.file.kind === "function" ? 1 : width / this.view.perX / 3;
+      const span = this.curve.kind === "function" ? 1 : width / this.view.perX / 3;
       const { x, y } = at(this.points, index);
       this.move(index, x + step[0] * span, y - step[1] * span, true);
       this.focusPoint(index);
@@ -206,7 +202,7 @@ export class PointPlane {
   /** The x of a function grows from 0 to 1. */
   private move(index: number, x: number, y: number, lasting: boolean): void {
     const point = at(this.points, index);
-    if (this.file.kind === "function") {
+    if (this.curve.kind === "function") {
       const [before, after] = [this.points[index - 1]?.x ?? 0, this.points[index + 1]?.x ?? 1];
       const end = index === 0 ? 0 : index === this.points.length - 1 ? 1 : null;
       point.x = end ?? Math.min(after, Math.max(before, x));
@@ -237,7 +233,7 @@ export class PointPlane {
 
   private addAt(event: MouseEvent): void {
     const [x, y] = this.fromPicture(event);
-    if (this.file.kind === "function") {
+    if (this.curve.kind === "function") {
       const index = this.points.findIndex((point) => point.x > x);
       if (index > 0) this.insert({ x, y, z: 0, times: 1 }, index);
       return;
@@ -247,12 +243,12 @@ export class PointPlane {
       const [a, b] = [at(this.points, i), at(this.points, (i + 1) % this.points.length)];
       return Math.hypot(a.x - x, a.y - y) + Math.hypot(b.x - x, b.y - y) - Math.hypot(a.x - b.x, a.y - b.y);
     };
-    const spans = this.points.map((_, i) => i).slice(0, this.file.closed ? undefined : -1);
+    const spans = this.points.map((_, i) => i).slice(0, this.isClosed ? undefined : -1);
     const nearest = spans.reduce((best, i) => (away(i) < away(best) ? i : best), 0);
     this.insert({ x, y, z: 0, times: 1 }, nearest + 1);
   }
 
-  private insert(point: Point, index: number): void {
+  private insert(point: CurvePoint, index: number): void {
     this.points.splice(index, 0, point);
     this.chosen = index;
     this.draw();
@@ -261,7 +257,7 @@ export class PointPlane {
   }
 
   private remove(): void {
-    const isEnd = this.file.kind === "function" && (this.chosen === 0 || this.chosen === this.points.length - 1);
+    const isEnd = this.curve.kind === "function" && (this.chosen === 0 || this.chosen === this.points.length - 1);
     if (this.points.length <= 4 || isEnd) return;
     this.points.splice(this.chosen, 1);
     this.chosen = Math.min(this.chosen, this.points.length - 1);
@@ -278,6 +274,9 @@ export class PointPlane {
   }
 
   private send(lasting: boolean): void {
-    this.changed(this.file.write(this.points), lasting);
+    this.changed(
+      this.points.map((point) => ({ ...point })),
+      lasting,
+    );
   }
 }

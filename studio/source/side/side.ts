@@ -1,8 +1,7 @@
 /** Editors above the texts of side files: points to drag, colours, forms. */
 import { h } from "../elements.js";
-import { readPoints } from "./files.js";
 import { at } from "../lists.js";
-import type { Help } from "../protocol.js";
+import type { CurvePoint, Help, PointCurve } from "../protocol.js";
 import { MapEditor } from "./map.js";
 import { MaterialEditor } from "./materials.js";
 import { PointPlane } from "./plane.js";
@@ -13,44 +12,50 @@ export interface SideText {
   path: string;
   content: () => string;
   change: (content: string, lasting: boolean) => void;
+  /** The control points that the program has read in the text. */
+  curves: () => PointCurve[];
+  /** Gives the curve of a number other control points: the text follows. */
+  move: (number: number, points: CurvePoint[], lasting: boolean) => void;
+  /** Whether changes are on their way: what the program has read is older than what shows. */
+  isAhead: () => boolean;
 }
 
 export interface SideEditor {
   elements: Node[];
   /** The text has changed elsewhere. */
-  refresh: () => void;
+  refresh?: () => void;
+  /** The program has read the text anew. */
+  reread?: () => void;
 }
 
-const none: SideEditor = { elements: [], refresh: () => undefined };
+const none: SideEditor = { elements: [] };
 
 /** Functions, contours and curves; a set of functions has a list to choose from. */
 function planeEditor(text: SideText): SideEditor {
-  const read = () => readPoints(text.path, text.content());
-  let files = read();
-  const [first] = files;
+  const curves = text.curves();
+  const [first] = curves;
   if (!first) return none;
-  let shown = 0;
-  let plane = new PointPlane(first, text.change);
+  let number = 0;
+  const make = (curve: PointCurve) => new PointPlane(curve, (points, lasting) => text.move(number, points, lasting));
+  let plane = make(first);
   const holder = h("div", "", {}, plane.element);
   const choice = h(
     "select",
     "",
     { "aria-label": "Function" },
-    ...files.map(({ name }, index) => h("option", "", { value: index }, name)),
+    ...curves.map(({ name }, index) => h("option", "", { value: index }, name || `function ${index + 1}`)),
   );
   choice.addEventListener("change", () => {
-    shown = choice.selectedIndex;
-    plane = new PointPlane(at(files, shown), text.change);
+    number = choice.selectedIndex;
+    plane = make(at(text.curves(), number));
     holder.replaceChildren(plane.element);
   });
-  choice.hidden = files.length < 2;
-  const refresh = () => {
-    const now = read();
-    if (now.length !== files.length) return;
-    files = now;
-    plane.refresh(at(files, shown));
+  choice.hidden = curves.length < 2;
+  const reread = () => {
+    const now = text.curves()[number];
+    if (now && !text.isAhead()) plane.refresh(now);
   };
-  return { elements: [choice, holder], refresh };
+  return { elements: [choice, holder], reread };
 }
 
 export function sideEditor(text: SideText, help: () => Help | null): SideEditor {

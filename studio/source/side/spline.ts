@@ -1,17 +1,9 @@
 /** Cubic B-splines as the side files define them (docs/side-files.md). */
 import { at } from "../lists.js";
+import type { CurvePoint, PointCurve } from "../protocol.js";
 import { vectorOf, type Vector } from "../view/index.js";
 
-export interface Point {
-  x: number;
-  y: number;
-  z: number;
-  /** How often the point counts: three make a corner. */
-  times: number;
-}
-
-
-function expanded(points: readonly Point[]): Vector[] {
+function expanded(points: readonly CurvePoint[]): Vector[] {
   return points.flatMap(({ x, y, z, times }) => Array.from({ length: Math.max(1, times) }, (): Vector => [x, y, z]));
 }
 
@@ -20,7 +12,7 @@ function mixed(points: readonly Vector[], weights: readonly number[]): Vector {
 }
 
 /** Uniform: four points make a segment, which does not reach the outer ones. */
-export function uniformSpline(points: readonly Point[], closed: boolean, perSegment = 12): Vector[] {
+export function uniformSpline(points: readonly CurvePoint[], closed: boolean, perSegment = 12): Vector[] {
   const all = expanded(points);
   const segments = closed ? all.length : all.length - 3;
   const curve: Vector[] = [];
@@ -54,8 +46,14 @@ function clampedPoint(all: readonly Vector[], part: number): Vector {
 }
 
 /** The spline of functions: it begins in the first and ends in the last point. */
-export function clampedSpline(points: readonly Point[], samples = 160): Vector[] {
+export function clampedSpline(points: readonly CurvePoint[], samples = 160): Vector[] {
   const all = expanded(points);
   if (all.length < 4) return all;
   return Array.from({ length: samples + 1 }, (_, i) => clampedPoint(all, i / samples));
+}
+
+/** Places along a curve; none of one that is no such spline. */
+export function curveOf({ spline, points }: PointCurve): Vector[] {
+  if (spline === "clamped") return clampedSpline(points);
+  return spline === "other" ? [] : uniformSpline(points, spline === "closed");
 }

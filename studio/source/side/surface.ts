@@ -1,5 +1,5 @@
 /** The editor of Bézier surfaces: sixteen points a patch, dragged in the plane of the picture, which turns. */
-import { h } from "../elements.js";
+import { h, svg } from "../elements.js";
 import { at } from "../lists.js";
 import { axes, vectorOf, type Vector } from "../view/index.js";
 import { arrowStep } from "./arrows.js";
@@ -7,38 +7,11 @@ import type { SideEditor, SideText } from "./side.js";
 
 interface Patch {
   name: string;
-  /** Where its 48 numbers stand in the text. */
-  from: number;
-  to: number;
   points: Vector[];
 }
 
-const number = String.raw`[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?`;
-const blocks = new RegExp(String.raw`BR:\s*\S+\s+((?:${number}\s+){47}${number})`, "g");
-
-function patchesOf(text: string): Patch[] {
-  const patches: Patch[] = [];
-  for (const match of text.matchAll(blocks)) {
-    const [whole, block = ""] = match;
-    const values = block.trim().split(/\s+/).map(Number);
-    const from = match.index + whole.length - block.length;
-    const before = text.slice(0, match.index);
-    const name =
-      /(\S+)\s+TOP COLOR:[\s\S]*$/.exec(before.slice(before.lastIndexOf("TOP COLOR:") - 80))?.[1] ?? `patch ${patches.length + 1}`;
-    const points = Array.from({ length: 16 }, (_, i) => vectorOf((k) => at(values, 3 * i + k)));
-    patches.push({ name, from, to: from + block.length, points });
-  }
-  return patches;
-}
-
-function written(points: readonly Vector[]): string {
-  const rows = [0, 4, 8, 12].map((row) =>
-    points
-      .slice(row, row + 4)
-      .map((point) => point.map((value) => value.toFixed(4)).join(" "))
-      .join("  "),
-  );
-  return rows.join("\n");
+function patchesOf(text: SideText): Patch[] {
+  return text.curves().map(({ name, points }) => ({ name, points: points.map(({ x, y, z }): Vector => [x, y, z]) }));
 }
 
 function bernstein(t: number): [number, number, number, number] {
@@ -51,12 +24,11 @@ function surfaceAt(points: readonly Vector[], s: number, t: number): Vector {
   return vectorOf((k) => weights.reduce((sum, weight, i) => sum + weight * at(points, i)[k], 0));
 }
 
-const space = "http://www.w3.org/2000/svg";
 const size = 300;
 
 export class SurfaceEditor implements SideEditor {
   readonly elements: Node[];
-  private readonly picture = document.createElementNS(space, "svg");
+  private readonly picture = svg("svg", { viewBox: `0 0 ${size} ${size * 0.75}`, class: "point-plane surface" });
   private patches: Patch[];
   private azimuth = 0.5;
   private elevation = 0.4;
@@ -65,9 +37,7 @@ export class SurfaceEditor implements SideEditor {
   private dragging = false;
 
   constructor(private readonly text: SideText) {
-    this.patches = patchesOf(text.content());
-    this.picture.setAttribute("viewBox", `0 0 ${size} ${size * 0.75}`);
-    this.picture.classList.add("point-plane", "surface");
+    this.patches = patchesOf(text);
     this.picture.addEventListener("pointerdown", (event) => this.turn(event));
     const look = (name: string, azimuth: number, elevation: number) =>
       h(
@@ -101,12 +71,18 @@ export class SurfaceEditor implements SideEditor {
     this.draw();
   }
 
-  refresh(): void {
-    if (this.dragging) return;
-    const patches = patchesOf(this.text.content());
+  reread(): void {
+    if (this.dragging || this.text.isAhead()) return;
+    const patches = patchesOf(this.text);
     if (patches.length === 0) return;
     this.patches = patches;
+    const focused = this.picture.contains(document.activeElement) ? document.activeElement?.getAttribute("data-at") : null;
     this.draw();
+    if (focused) this.focusPoint(focused);
+  }
+
+  private focusPoint(at: string): void {
+    this.picture.querySelector<SVGElement>(`[data-at="${at}"]`)?.focus();
   }
 
   private frame(): void {
@@ -150,21 +126,17 @@ export class SurfaceEditor implements SideEditor {
   }
 
   private line(point: (t: number) => Vector): SVGElement {
-    const path = document.createElementNS(space, "path");
     const places = Array.from({ length: 13 }, (_, j) =>
       this.project(point(j / 12))
         .map((v) => v.toFixed(1))
         .join(" "),
     );
-    path.setAttribute("d", `M${places.join("L")}`);
-    path.classList.add("curve", "thin");
-    return path;
+    return svg("path", { d: `M${places.join("L")}`, class: "curve thin" });
   }
 
   private handle(patch: string, point: Vector, which: number, index: number): SVGElement {
-    const circle = document.createElementNS(space, "circle");
     const [x, y] = this.project(point);
-    const facts = {
+    const circle = svg("circle", {
       cx: x,
       cy: y,
       r: 4.5,
@@ -174,8 +146,7 @@ export class SurfaceEditor implements SideEditor {
       "data-at": `${which}-${index}`,
       "aria-label": `Point ${Math.floor(index / 4) + 1}, ${(index % 4) + 1} of ${patch}`,
       "aria-valuetext": point.map((value) => value.toFixed(2)).join(", "),
-    };
-    for (const [name, value] of Object.entries(facts)) circle.setAttribute(name, String(value));
+    });
     circle.addEventListener("pointerdown", (event) => this.drag(event, which, index));
     circle.addEventListener("keydown", (event) => this.key(event, which, index));
     return circle;
@@ -194,8 +165,8 @@ export class SurfaceEditor implements SideEditor {
     if (!step) return;
     event.preventDefault();
     this.move(which, index, ...step);
-    this.send(true);
-    this.picture.querySelector<SVGElement>(`[data-at="${which}-${index}"]`)?.focus();
+    this.send(which, true);
+    this.focusPoint(`${which}-${index}`);
   }
 
   private drag(event: PointerEvent, which: number, index: number): void {
@@ -206,11 +177,11 @@ export class SurfaceEditor implements SideEditor {
       event,
       (dx, dy) => {
         this.move(which, index, dx, dy);
-        this.send(false);
+        this.send(which, false);
       },
       () => {
         this.dragging = false;
-        this.send(true);
+        this.send(which, true);
       },
     );
   }
@@ -250,13 +221,8 @@ export class SurfaceEditor implements SideEditor {
     );
   }
 
-  /** Writes the points of all patches into the text, from the last to the first so that places stay right. */
-  private send(lasting: boolean): void {
-    let text = this.text.content();
-    const places = patchesOf(text);
-    if (places.length !== this.patches.length) return;
-    for (const [i, { from, to }] of [...places.entries()].reverse())
-      text = text.slice(0, from) + written(at(this.patches, i).points) + text.slice(to);
-    this.text.change(text, lasting);
+  private send(which: number, lasting: boolean): void {
+    const points = at(this.patches, which).points.map(([x, y, z]) => ({ x, y, z, times: 1 }));
+    this.text.move(which, points, lasting);
   }
 }

@@ -68,3 +68,16 @@ test("what was not heard because the connection broke is sent again; what is ref
   await turn();
   assert.deepEqual(told, ["no whole number"]);
 });
+
+test("listeners hear when the server has answered everything, and not before", async () => {
+  const { changes, answer } = desk();
+  let calls = 0;
+  changes.onIdle(() => calls++);
+  changes.lasting("seed", { seed: 1 }, "seed");
+  changes.points("points 0 of a.func", { path: "a.func", number: 0, points: [] }, true);
+  assert.deepEqual([changes.isBusy, calls], [true, 0]);
+  await answer();
+  assert.deepEqual([changes.isBusy, calls], [true, 0]);
+  await answer();
+  assert.deepEqual([changes.isBusy, calls], [false, 1]);
+});

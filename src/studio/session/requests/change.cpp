@@ -1,6 +1,7 @@
 // Changes of the document, back and forth.
 #include "studio/document/document_files.h"
 #include "studio/document/graph_text.h"
+#include "studio/document/point_text.h"
 #include "studio/session/request.h"
 #include "studio/session/session_parts.h"
 
@@ -44,6 +45,24 @@ struct GraphRequest : GraphEdit {
     }
 };
 
+struct PointsRequest {
+    static constexpr TypeName type{"PointsRequest", "other control points of a curve"};
+    std::string path;
+    int number = 0;
+    std::vector<CurvePoint> points;
+    std::optional<std::string> label;
+    std::optional<bool> transient;
+
+    template <class Self, class Fields>
+    static void declare(Self& self, const Fields& field) {
+        field("path", self.path, "path of its text");
+        field("number", self.number, "of the curve among those of its text, from 0 on", at_least(0));
+        field("points", self.points, "all that the curve is to have; a patch has 16");
+        field("label", self.label, "what undo calls it");
+        field("transient", self.transient, "the next change replaces it");
+    }
+};
+
 NewVersion change(SessionParts& session, Viewer&, const ChangeRequest& request) {
     OpenDocument& document = session.document;
     DocumentState state = document.edited();
@@ -61,13 +80,25 @@ NewVersion change(SessionParts& session, Viewer&, const ChangeRequest& request) 
     return {document.version()};
 }
 
-NewVersion graph(SessionParts& session, Viewer&, const GraphRequest& request) {
-    OpenDocument& document = session.document;
+/// Changes one text; `edited` makes the new one of the file and its text.
+template <class Request, class Edit>
+NewVersion edit_text(OpenDocument& document, const Request& request, const char* label, Edit edited) {
     const std::filesystem::path file = document.require_text(request.path);
     DocumentState state = document.edited();
-    state.unsaved[file] = edited_graph(file, text_of(file, state), request);
-    document.apply(std::move(state), request.label.value_or("graph"), request.transient.value_or(false));
+    state.unsaved[file] = edited(file, text_of(file, state));
+    document.apply(std::move(state), request.label.value_or(label), request.transient.value_or(false));
     return {document.version()};
+}
+
+NewVersion graph(SessionParts& session, Viewer&, const GraphRequest& request) {
+    return edit_text(session.document, request, "graph",
+                     [&](const auto& file, const std::string& text) { return edited_graph(file, text, request); });
+}
+
+NewVersion points(SessionParts& session, Viewer&, const PointsRequest& request) {
+    return edit_text(session.document, request, "points", [&](const auto& file, const std::string& text) {
+        return with_curve_points(file, text, request.number, request.points);
+    });
 }
 
 NewVersion undo(SessionParts& session, Viewer&, const Nothing&) {
@@ -82,6 +113,8 @@ NewVersion redo(SessionParts& session, Viewer&, const Nothing&) {
 
 const Registered<RequestType> change_entry{request("change", "changes texts, numbers in them, seed or steps", change)};
 const Registered<RequestType> graph_entry{request("graph", "edits a graph of components; its text follows", graph)};
+const Registered<RequestType> points_entry{
+    request("points", "moves, adds or takes out control points of a side file; its text follows", points)};
 const Registered<RequestType> undo_entry{request("undo", "takes back one lasting change", undo)};
 const Registered<RequestType> redo_entry{request("redo", "brings back what was taken back", redo)};
 
