@@ -103,16 +103,17 @@ TEST_CASE("a number that replaces one of a model has its words, range and unit",
     CHECK(azimuth->unit == "degrees");
 }
 
-TEST_CASE("words of a key are the first sentence of its row, which may go on in the next line", "[studio]") {
+TEST_CASE("words of a key are the first sentence of what its row means, which may go on in the next line", "[studio]") {
     const std::string help =
         "What it does.\n\n"
         "  voxel   m, 0.5; edge of a voxel. Whole voxels cover the domain\n"
         "  depth   6; number of layers\n"
         "          below\n"
         "  voxels  other\n";
-    CHECK(words_of_key(help, "voxel") == "m, 0.5; edge of a voxel");
-    CHECK(words_of_key(help, "depth") == "6; number of layers below");
-    CHECK(words_of_key(help, "full_light") == "full_light");
+    CHECK(words_of_key(help, "voxel").meaning == "edge of a voxel");
+    CHECK(words_of_key(help, "voxel").unit == "m");
+    CHECK(words_of_key(help, "depth").meaning == "number of layers below");
+    CHECK(words_of_key(help, "full_light").meaning == "full_light");
 }
 
 TEST_CASE("every word of skeletons is explained to the page", "[studio]") {

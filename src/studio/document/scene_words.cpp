@@ -5,11 +5,11 @@
 #include "espalier/simulation/scene.h"
 #include "espalier/turtle/geometry_stage.h"
 
+#include "base/part_help.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
-#include <sstream>
 
 namespace espalier::studio {
 namespace {
@@ -29,26 +29,9 @@ std::string help_of_scene_table(const std::string& name) {
     return help.substr(first, help.find("\n[", first) - first);
 }
 
-std::size_t indent_of(const std::string& line) {
-    return line.find_first_not_of(' ');
-}
-
-// A row goes on in the lines that stand further in.
-std::string row_of(const std::string& help, const std::string& key) {
-    std::istringstream in(help);
-    std::string row;
-    std::size_t margin = 0;
-    for (std::string line; std::getline(in, line);) {
-        const std::size_t indent = std::min(indent_of(line), line.size());
-        if (!row.empty() && (indent <= margin || indent == line.size())) break;
-        if (!row.empty()) {
-            row += fmt::format(" {}", line.substr(indent));
-        } else if (line.compare(indent, key.size() + 2, key + "  ") == 0) {
-            margin = indent;
-            row = line.substr(std::min(line.find_first_not_of(' ', indent + key.size()), line.size()));
-        }
-    }
-    return row;
+// Whether a row, which may tell of several keys, tells of this one.
+bool is_row_of(const HelpRow& row, const std::string& key) {
+    return fmt::format(", {}, ", row.name).find(fmt::format(", {}, ", key)) != std::string::npos;
 }
 
 // Describes keys of tables within a row, which have no rows of their own.
@@ -93,10 +76,13 @@ std::string help_of_table(const Settings& table, const std::string& name, const 
     return help.empty() ? outer : help;
 }
 
-std::string words_of_key(const std::string& help, const std::string& key) {
-    const std::string row = row_of(help, key);
-    const std::string words = row.empty() ? words_of_inner_key(key) : row.substr(0, row.find(". "));
-    return words.empty() ? key : words;
+KeyWords words_of_key(const std::string& help, const std::string& key) {
+    for (const HelpRow& row : parameters_of(help)) {
+        if (is_row_of(row, key) && !row.meaning.empty())
+            return {row.meaning.substr(0, row.meaning.find(". ")), row.unit};
+    }
+    const std::string words = words_of_inner_key(key);
+    return {words.empty() ? key : words, ""};
 }
 
 }  // namespace espalier::studio

@@ -11,8 +11,12 @@ namespace espalier::studio {
 /// `outer`, which is that of the table around it.
 std::string help_of_table(const Settings& table, const std::string& name, const std::string& outer);
 
-/// "q_max, 6; number of layers below", if a row of the documentation begins with the key or it is one of those that
-/// tables within a row have; else the key.
-std::string words_of_key(const std::string& help, const std::string& key);
+struct KeyWords {
+    std::string meaning;  ///< a phrase or sentence; the key itself if nothing is said of it
+    std::string unit;     ///< "" if none is said
+};
+
+/// What the row of the documentation that tells of the key says, or what is known of keys of tables within a row.
+KeyWords words_of_key(const std::string& help, const std::string& key);
 
 }  // namespace espalier::studio

@@ -247,7 +247,7 @@ private:
     }
 
     // `place` is the key's; `words` are those of its documentation, which a comment behind it replaces.
-    void add(const Place& place, const std::string& name, const std::string& group, const std::string& words) {
+    void add(const Place& place, const std::string& name, const std::string& group, const KeyWords& words) {
         if (!lines_.has(place.line)) return;
         const std::size_t end = lines_.end(place.line), at = std::min(value_of(place), end);
         const std::size_t behind = std::min(text_.find_first_of(" \t\r,}]#", at), end);
@@ -257,7 +257,8 @@ private:
             is_switch ? std::optional(text == "true" ? 1.0 : 0.0) : whole_text_as<double>(text);
         if (!value) return;
         WrittenNumber found{.name = name, .label = comment(behind, end), .group = group, .text = text};
-        if (found.label.empty()) found.label = words;
+        if (found.label.empty()) found.label = words.meaning;
+        found.unit = words.unit;
         found.is_switch = is_switch;
         found.whole = !is_switch && text.find_first_of(".eE") == std::string::npos;
         found.value = *value;
