@@ -17,6 +17,20 @@ bool in_layer(const SoilLayer& layer, const glm::dvec3& point) {
     return y >= layer.bottom && y < layer.top;
 }
 
+/// The kind that a field of whole numbers says, the value of the nearest voxel.
+std::size_t kind_in_field(const SoilParameters& soil, const FieldGrid& map, const glm::dvec3& point) {
+    const openvdb::Vec3d at = map.grid->worldToIndex(openvdb::Vec3d(point.x, point.y, point.z));
+    const double value = std::round(map.grid->tree().getValue(openvdb::Coord::round(at)));
+    if (value >= 0 && value < static_cast<double>(soil.map_kinds.size())) {
+        return soil.map_kinds[static_cast<std::size_t>(value)];
+    }
+    throw UserError(
+        soil.water.settings_place,
+        fmt::format("the map '{}' is {} at ({:.3g}, {:.3g}, {:.3g}), but 'soils' has {} names, "
+                    "counted from 0",
+                    soil.map_field, format_general(value), point.x, point.y, point.z, soil.map_kinds.size()));
+}
+
 }  // namespace
 
 void FaceFluxes::resize(std::size_t cells) {
@@ -44,31 +58,17 @@ void SoilLayout::place_kinds(const Fields& fields) {
         for (int x = 0; x < size.x; ++x) {
             const std::size_t cell = grid_.row_begin(row) + x;
             const glm::dvec3 point = grid_.centre({x, grid_.y_of(row), grid_.z_of(row)});
-            const auto use = [&](std::optional<std::size_t> kind) {
-                if (kind) kind_of_[cell] = static_cast<std::uint8_t>(*kind);
-            };
-            if (map) {
-                const openvdb::Vec3d at = map->grid->worldToIndex(openvdb::Vec3d(point.x, point.y, point.z));
-                const double value = std::round(map->grid->tree().getValue(openvdb::Coord::round(at)));
-                if (!(value >= 0 && value < static_cast<double>(parameters_.map_kinds.size()))) {
-                    throw UserError(
-                        parameters_.water.settings_place,
-                        fmt::format("the map '{}' is {} at ({:.3g}, {:.3g}, {:.3g}), but 'soils' has {} names, "
-                                    "counted from 0",
-                                    parameters_.map_field, format_general(value), point.x, point.y, point.z,
-                                    parameters_.map_kinds.size()));
-                }
-                use(parameters_.map_kinds[static_cast<std::size_t>(value)]);
-            }
-            if (!parameters_.map_file.empty()) {
-                use(parameters_.map_kinds[parameters_.map_file.at(point, {grid_.lower(), grid_.upper()})]);
-            }
+            const Box box{grid_.lower(), grid_.upper()};
+            std::optional<std::size_t> kind;
+            if (map) kind = kind_in_field(parameters_, *map, point);
+            if (!parameters_.map_file.empty()) kind = parameters_.map_kinds[parameters_.map_file.at(point, box)];
             for (const SoilLayer& layer : parameters_.layers) {
-                if (in_layer(layer, point)) use(layer.kind);
+                if (layer.kind && in_layer(layer, point)) kind = layer.kind;
             }
             for (const SoilRegion& region : parameters_.regions) {
-                if (region.shape->inside(point)) use(region.kind);
+                if (region.kind && region.shape->inside(point)) kind = region.kind;
             }
+            if (kind) kind_of_[cell] = static_cast<std::uint8_t>(*kind);
         }
     }
 }

@@ -126,10 +126,6 @@ SoilPoint SoilHydraulics::at(double head) const {
             potential.value};
 }
 
-double SoilHydraulics::least_content() const {
-    return soil_.residual + (soil_.saturated - soil_.residual) * nodes_.back().saturation;
-}
-
 double SoilHydraulics::head_at(double content) const {
     const double saturation = (content - soil_.residual) / (soil_.saturated - soil_.residual);
     return -suction_at(saturation, 1, &Node::saturation, &Node::saturation_slope);

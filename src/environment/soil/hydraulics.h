@@ -30,8 +30,6 @@ public:
     double head_at(double content) const;
     /// The head at which it conducts this well; 0 if as well as full soil.
     double head_of_conductivity(double conductivity) const;
-    /// What cannot be less: the content at a head of -1e9 cm.
-    double least_content() const;
 
 private:
     struct Node {

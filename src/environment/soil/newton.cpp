@@ -20,7 +20,6 @@ bool Richards::newton(double days, double weight, std::span<SoilSink* const> sin
     double norm = evaluate(days, weight, sinks);
     for (int step = 0; step < most_newton_steps; ++step) {
         if (norm <= newton_tolerance) return true;
-        ++newton_steps_;
         if (system_.solve(fluxes_, residual_, 1e-3, change_) < 0) return false;
         before_ = trial_;
         double part = 1;
@@ -142,15 +141,43 @@ void Richards::find_boundary_fluxes(std::size_t row, double days) {
     }
 }
 
+Richards::Outflow Richards::outflow(const NeighbourRows& at, int x, std::size_t column) const {
+    const std::size_t c = at.own + x, below = at.below + x, back = at.back + x;
+    const auto& [fx, fy, fz] = fluxes_;
+    Outflow out{fx.flux[c] - fx.flux[c - 1], fx.by_own[c] - fx.by_next[c - 1]};
+    if (at.has_above) {
+        out.flux += fy.flux[c];
+        out.by_head += fy.by_own[c];
+    } else {
+        out.flux -= surface_[column + x].into.flux;
+        out.by_head -= surface_[column + x].into.by_second;
+    }
+    if (below != c) {
+        out.flux -= fy.flux[below];
+        out.by_head -= fy.by_next[below];
+    } else {
+        out.flux -= floor_[column + x].flux;
+        out.by_head -= floor_[column + x].by_first;
+    }
+    if (at.has_front) {
+        out.flux += fz.flux[c];
+        out.by_head += fz.by_own[c];
+    }
+    if (back != c) {
+        out.flux -= fz.flux[back];
+        out.by_head -= fz.by_next[back];
+    }
+    return out;
+}
+
 /// Per voxel: what came in, less what went out and what is stored, with the sign that Newton's step solves for.
 double Richards::find_residuals(std::size_t row, double days) {
     const NeighbourRows at = layout_.neighbours(row);
     const int n = grid_.size().x;
     const std::size_t column = std::size_t(grid_.z_of(row)) * n;
-    const auto& [fx, fy, fz] = fluxes_;
     double norm = 0;
     for (int x = 0; x < n; ++x) {
-        const std::size_t c = at.own + x, below = at.below + x, back = at.back + x;
+        const std::size_t c = at.own + x;
         double& diagonal = system_.diagonal[c];
         if (!layout_.free(c)) {
             diagonal = 1;
@@ -158,29 +185,7 @@ double Richards::find_residuals(std::size_t row, double days) {
             continue;
         }
         const SoilPoint& point = points_[c];
-        double out = fx.flux[c] - fx.flux[c - 1], by_head = fx.by_own[c] - fx.by_next[c - 1];
-        if (at.has_above) {
-            out += fy.flux[c];
-            by_head += fy.by_own[c];
-        } else {
-            out -= surface_[column + x].into.flux;
-            by_head -= surface_[column + x].into.by_second;
-        }
-        if (below != c) {
-            out -= fy.flux[below];
-            by_head -= fy.by_next[below];
-        } else {
-            out -= floor_[column + x].flux;
-            by_head -= floor_[column + x].by_first;
-        }
-        if (at.has_front) {
-            out += fz.flux[c];
-            by_head += fz.by_own[c];
-        }
-        if (back != c) {
-            out -= fz.flux[back];
-            by_head -= fz.by_next[back];
-        }
+        auto [out, by_head] = outflow(at, x, column);
         out += edge_ * (uptake_[c] - inflow_[c]);
         by_head += edge_ * uptake_by_head_[c];
         residual_[c] = -(edge_ * (point.content - start_[c]) / days + out);

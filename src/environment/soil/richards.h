@@ -56,7 +56,6 @@ public:
     const SoilBalance& balance() const { return balance_; }
     double day() const { return day_; }
     std::size_t substeps() const { return substeps_; }
-    std::size_t newton_steps() const { return newton_steps_; }
     /// Flux at a voxel's centre along an axis, cm/d.
     double flux(std::size_t cell, int axis) const;
 
@@ -78,6 +77,9 @@ public:
 
 private:
     enum class Outcome { good, too_long, failed };
+    struct Outflow {
+        double flux, by_head;
+    };
 
     void begin();
     void measure();
@@ -90,6 +92,8 @@ private:
     void find_fluxes(std::size_t row);
     void find_boundary_fluxes(std::size_t row, double days);
     double find_residuals(std::size_t row, double days);
+    /// What leaves a voxel through its faces, and how that changes with its head. `column`: of the first of its row.
+    Outflow outflow(const NeighbourRows& at, int x, std::size_t column) const;
     SoilFlux floor_flux(std::size_t cell) const;
     void update(double part);
     double updated_head(std::size_t cell, double change) const;
@@ -125,7 +129,7 @@ private:
     SoilRates rates_;       ///< of the last substep, per day
     double last_days_ = 0;  ///< its length
     bool has_rate_ = false, smooth_ = false;
-    std::size_t substeps_ = 0, newton_steps_ = 0;
+    std::size_t substeps_ = 0;
 };
 
 }  // namespace espalier::environment
