@@ -5,6 +5,7 @@
 
 #include "analysis/plant_analysis.h"
 #include "base/csv_file.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -242,7 +243,7 @@ void RunAnalysis::write_json(const std::filesystem::path& folder) const {
         frames.push_back({{"step", frame.step}, {"time", number(frame.time)}, {"plants", std::move(measured)}});
     }
     const Json json = {{"scene", scene_}, {"plants", std::move(plants)}, {"frames", std::move(frames)}};
-    write_text(folder / "analysis.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_text(folder / "analysis.json", json_text(json, 1) + "\n");
 }
 
 }  // namespace espalier::analysis

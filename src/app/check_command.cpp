@@ -2,6 +2,7 @@
 #include "espalier/timeline/timeline.h"
 #include "espalier/turtle/symbol.h"
 
+#include "base/json_text.h"
 #include "command.h"
 #include "model_library.h"
 #include "options.h"
@@ -198,7 +199,7 @@ int check(const CheckArguments& arguments) {
         json["errors"] = diagnostics_json(findings, Diagnostic::Severity::error);
         json["warnings"] = diagnostics_json(findings, Diagnostic::Severity::warning);
         json["facts"] = findings.facts;
-        fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(json));
         return code;
     }
     for (const Diagnostic& diagnostic : findings.diagnostics) {

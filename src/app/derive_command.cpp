@@ -3,6 +3,7 @@
 #include "espalier/turtle/interpretation.h"
 
 #include "base/excerpt.h"
+#include "base/json_text.h"
 #include "base/text.h"
 #include "command.h"
 #include "lsystem/derive/explanation.h"
@@ -279,7 +280,7 @@ std::string counts_text(const ModuleString& string, const Alphabet& alphabet) {
     return text + fmt::format("total {}\n", string.size());
 }
 
-std::string json_text(const ModuleString& string, const Alphabet& alphabet) {
+std::string string_as_json(const ModuleString& string, const Alphabet& alphabet) {
     nlohmann::ordered_json modules = nlohmann::ordered_json::array();
     const double* parameter = string.parameters.data();
     for (const LetterId letter : string.letters) {
@@ -289,7 +290,7 @@ std::string json_text(const ModuleString& string, const Alphabet& alphabet) {
         parameter += arity;
     }
     const nlohmann::ordered_json json = {{"modules", string.size()}, {"string", std::move(modules)}};
-    return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return json_text(json, -1) + "\n";
 }
 
 Scene scene_of(const DeriveArguments& arguments) {
@@ -325,7 +326,7 @@ int derive(const DeriveArguments& arguments) {
     if (arguments.format == "counts") {
         write_out(counts_text(string, alphabet));
     } else if (arguments.format == "json") {
-        write_out(json_text(string, alphabet));
+        write_out(string_as_json(string, alphabet));
     } else {
         write_out(to_text(string, alphabet) + "\n");
     }

@@ -2,6 +2,7 @@
 #include "espalier/base/error.h"
 #include "espalier/base/stop.h"
 
+#include "base/json_text.h"
 #include "base/platform.h"
 #include "base/text.h"
 #include "command.h"
@@ -169,7 +170,7 @@ int fail(const std::string& message, int code, bool json) {
     if (json) {
         const char* const exit = code == exit_code::interrupted ? "interrupted" : "failed";
         const nlohmann::ordered_json result = {{"exit", exit}, {"code", code}, {"message", message}};
-        std::fputs((result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n").c_str(), stdout);
+        std::fputs((json_text(result) + "\n").c_str(), stdout);
     }
     return code;
 }

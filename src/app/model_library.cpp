@@ -4,6 +4,7 @@
 #include "espalier/base/file.h"
 #include "espalier/language/notation.h"
 
+#include "base/json_text.h"
 #include "program_data.h"
 
 #include <fmt/format.h>
@@ -117,7 +118,7 @@ Json json_of(const std::vector<PartDescription>& parts) {
 }
 
 void print_json(const Json& list) {
-    fmt::print("{}\n", list.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(list));
 }
 
 }  // namespace espalier::app

@@ -1,5 +1,6 @@
 #include "run_command.h"
 
+#include "base/json_text.h"
 #include "child.h"
 #include "command.h"
 #include "options.h"
@@ -58,7 +59,7 @@ void print_result(const RunArguments& arguments, const Scene& scene, const fs::p
                                              {"modules", result.modules},
                                              {"peak_memory", result.peak_memory},
                                              {"seconds", result.seconds}};
-        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(json));
         return;
     }
     if (arguments.quiet) return;

@@ -1,5 +1,6 @@
 #include "settings_node.h"
 
+#include "base/json_text.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -171,7 +172,7 @@ void Node::collect_unread(std::vector<Diagnostic>& diagnostics) const {
 std::string Node::to_json() const {
     const std::lock_guard lock(marks());
     // A value of the command line may be no UTF-8.
-    return json_of(*this).dump(2, ' ', false, Json::error_handler_t::replace);
+    return json_text(json_of(*this));
 }
 
 }  // namespace espalier

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/json_text.h"
 #include "formats/bytes.h"
 #include "formats/colour.h"
 #include "formats/textures.h"
@@ -204,7 +205,7 @@ std::string Glb::bytes(const std::vector<std::size_t>& roots) const {
     if (!channels_.empty()) {
         json["animations"] = Json::array({{{"name", "growth"}, {"samplers", samplers_}, {"channels", channels_}}});
     }
-    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string text = json_text(json, -1);
     if (text.size() + binary_.size() + 64 > std::numeric_limits<std::uint32_t>::max()) {
         throw RunError("a .glb holds no more than 4 GiB; fewer frames, fewer --sides or one --plant make it smaller");
     }

@@ -2,6 +2,7 @@
 #include "espalier/formats/exporter.h"
 
 #include "app/command.h"
+#include "base/json_text.h"
 #include "base/text.h"
 #include "frame_option.h"
 #include "mesh_file_options.h"
@@ -93,7 +94,7 @@ Examples:
         job.keep = keep_;
         export_run(job, target.formats);
         if (wants_json()) {
-            fmt::print("{}\n", Json{{"files", files}}.dump(2, ' ', false, Json::error_handler_t::replace));
+            fmt::print("{}\n", json_text(Json{{"files", files}}));
         }
         return exit_code::done;
     }

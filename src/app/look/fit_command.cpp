@@ -8,6 +8,7 @@
 #include "analysis/marked_plant.h"
 #include "app/command.h"
 #include "app/options.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -174,7 +175,7 @@ private:
             for (std::size_t i = 0; i < fitted.size(); ++i) {
                 json["parameters"][fitted[i].name] = {{"value", fit.values[i]}, {"error", fit.errors[i]}};
             }
-            fmt::print("{}\n", json.dump(2));
+            fmt::print("{}\n", json_text(json));
             return;
         }
         std::string define;

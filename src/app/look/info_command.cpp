@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "app/progress.h"
+#include "base/json_text.h"
 #include "base/text.h"
 #include "picture/charts/quantity.h"
 
@@ -187,7 +188,7 @@ int info(const InfoArguments& arguments) {
         const RecordedTable last = last_step_of(arguments.folder);
         const Json summary = summary_of(arguments.folder, run, last);
         if (arguments.json) {
-            fmt::print("{}\n", summary.dump(2, ' ', false, Json::error_handler_t::replace));
+            fmt::print("{}\n", json_text(summary));
         } else {
             print_summary(arguments.folder, summary);
             print_statistics(last, summary["plants"]);

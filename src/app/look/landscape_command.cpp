@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "app/progress.h"
 #include "base/folder.h"
+#include "base/json_text.h"
 #include "formats/landscape_file.h"
 #include "landscape_scene.h"
 #include "picture_options.h"
@@ -149,7 +150,7 @@ private:
                             {"triangles", landscape.triangles()},
                             {"triangles_in_full", landscape.triangles_in_full()},
                             {"species", rows}};
-            fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+            fmt::print("{}\n", json_text(json));
             return;
         }
         if (quiet_) return;

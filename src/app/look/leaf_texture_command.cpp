@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "base/folder.h"
+#include "base/json_text.h"
 #include "formats/leaf_texture.h"
 #include "picture_options.h"
 
@@ -58,7 +59,7 @@ Examples:
         if (wants_json()) {
             const nlohmann::ordered_json json{
                 {"path", output_.string()}, {"blobs", texture_.blobs}, {"overlapping", leaves.overlapping}};
-            fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+            fmt::print("{}\n", json_text(json));
         } else {
             fmt::print("{}: {} leaves, {} of them over others\n", output_.string(), texture_.blobs, leaves.overlapping);
         }

@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/run_command.h"
 #include "axis_surface_options.h"
+#include "base/json_text.h"
 #include "base/number.h"
 #include "base/platform.h"
 #include "base/text.h"
@@ -330,7 +331,7 @@ private:
         if (wants_json()) {
             nlohmann::ordered_json json = nlohmann::ordered_json::array();
             for (const fs::path& file : files) json.push_back(file.string());
-            fmt::print("{}\n", nlohmann::ordered_json{{"files", json}}.dump(2));
+            fmt::print("{}\n", json_text(nlohmann::ordered_json{{"files", json}}));
             return;
         }
         if (run_.quiet) return;

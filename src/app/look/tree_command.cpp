@@ -12,6 +12,7 @@
 #include "app/progress.h"
 #include "app/run_command.h"
 #include "app/setting_values.h"
+#include "base/json_text.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "mesh_file_options.h"
@@ -275,7 +276,7 @@ Ctrl-C ends the growth after the step at hand, and no file is written.)";
         if (wants_json()) {
             const Json result = {
                 {"files", files}, {"seed", seed}, {"end", end.reason}, {"code", end.code}, {"seconds", seconds}};
-            fmt::print("{}\n", result.dump(2, ' ', false, Json::error_handler_t::replace));
+            fmt::print("{}\n", json_text(result));
             return;
         }
         if (seed_ == "new") fmt::print("seed {}\n", seed);

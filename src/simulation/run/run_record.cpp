@@ -1,6 +1,7 @@
 #include "simulation/run/run_record.h"
 
 #include "base/bytes.h"
+#include "base/json_text.h"
 #include "simulation/run/run_inputs.h"
 #include "simulation/run/view_record.h"
 
@@ -155,7 +156,7 @@ std::string RunRecord::json(const std::string& exit, double seconds) const {
                        {"record", total_.record}};
     json["inputs"] = inputs_json(inputs_, output_);
     json["parameters"] = parameters_json(scene, planned_steps_);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json) + "\n";
 }
 
 void RunRecord::write(const Timeline& timeline, const std::string& exit, double seconds) const {

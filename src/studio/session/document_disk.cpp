@@ -3,6 +3,7 @@
 #include "espalier/base/file.h"
 
 #include "base/folder.h"
+#include "base/json_text.h"
 #include "studio/document/document_files.h"
 #include "studio/document/plain_name.h"
 
@@ -51,7 +52,7 @@ void DocumentDisk::keep() {
         for (const auto& [file, text] : document_.now().unsaved) {
             if (watch_.knows(file)) state["on_disk"][file.string()] = watch_.digest_of(file);
         }
-        write_private_text(options_.state, state.dump());
+        write_private_text(options_.state, json_text(state, -1));
     } catch (const std::exception& error) {
         pages_.notify("warning", fmt::format("unsaved work cannot be kept: {}", error.what()));
     }

@@ -1,5 +1,7 @@
 #include "studio/session/jobs.h"
 
+#include "base/json_text.h"
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -90,8 +92,9 @@ void Jobs::begin_limbs(Viewer& viewer, LimbOrder order) {
     stop_limbs(viewer.page);
     Page* const page = &viewer.page;
     const auto progressed = [this, page, smooth = order.smooth](double share) {
-        send_later(page,
-                   [text = progress_message({skin_name(smooth), share}).dump()](Page& to) { to.send_text(text); });
+        send_later(page, [text = json_text(progress_message({skin_name(smooth), share}), -1)](Page& to) {
+            to.send_text(text);
+        });
     };
     const auto done = [this, page, progressed](std::string bytes, const std::string& why) {
         progressed(1);

@@ -1,5 +1,7 @@
 #include "studio/session/pages.h"
 
+#include "base/json_text.h"
+
 #include <algorithm>
 
 namespace espalier::studio {
@@ -8,7 +10,7 @@ namespace {
 const Message<Note> note_message{"message", "a note for the user"};
 
 std::string text_of(const Json& message) {
-    return message.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(message, -1);
 }
 
 }  // namespace
