@@ -2,10 +2,13 @@
 
 #include "espalier/language/notation.h"
 
+#include "base/number.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cstdio>
+#include <optional>
 #include <set>
 
 namespace espalier::app {
@@ -17,14 +20,13 @@ namespace fs = std::filesystem;
 void add_sets(const std::vector<std::string>& files, const char* option, std::map<int, fs::path>& sets) {
     for (const std::string& text : files) {
         const std::size_t equals = text.find('=');
-        const std::string number = equals == std::string::npos ? "" : text.substr(0, equals);
-        const bool numbered =
-            !number.empty() && number.size() <= 3 && number.find_first_not_of("0123456789") == std::string::npos;
+        const std::optional<int> number = whole_text_as<int>(text.substr(0, equals));
+        const bool numbered = equals != std::string::npos && number && *number >= 0 && *number <= 999;
         const fs::path file = numbered ? text.substr(equals + 1) : text;
         if (!fs::is_regular_file(file)) {
             throw UserError(fmt::format("{} {}: the file {} does not exist", option, text, file.string()));
         }
-        sets[numbered ? std::stoi(number) : 1] = file;
+        sets[numbered ? *number : 1] = file;
     }
 }
 

@@ -16,4 +16,9 @@ inline void prefetch(const void* at, std::size_t bytes) {
     }
 }
 
+/// The same for one line, which comes as near as it can.
+inline void prefetch(const void* at) {
+    __builtin_prefetch(at);
+}
+
 }  // namespace espalier

@@ -66,7 +66,6 @@ namespace espalier {
 
 using formats::CardImage;
 using formats::is_landscape_file;
-using formats::LandscapeFile;
 using formats::write_landscape;
 
 }  // namespace espalier

@@ -60,10 +60,3 @@ private:
 };
 
 }  // namespace espalier::turtle
-
-namespace espalier {
-
-using turtle::RowWriter;
-using turtle::WrongPlan;
-
-}  // namespace espalier

@@ -423,10 +423,6 @@ inline void Walk::set_width(double width) {
 
 namespace espalier {
 
-using turtle::copy_bits;
-using turtle::copy_vector;
-using turtle::TurtleStack;
 using turtle::Walk;
-using turtle::WalkState;
 
 }  // namespace espalier

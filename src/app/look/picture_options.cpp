@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -33,13 +34,9 @@ PictureSize PictureOptions::size(const PictureSize& otherwise) const {
 }
 
 PictureSize picture_size(const std::string& option, const std::string& text) {
-    PictureSize size;
-    const char* end = text.data() + text.size();
-    const auto [cross, wrong_width] = std::from_chars(text.data(), end, size.width);
-    if (wrong_width == std::errc() && cross != end && *cross == 'x') {
-        const auto [rest, wrong_height] = std::from_chars(cross + 1, end, size.height);
-        if (wrong_height == std::errc() && rest == end && size.width > 0 && size.height > 0) return size;
-    }
+    const std::size_t cross = std::min(text.find('x'), text.size() - 1);
+    const auto width = whole_text_as<int>(text.substr(0, cross)), height = whole_text_as<int>(text.substr(cross + 1));
+    if (width && height && *width > 0 && *height > 0) return {*width, *height};
     throw UserError(option == "--size" ? fmt::format("--size {}: expected WIDTHxHEIGHT, such as 1200x800", text)
                                        : fmt::format("{} {}: expected COLUMNSxROWS, such as 4x2", option, text));
 }

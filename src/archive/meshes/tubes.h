@@ -80,11 +80,9 @@ Tube sweep(const TubeLine& line, int sides, Caps caps = Caps::round);
 
 namespace espalier {
 
-using archive::frames_along;
 using archive::sweep;
 using archive::Tube;
 using archive::tube_line;
-using archive::TubeFrame;
 using archive::TubeLine;
 using archive::TubeNode;
 using archive::TubeTriangle;

@@ -9,13 +9,6 @@
 
 namespace espalier::environment {
 
-/// Has memory brought near that will be needed soon.
-inline void prefetch([[maybe_unused]] const void* at) {
-#ifdef __GNUC__
-    __builtin_prefetch(at);
-#endif
-}
-
 class ShadeBricks {
 public:
     static constexpr int edge = 8;
@@ -52,7 +45,6 @@ public:
         const glm::tvec3<std::size_t> at(brick - first_);  // what lies below the first is huge
         return at.x < size_.x && at.y < size_.y && at.z < size_.z ? directory_[place(brick)] : none;
     }
-    std::int32_t at_place(std::size_t place) const { return directory_[place]; }
     std::size_t place(const glm::ivec3& brick) const {
         const glm::ivec3 at = brick - first_;
         return (std::size_t(at.x) * size_.y + std::size_t(at.y)) * size_.z + std::size_t(at.z);

@@ -2,6 +2,7 @@
 
 #include "espalier/base/error.h"
 
+#include "base/prefetch.h"
 #include "base/vector_clones.h"
 
 #include <fmt/format.h>

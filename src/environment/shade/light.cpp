@@ -2,6 +2,8 @@
 
 #include "espalier/base/error.h"
 
+#include "base/prefetch.h"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 

@@ -73,6 +73,5 @@ namespace espalier {
 
 using geometry::DrawnFace;
 using geometry::DrawnFaces;
-using geometry::FaceOwner;
 
 }  // namespace espalier

@@ -95,8 +95,6 @@ SurfaceVertex placed(const SurfaceVertex& vertex, const Organ& organ);
 
 namespace espalier {
 
-using geometry::IndexRuns;
-using geometry::OrganMesh;
 using geometry::OrganMeshes;
 using geometry::rhombus_of;
 using geometry::SurfaceMeshes;

@@ -32,7 +32,6 @@ void move_organs(PlantGeometry& geometry, const MotionOfModule& motion_of);
 
 namespace espalier {
 
-using geometry::MotionOfModule;
 using geometry::move_organs;
 using geometry::RigidMotion;
 using geometry::turn_about;

@@ -35,10 +35,8 @@ namespace espalier {
 
 using geometry::bytes_of;
 using geometry::digest_of;
-using geometry::grid_from_bytes;
 using geometry::grid_of;
 using geometry::most_dense_voxels;
-using geometry::same_field;
 using geometry::write_vdb;
 
 }  // namespace espalier

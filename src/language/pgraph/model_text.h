@@ -72,10 +72,7 @@ private:
     std::string depths_;
 };
 
-/// Writes the productions of a component, by its type.
-void write_component(ComponentText& text);
-
-// One for each family of types.
+// They write the productions of a component: one for each family of types.
 void write_horn(ComponentText& text);
 void write_tree(ComponentText& text);
 void write_leaf(ComponentText& text);

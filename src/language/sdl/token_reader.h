@@ -16,7 +16,6 @@ public:
     explicit TokenReader(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
 
     const Token& next() const { return tokens_[at_]; }
-    const Token& after_next() const { return tokens_[std::min(at_ + 1, tokens_.size() - 1)]; }
     bool at_end() const { return next().kind == Token::Kind::end; }
     bool looking_at(std::string_view text) const { return !at_end() && next().text == text; }
     bool accept(std::string_view text);

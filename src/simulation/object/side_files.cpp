@@ -1,7 +1,11 @@
 #include "simulation/object/side_files.h"
 
+#include "base/number.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <optional>
 
 namespace espalier::simulation {
 namespace {
@@ -19,12 +23,11 @@ std::map<int, fs::path> sets_of(const Settings& table, const char* key) {
     }
     const Settings files = table.table(key);
     for (const std::string& set : files.keys()) {
-        const bool is_number =
-            !set.empty() && set.size() <= 3 && set.find_first_not_of("0123456789") == std::string::npos;
-        if (!is_number || std::stoi(set) > most_sets) {
+        const std::optional<int> number = whole_text_as<int>(set);
+        if (!number || *number < 0 || *number > most_sets) {
             throw UserError(files.place(set), fmt::format("'{}' is no number of a set from 0 to {}", set, most_sets));
         }
-        sets[std::stoi(set)] = files.path(set);
+        sets[*number] = files.path(set);
     }
     return sets;
 }

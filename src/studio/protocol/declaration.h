@@ -77,24 +77,19 @@ concept Declared = requires {
     Type::type.name;
 };
 
-template <class Type>
-inline constexpr bool is_optional = false;
-template <class Value>
-inline constexpr bool is_optional<std::optional<Value>> = true;
+/// Whether a type is made from a template: a list is made from std::vector.
+template <template <class...> class Template, class Type>
+inline constexpr bool is_made_from = false;
+template <template <class...> class Template, class... Arguments>
+inline constexpr bool is_made_from<Template, Template<Arguments...>> = true;
 
 template <class Type>
-inline constexpr bool is_nullable = false;
-template <class Value>
-inline constexpr bool is_nullable<Nullable<Value>> = true;
-
+inline constexpr bool is_optional = is_made_from<std::optional, Type>;
 template <class Type>
-inline constexpr bool is_list = false;
-template <class Value>
-inline constexpr bool is_list<std::vector<Value>> = true;
-
+inline constexpr bool is_nullable = is_made_from<Nullable, Type>;
 template <class Type>
-inline constexpr bool is_map = false;
-template <class Value>
-inline constexpr bool is_map<std::map<std::string, Value>> = true;
+inline constexpr bool is_list = is_made_from<std::vector, Type>;
+template <class Type>
+inline constexpr bool is_map = is_made_from<std::map, Type>;
 
 }  // namespace espalier::studio
