@@ -209,7 +209,7 @@ double updated_wet_head(const SoilPoint& point, const SoilHydraulics& kind, doub
     const double full = kind.soil().conductivity;
     const double goal = point.conductivity + point.slope * change;
     if (goal >= full) return std::max(point.head + change, 0.0);
-    return kind.head_of_conductivity(std::max(goal, 0.3 * point.conductivity));
+    return kind.head_of_conductivity(std::max(goal, 0.3 * point.conductivity), point.head);
 }
 
 }  // namespace
@@ -223,7 +223,7 @@ double Richards::updated_head(std::size_t cell, double change) const {
     if (saturation >= wet) return updated_wet_head(point, kind, change);
     const double goal = saturation + point.capacity * change / range;
     if (goal >= 0.99) return std::max(kind.head_at(soil.residual + 0.99 * range), point.head);
-    return kind.head_at(soil.residual + range * std::max(goal, 0.1 * saturation));
+    return kind.head_at(soil.residual + range * std::max(goal, 0.1 * saturation), point.head);
 }
 
 }  // namespace espalier::environment
