@@ -1,0 +1,129 @@
+// Completions and man pages against the help that they are made from.
+#include "app/program.h"
+#include "catch.h"
+
+#include <regex>
+#include <set>
+#include <sstream>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// The first words of the indented lines below a heading of the help, as "run" or "-h,--help".
+std::vector<std::string> words_below(const std::string& help, const std::string& heading) {
+    std::istringstream lines(help.substr(std::min(help.find("\n" + heading + ":\n"), help.size())));
+    std::vector<std::string> words;
+    std::string line;
+    std::getline(lines, line);
+    std::getline(lines, line);
+    while (std::getline(lines, line) && !line.empty()) {
+        static const std::regex entry("  (\\S+)( .*)?");
+        std::smatch found;
+        if (line[2] != ' ' && std::regex_match(line, found, entry)) words.push_back(found[1]);
+    }
+    return words;
+}
+
+/// Every long option of a command's help.
+std::set<std::string> options_of(const std::string& help) {
+    std::set<std::string> options;
+    for (const std::string& word : words_below(help, "Options")) {
+        const std::size_t place = word.find("--");
+        if (place != word.npos) options.insert(word.substr(place));
+    }
+    return options;
+}
+
+std::map<std::string, std::set<std::string>> options_of_commands(const Workplace& place) {
+    std::map<std::string, std::set<std::string>> options;
+    for (const std::string& command : words_below(place.run("--help").out, "Subcommands")) {
+        options[command] = options_of(place.run(command + " --help").out);
+    }
+    return options;
+}
+
+bool is_installed(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// What bash offers for the last of these words.
+std::set<std::string> bash_offers(const Workplace& place, const std::string& words) {
+    place.write("offer",
+                "source ./script\nCOMP_WORDS=(" + words +
+                    ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_espalier\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n");
+    REQUIRE(place.run("completion bash >script && bash ./offer >offers").code == 0);
+    std::istringstream lines(text_of(place.path() / "offers"));
+    std::set<std::string> offers;
+    for (std::string line; std::getline(lines, line);) offers.insert(line);
+    return offers;
+}
+
+}  // namespace
+
+TEST_CASE("bash completes every command and every option of each", "[app][completion]") {
+    const Workplace place;
+    const auto commands = options_of_commands(place);
+    REQUIRE(commands.size() >= 20);
+    std::set<std::string> offered = bash_offers(place, "espalier ''");
+    for (const auto& [command, options] : commands) {
+        INFO(command);
+        CHECK(offered.contains(command));
+        REQUIRE(!options.empty());
+        CHECK(bash_offers(place, "espalier " + command + " --") == options);
+    }
+    CHECK(!offered.contains("man"));
+}
+
+TEST_CASE("bash completes beginnings, words that an option accepts, and else names of files", "[app][completion]") {
+    const Workplace place;
+    CHECK(bash_offers(place, "espalier ren") == std::set<std::string>{"render"});
+    CHECK(bash_offers(place, "espalier run --over") == std::set<std::string>{"--overwrite"});
+    CHECK(bash_offers(place, "espalier run --arithmetic ''") == std::set<std::string>{"double", "cpfg"});
+    CHECK(bash_offers(place, "espalier run --output ''") == std::set<std::string>{""});
+}
+
+TEST_CASE("zsh and fish are told of every command and option, in scripts that they can read", "[app][completion]") {
+    const Workplace place;
+    for (const std::string shell : {"zsh", "fish"}) {
+        const Outcome script = place.run("completion " + shell);
+        REQUIRE(script.code == 0);
+        for (const auto& [command, options] : options_of_commands(place)) {
+            CHECK_THAT(script.out, Contains(shell == "zsh" ? "'" + command + ":" : "-a " + command + " "));
+            for (const std::string& option : options) {
+                INFO(shell << ": " << command << " " << option);
+                CHECK_THAT(script.out,
+                           Contains(shell == "zsh" ? "'*" + option + "[" : " -l " + option.substr(2) + " "));
+            }
+        }
+        if (is_installed(shell))
+            CHECK(place.run("completion " + shell + " >script && " + shell + " -n script").code == 0);
+    }
+    CHECK(place.run("completion csh").code == 1);
+}
+
+TEST_CASE("fish completes what it was told", "[app][completion]") {
+    if (!is_installed("fish")) return;
+    const Workplace place;
+    place.write("ask.fish", "source script\ncomplete -C 'espalier ren'\ncomplete -C 'espalier run --arithmetic '\n");
+    REQUIRE(place.run("completion fish >script && fish ask.fish >offers").code == 0);
+    CHECK_THAT(text_of(place.path() / "offers"), Contains("render\t") && Contains("cpfg") && Contains("double"));
+}
+
+TEST_CASE("Each command has a man page with its options and examples", "[app][completion]") {
+    const Workplace place;
+    REQUIRE(place.run("man pages").code == 0);
+    const std::string all = text_of(place.path() / "pages/espalier.1");
+    for (const auto& [command, options] : options_of_commands(place)) {
+        const std::string name = std::regex_replace(command, std::regex("-"), "\\-");
+        CHECK_THAT(all, Contains(".BR espalier\\-" + name + " (1)"));
+        const std::string page = text_of(place.path() / ("pages/espalier-" + command + ".1"));
+        CHECK_THAT(page, Contains("espalier\\-" + name + " \\- ") && Contains(".SH EXAMPLES\n.EX\n  espalier " + name));
+        for (const std::string& option : options) {
+            INFO(command << " " << option);
+            CHECK_THAT(page, Contains("\\fB" + std::regex_replace(option, std::regex("-"), "\\-") + "\\fR"));
+        }
+    }
+    if (!is_installed("mandoc")) return;
+    REQUIRE(place.run("man pages && mandoc -T lint -W error pages/*.1").code == 0);
+}
