@@ -13,10 +13,12 @@
 namespace espalier::app {
 namespace {
 
-/// With the commands of the looking half where it is installed.
-CommandLine whole_command_line() {
+/// With the commands of the looking half where it is installed, and all options.
+std::unique_ptr<CommandLine> whole_command_line() {
     open_looking_half();
-    return CommandLine();
+    auto line = std::make_unique<CommandLine>();
+    for (const auto& command : line->commands) command->add_options_of_files();
+    return line;
 }
 
 class Completion final : public Command {
@@ -34,9 +36,9 @@ public:
     }
 
     int run() override {
-        const CommandLine line = whole_command_line();
+        const auto line = whole_command_line();
         const auto script = shell_ == "bash" ? bash_completion : shell_ == "zsh" ? zsh_completion : fish_completion;
-        fmt::print("{}", script(line.program));
+        fmt::print("{}", script(line->program));
         return exit_code::done;
     }
 
@@ -53,7 +55,8 @@ public:
 
     int run() override {
         std::filesystem::create_directories(folder_);
-        for (const auto& [name, text] : man_pages(whole_command_line().program)) {
+        const auto line = whole_command_line();
+        for (const auto& [name, text] : man_pages(line->program)) {
             write_text(folder_ / name, text);
         }
         return exit_code::done;

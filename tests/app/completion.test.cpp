@@ -10,37 +10,36 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// The first words of the indented lines below a heading of the help, as "run" or "-h,--help".
-std::vector<std::string> words_below(const std::string& help, const std::string& heading) {
-    std::istringstream lines(help.substr(std::min(help.find("\n" + heading + ":\n"), help.size())));
-    std::vector<std::string> words;
-    std::string line;
-    std::getline(lines, line);
-    std::getline(lines, line);
-    while (std::getline(lines, line) && !line.empty()) {
-        static const std::regex entry("  (\\S+)( .*)?");
-        std::smatch found;
-        if (line[2] != ' ' && std::regex_match(line, found, entry)) words.push_back(found[1]);
-    }
-    return words;
+/// Every command that the program's help tells of.
+std::vector<std::string> commands_of(const std::string& help) {
+    static const std::regex entry("\n  ([a-z-]+)  ");
+    const std::string list = help.substr(help.find("\nSubcommands:"));
+    std::vector<std::string> commands;
+    for (std::sregex_iterator at(list.begin(), list.end(), entry), end; at != end; ++at) commands.push_back((*at)[1]);
+    return commands;
 }
 
-/// Every long option of a command's help.
+/// Every long option of a command's help, whatever group it stands in.
 std::set<std::string> options_of(const std::string& help) {
+    static const std::regex entry("\n  (-[^ -],)?(--[a-z-]+)");
     std::set<std::string> options;
-    for (const std::string& word : words_below(help, "Options")) {
-        const std::size_t place = word.find("--");
-        if (place != word.npos) options.insert(word.substr(place));
-    }
+    for (std::sregex_iterator at(help.begin(), help.end(), entry), end; at != end; ++at) options.insert((*at)[2]);
     return options;
 }
 
-std::map<std::string, std::set<std::string>> options_of_commands(const Workplace& place) {
-    std::map<std::string, std::set<std::string>> options;
-    for (const std::string& command : words_below(place.run("--help").out, "Subcommands")) {
-        options[command] = options_of(place.run(command + " --help").out);
+struct Help {
+    std::string text;
+    std::set<std::string> options;
+};
+
+/// By command.
+std::map<std::string, Help> help_of_commands(const Workplace& place) {
+    std::map<std::string, Help> helps;
+    for (const std::string& command : commands_of(place.run("--help").out)) {
+        const std::string text = place.run(command + " --help").out;
+        helps[command] = {text, options_of(text)};
     }
-    return options;
+    return helps;
 }
 
 bool is_installed(const std::string& program) {
@@ -63,14 +62,14 @@ std::set<std::string> bash_offers(const Workplace& place, const std::string& wor
 
 TEST_CASE("bash completes every command and every option of each", "[app][completion]") {
     const Workplace place;
-    const auto commands = options_of_commands(place);
+    const auto commands = help_of_commands(place);
     REQUIRE(commands.size() >= 20);
     std::set<std::string> offered = bash_offers(place, "espalier ''");
-    for (const auto& [command, options] : commands) {
+    for (const auto& [command, help] : commands) {
         INFO(command);
         CHECK(offered.contains(command));
-        REQUIRE(!options.empty());
-        CHECK(bash_offers(place, "espalier " + command + " --") == options);
+        REQUIRE(!help.options.empty());
+        CHECK(bash_offers(place, "espalier " + command + " --") == help.options);
     }
     CHECK(!offered.contains("man"));
 }
@@ -88,9 +87,9 @@ TEST_CASE("zsh and fish are told of every command and option, in scripts that th
     for (const std::string shell : {"zsh", "fish"}) {
         const Outcome script = place.run("completion " + shell);
         REQUIRE(script.code == 0);
-        for (const auto& [command, options] : options_of_commands(place)) {
+        for (const auto& [command, help] : help_of_commands(place)) {
             CHECK_THAT(script.out, Contains(shell == "zsh" ? "'" + command + ":" : "-a " + command + " "));
-            for (const std::string& option : options) {
+            for (const std::string& option : help.options) {
                 INFO(shell << ": " << command << " " << option);
                 CHECK_THAT(script.out,
                            Contains(shell == "zsh" ? "'*" + option + "[" : " -l " + option.substr(2) + " "));
@@ -114,12 +113,15 @@ TEST_CASE("Each command has a man page with its options and examples", "[app][co
     const Workplace place;
     REQUIRE(place.run("man pages").code == 0);
     const std::string all = text_of(place.path() / "pages/espalier.1");
-    for (const auto& [command, options] : options_of_commands(place)) {
+    for (const auto& [command, help] : help_of_commands(place)) {
         const std::string name = std::regex_replace(command, std::regex("-"), "\\-");
         CHECK_THAT(all, Contains(".BR espalier\\-" + name + " (1)"));
         const std::string page = text_of(place.path() / ("pages/espalier-" + command + ".1"));
-        CHECK_THAT(page, Contains("espalier\\-" + name + " \\- ") && Contains(".SH EXAMPLES\n.EX\n  espalier " + name));
-        for (const std::string& option : options) {
+        CHECK_THAT(page, Contains("espalier\\-" + name + " \\- "));
+        if (help.text.find("\nExamples:") != help.text.npos) {
+            CHECK_THAT(page, Contains(".SH EXAMPLES\n.EX\n  espalier "));
+        }
+        for (const std::string& option : help.options) {
             INFO(command << " " << option);
             CHECK_THAT(page, Contains("\\fB" + std::regex_replace(option, std::regex("-"), "\\-") + "\\fR"));
         }
