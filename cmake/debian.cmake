@@ -95,22 +95,32 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "espalier, python3-pandas")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-openvdb, python3-tqdm, python3-vtk9, python3-xarray")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/triggers)
+set(CPACK_DEBIAN_LOOK_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/triggers)
+set(CPACK_DEBIAN_DOC_PACKAGE_DEPENDS python3:any)  # scripts of the manual
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
   "${PROJECT_SOURCE_DIR}/packaging/debian/python/postinst;${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm")
 
-set(what "Espalier simulates the growth of plants with L-systems. As the plants grow, they exchange information with a simulated\
- environment: they ask for the light, the water or the free space where they are, and their next step depends on the answers.")
+# Lines of at most 80 characters, as Debian wants them.
+set(what "Espalier simulates the growth of plants with L-systems. As the plants
+grow, they exchange information with a simulated environment: they ask for
+the light, the water or the free space where they are, and their next step
+depends on the answers.")
 # describe(COMPONENT SUMMARY TEXT)
 function(describe component summary text)
   set(CPACK_COMPONENT_${component}_DESCRIPTION "${summary}\n${what}\n\n${text}" PARENT_SCOPE)
 endfunction()
 describe(PROGRAM "simulator of plants that grow and interact with their environment"
-  "This package has the program, which grows, draws, measures and exports plants, and a studio in the browser.")
+  "This package has the program, which grows, draws, measures and exports
+plants, and a studio in the browser.")
 describe(RUNTIME "simulator of plants - growing library" "This package has the libraries that grow plants.")
 describe(LOOK "simulator of plants - library that reads and draws runs"
-  "This package has the library that reads, measures, draws and exports recorded runs.")
-describe(DEVELOPMENT "simulator of plants - development files" "This package has headers, and files for CMake and pkg-config.")
+  "This package has the library that reads, measures, draws and exports
+recorded runs.")
+describe(DEVELOPMENT "simulator of plants - development files"
+  "This package has headers, and files for CMake and pkg-config.")
 describe(PYTHON "simulator of plants - module of Python" "This package has the module espalier.")
-describe(DATA "simulator of plants - models and environments" "This package has the library of models, scenes and their data.")
+describe(DATA "simulator of plants - models and environments"
+  "This package has the library of models, scenes and their data.")
 describe(DOC "simulator of plants - manual" "This package has the manual and its pictures.")
 include(CPack)

@@ -38,7 +38,8 @@ install(DIRECTORY include/espalier TYPE INCLUDE COMPONENT development)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/espalier COMPONENT development)
 install(DIRECTORY models environments DESTINATION ${ESPALIER_DATA_DIR} COMPONENT data)
 # The manual; the studio shows the pictures of its gallery, and pages name the scripts.
-install(DIRECTORY docs DESTINATION ${ESPALIER_DATA_DIR} USE_SOURCE_PERMISSIONS COMPONENT doc PATTERN developer EXCLUDE)
+install(DIRECTORY docs DESTINATION ${ESPALIER_DATA_DIR} USE_SOURCE_PERMISSIONS COMPONENT doc
+  PATTERN developer EXCLUDE PATTERN docs/site EXCLUDE)
 install(FILES LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 configure_package_config_file(cmake/EspalierConfig.cmake.in EspalierConfig.cmake
