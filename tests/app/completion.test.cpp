@@ -21,9 +21,15 @@ std::vector<std::string> commands_of(const std::string& help) {
 
 /// Every long option of a command's help, whatever group it stands in.
 std::set<std::string> options_of(const std::string& help) {
-    static const std::regex entry("\n  (-[^ -],)?(--[a-z-]+)");
+    static const std::regex entry("\n  (-[^ ]+)"), option("--[a-z-]+");
     std::set<std::string> options;
-    for (std::sregex_iterator at(help.begin(), help.end(), entry), end; at != end; ++at) options.insert((*at)[2]);
+    const std::sregex_iterator end;
+    for (std::sregex_iterator at(help.begin(), help.end(), entry); at != end; ++at) {
+        const std::string names = (*at)[1];  // "-h,--help", "--ground,--no-ground{false}"
+        for (std::sregex_iterator name(names.begin(), names.end(), option); name != end; ++name) {
+            options.insert(name->str());
+        }
+    }
     return options;
 }
 
