@@ -34,6 +34,12 @@ grow hydraulic-lift environments/hydraulic-lift.toml
 for scene in drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
     grow "$scene" "environments/$scene.toml"
 done
+grow plough-pan environments/plough-pan.toml
+grow plough-pan-loose environments/plough-pan.toml --set environment.strength.file=soils/loose.csv
+grow plough-pan-summer environments/plough-pan.toml --set environment.temperature.file=soils/summer.csv
+for soil in plough-pan plough-pan-loose plough-pan-summer; do
+    render "$soil.png" "$soil" --size 260x360 --no-legend --scale-bar --elevation 3
+done
 grow hydrotropism environments/hydrotropism.toml
 grow split-wet environments/split-pot.toml --set environment.water.regions.0.initial.head=-100
 grow split-feddes environments/split-pot.toml --set 'environment.roots.model="feddes"'
