@@ -1,5 +1,6 @@
 """The commands that look, through the program."""
 
+import math
 import pathlib
 import pickle
 import struct
@@ -64,6 +65,21 @@ def test_a_mistake_in_a_command_has_its_place(tmp_path):
     with pytest.raises(es.Error, match="--frob") as caught:
         es.check(file, frob=1)
     assert caught.value.line is None
+
+
+def test_a_fit_finds_the_parameters_of_the_marks(tmp_path):
+    model = tmp_path / "fork.l"
+    model.write_text("#define R 0.5\n#define ANGLE 20\nlsystem: fork\nderivation length: 3\naxiom: A(1)\n"
+                     "A(l) --> F(l)[+(ANGLE)A(l*R)][-(ANGLE)A(l*R)]\nendlsystem\n")
+    radians = 35 * 3.141592653589793 / 180
+    rows = ["axis,x,y", "0,0,0", "0,0,1"]
+    for axis, side in ((1, -1), (2, 1)):
+        rows += [f"{axis},0,1", f"{axis},{side * 0.8 * math.sin(radians)},{1 + 0.8 * math.cos(radians)}"]
+    marks = tmp_path / "marks.csv"
+    marks.write_text("\n".join(rows) + "\n")
+    found = es.fit(model, marks, parameter=["R", "ANGLE"], steps=2)["parameters"]
+    assert found["R"]["value"] == pytest.approx(0.8, abs=1e-5)
+    assert found["ANGLE"]["value"] == pytest.approx(35, abs=1e-3)
 
 
 def test_a_sweep_is_a_table_with_a_row_a_run(tmp_path):
