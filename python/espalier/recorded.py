@@ -66,6 +66,11 @@ class RecordedFrame:
 
         return png(self._run, step=self.step)
 
+    def _repr_html_(self):
+        from .looking import html
+
+        return html(self._run, step=self.step)
+
 
 @add_conversions
 class RecordedField:
@@ -194,6 +199,11 @@ class Run:
         from .looking import png
 
         return png(self)
+
+    def _repr_html_(self):
+        from .looking import html
+
+        return html(self)
 
 
 def open(folder):

@@ -1,9 +1,14 @@
 """The commands that look, through the program."""
 
+import base64
+import html
+import json
 import math
 import pathlib
 import pickle
+import re
 import struct
+import zlib
 
 import pytest
 
@@ -36,6 +41,22 @@ def test_a_run_a_model_and_a_scene_show_themselves(run):
     assert size_of_png(es.Model(text=BUSH)._repr_png_()) == (480, 360)
     picture = es.render(run, run.folder / "bush.png", size="64x48", colour_by="age", no_legend=True)
     assert size_of_png(picture.read_bytes()) == (64, 48)
+
+
+def test_a_shared_page_needs_nothing_else(run, tmp_path):
+    page = es.share(run, tmp_path / "bush.html", frames=3, title="</script><b>").read_text(encoding="utf-8")
+    recording = json.loads(re.search(r'<script type="application/json" id="recording">(.*?)</script>', page, re.DOTALL)[1])
+    assert recording["title"] == "</script><b>" and recording["steps"] == [0, 2, 4]
+    packet = zlib.decompress(base64.b64decode(recording["packets"][-1]), -15)
+    assert packet[:4] == b"ESP1" and struct.unpack_from("<I", packet, 8)[0] == 4
+    assert page.count("</script>") == 2 and "src=" not in page[: page.index("<script")] and "EspalierView.playRecording()" in page
+
+
+def test_cells_of_notebooks_show_the_page(run):
+    for shown in (run, run.frames[2], es.Model(text=BUSH)):
+        element = shown._repr_html_()
+        assert element.startswith('<iframe sandbox="allow-scripts"') and element.count('"') == 6
+        assert "EspalierView.playRecording()" in html.unescape(element)
 
 
 def test_an_export_holds_the_last_frame(run, tmp_path):
