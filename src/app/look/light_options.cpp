@@ -36,7 +36,8 @@ LightOptions::LightOptions(CLI::App& command) : command_(command) {
                               "AZIMUTH:ELEVATION of the sun in degrees, counted as those of the camera; default: that "
                               "of the scene's sky; else to the left of the camera, 40 degrees high"));
     option(command.add_option("--exposure", stops_,
-                              "brightness: +1 doubles it, -1 halves it; at 0, white that lies in the open is white"))
+                              "brightness: +1 doubles it, -1 halves it; at 0, what lies in the open and reflects half "
+                              "of the light is bright"))
         ->check(CLI::Range(-10.0, 10.0));
 }
 

@@ -30,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t pictures_of_a_turn = 72;
+constexpr double sun_with_sky = 40, eye_with_sky = 4;  // degrees: the horizon is low, and behind the plants is the sky
 
 std::atomic<bool> interrupt{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
@@ -255,6 +256,8 @@ private:
         const bool is_turned = app().count("--azimuth") > 0 || app().count("--elevation") > 0;
         job.camera.front_if_flat = !is_turned;
         job.style.sun_azimuth = camera_.azimuth - 50;
+        if (light_.is_on()) job.style.sun_elevation = sun_with_sky;
+        if (light_.is_on() && app().count("--elevation") == 0) job.camera.elevation = eye_with_sky;
         const auto& view = job.run.view();
         if (!view || is_turned || orbit_ != 0 || place_of_camera_.is_ours()) return;
         job.camera = camera_of(*view);

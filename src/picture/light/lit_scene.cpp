@@ -1,5 +1,7 @@
 #include "picture/light/lit_scene.h"
 
+#include "espalier/base/random.h"
+
 #include "picture/light/colour_space.h"
 
 #include <glm/common.hpp>
@@ -55,6 +57,26 @@ glm::vec3 smooth_point(const LitPart& part, const std::array<std::size_t, 3>& at
         return point - over * normal;
     };
     return within(hit, lifted(at[0]), lifted(at[1]), lifted(at[2]));
+}
+
+/// A number from -1 to 1 for each corner of a square grid, and smoothly in between.
+float value_noise(const glm::vec2& place) {
+    const glm::vec2 corner = glm::floor(place), share = glm::smoothstep(0.0F, 1.0F, place - corner);
+    const auto value = [&](float right, float up) {
+        const auto x = static_cast<std::int64_t>(corner.x + right), y = static_cast<std::int64_t>(corner.y + up);
+        const std::uint64_t bits = mix(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
+        return static_cast<float>(bits >> 40) * 0x1p-23F - 1;
+    };
+    return glm::mix(glm::mix(value(0, 0), value(1, 0), share.x), glm::mix(value(0, 1), value(1, 1), share.x), share.y);
+}
+
+/// Open ground is green and dry in patches of many sizes, the largest as wide as what stands on it.
+glm::vec3 patchy(const glm::vec3& colour, const glm::vec2& place) {
+    float sum = 0, scale = 2, weight = 0.5F;
+    for (int octave = 0; octave < 7; ++octave, scale *= 2.3F, weight *= 0.8F)
+        sum += weight * value_noise(scale * place);
+    const float dry = 0.22F * sum;
+    return colour * glm::clamp(glm::vec3(1 + 1.3F * dry, 1 + 0.8F * dry, 1 + dry), 0.4F, 1.6F);
 }
 
 }  // namespace
@@ -121,6 +143,9 @@ std::optional<LitSurface> LitScene::on_ground(const glm::vec3& origin, const glm
     surface.point.y = 0;
     surface.flat = surface.normal = glm::vec3(0, 1, 0);
     surface.reflectance = ground_->reflectance;
+    const glm::vec2 off(surface.point.x - ground_->middle.x, surface.point.z - ground_->middle.z);
+    if (!ground_->is_disc)
+        surface.reflectance = patchy(ground_->reflectance, off / static_cast<float>(ground_->radius));
     surface.opacity = 1;
     surface.distance = distance;
     surface.is_ground = true;

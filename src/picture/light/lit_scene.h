@@ -48,8 +48,8 @@ struct LitGround {
     bool is_disc = false;  ///< it fades away towards the radius; else it goes on to the horizon
 };
 
-/// Dry grass and soil.
-inline constexpr glm::vec3 open_ground{0.22F, 0.19F, 0.12F};
+/// Short grass, dry here and there.
+inline constexpr glm::vec3 open_ground{0.21F, 0.22F, 0.10F};
 
 /// Light that a surface sends back and lets through, as shares of what falls on it.
 struct LitSurface {

@@ -28,12 +28,13 @@ constexpr Perez perez[3][5] = {
 
 /// x, y and Y of the sky where the zenith angle has the cosine `rise`, `apart` radians from the sun, up to a factor.
 glm::dvec3 perez_at(double turbidity, double rise, double apart) {
+    constexpr double least_rise = 0.1;  // nearer to the horizon the model is purple
     glm::dvec3 values;
     for (int k = 0; k < 3; ++k) {
         std::array<double, 5> c;
         for (std::size_t i = 0; i < 5; ++i) c[i] = perez[k][i].per_turbidity * turbidity + perez[k][i].fixed;
         const double cosine = std::cos(apart);
-        values[k] = (1 + c[0] * std::exp(c[1] / std::max(rise, 0.01))) *
+        values[k] = (1 + c[0] * std::exp(c[1] / std::max(rise, least_rise))) *
                     (1 + c[2] * std::exp(c[3] * apart) + c[4] * cosine * cosine);
     }
     return values;

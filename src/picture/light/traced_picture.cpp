@@ -121,15 +121,16 @@ RayCamera::Ray RayCamera::through(const glm::dvec2& place) const {
     return {glm::vec3(view_.position), glm::vec3(glm::normalize(ahead_ + off))};
 }
 
-float white_of(const SkyLight& light) {
-    return luminance_of(light.on_ground()) * std::numbers::inv_pi_v<float>;
+float exposed_for(const SkyLight& light) {
+    constexpr float reflectance = 0.6F;
+    return reflectance * luminance_of(light.on_ground()) * std::numbers::inv_pi_v<float>;
 }
 
 OpacityPicture traced_picture(const PathTracer& tracer, const SkyLight& light, const CameraView& view,
                               const PictureSize& size, const PictureLight& wanted, const TraceProgress& progress) {
     const auto stops = static_cast<float>(std::exp2(wanted.stops));
     const RayCamera camera(view, size);
-    Tracing tracing(tracer, camera, size, wanted, stops / white_of(light));
+    Tracing tracing(tracer, camera, size, wanted, stops / exposed_for(light));
     tracing.trace(progress);
     return tracing.picture();
 }

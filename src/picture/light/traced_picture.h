@@ -37,7 +37,8 @@ using TraceProgress = std::function<void(double share)>;
 OpacityPicture traced_picture(const PathTracer& tracer, const SkyLight& light, const CameraView& view,
                               const PictureSize& size, const PictureLight& wanted, const TraceProgress& progress);
 
-/// The light of a white level surface in the open; a picture shows it as white at 0 stops.
-float white_of(const SkyLight& light);
+/// The light that a picture shows as 1, of which tones above 0.8 are compressed: that of a level surface in the open
+/// that reflects 60 %.
+float exposed_for(const SkyLight& light);
 
 }  // namespace espalier::picture
