@@ -43,6 +43,10 @@ PictureSky::Kind kind_of(const Json& sky) {
     return is_overcast ? PictureSky::Kind::overcast : PictureSky::Kind::clear;
 }
 
+double number_or(const Json& table, const char* key, double otherwise) {
+    return table.contains(key) && table[key].is_number() ? table[key].get<double>() : otherwise;
+}
+
 fs::path folder_of_scene(const Json& run) {
     const fs::path command = run["command"].value("folder", "");
     return (command / run["scene"].value("path", "")).parent_path();
@@ -82,7 +86,7 @@ std::optional<SceneSky> sky_of_scene(const fs::path& run) {
         try {
             const Settings settings = settings_of(sky, folder_of_scene(record));
             auto light = std::make_shared<environment::DaylightSeries>(settings, least_rise);
-            return SceneSky(std::move(light), kind_of(sky), process.value("days", 1.0), record.value("dt", 1.0));
+            return SceneSky(std::move(light), kind_of(sky), number_or(process, "days", 1), number_or(record, "dt", 1));
         } catch (const UserError& error) {
             throw UserError(
                 fmt::format("the sky of '{}' cannot be drawn: {}; --sky clear takes another one", name, error.what()));
