@@ -156,7 +156,10 @@ private:
             expect(neighbour_keys[i]);
             neighbours[i] = word();
         }
-        ControlPoints points{.name = patch.name, .spline = Spline::other, .coordinates = 3};
+        ControlPoints points;
+        points.name = patch.name;
+        points.spline = Spline::other;
+        points.coordinates = 3;
         for (auto& row : patch.points) {
             for (glm::dvec3& point : row) {
                 skip();

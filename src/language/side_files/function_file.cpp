@@ -41,7 +41,9 @@ void take_point(LineReader& lines, ControlPoints& points) {
 }
 
 ControlPoints take_points(LineReader& lines) {
-    ControlPoints points{.spline = geometry::Spline::clamped, .coordinates = 2, .may_repeat = true};
+    ControlPoints points;
+    points.spline = geometry::Spline::clamped;
+    points.may_repeat = true;
     TextCursor line = lines.take_line("points:");
     points.count_at = line.offset();
     const int count = take_integer(line, "points:", least_points, LineReader::most_lines);
