@@ -14,7 +14,7 @@ namespace espalier::geometry {
 namespace {
 
 /// What takes the place of a part of a text.
-struct Replacement {
+struct TextPart {
     std::size_t from, to;
     std::string text;
 };
@@ -49,7 +49,7 @@ std::size_t end_of_line(const std::string& text, std::size_t at) {
 }
 
 /// The whole number at or behind a place, replaced.
-Replacement number_at(const std::string& text, std::size_t at, std::size_t number) {
+TextPart number_at(const std::string& text, std::size_t at, std::size_t number) {
     const std::size_t from = std::min(text.find_first_not_of(" \t", at), text.size());
     return {from, std::min(text.find_first_not_of("+0123456789", from), text.size()), std::to_string(number)};
 }
@@ -76,7 +76,7 @@ public:
         if (after_.size() < before_.size()) remove();
         std::sort(edits_.begin(), edits_.end(), [](const auto& a, const auto& b) { return a.from > b.from; });
         std::string text = text_;
-        for (const Replacement& edit : edits_) text.replace(edit.from, edit.to - edit.from, edit.text);
+        for (const TextPart& edit : edits_) text.replace(edit.from, edit.to - edit.from, edit.text);
         return text;
     }
 
@@ -114,7 +114,7 @@ private:
     const ControlPoints& curve_;
     const std::vector<ControlPoint>&before_, &after_;
     std::size_t head_ = 0, changed_ = 0, tail_ = 0;
-    std::vector<Replacement> edits_;
+    std::vector<TextPart> edits_;
 };
 
 }  // namespace
