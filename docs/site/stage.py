@@ -17,7 +17,8 @@ FIRST = {"README.md": "index.md"}
 
 
 def pages(root):
-    named = [root / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "output/README.md", "studio/README.md")]
+    single = "README.md CONTRIBUTING.md CHANGELOG.md output/README.md packaging/README.md studio/README.md"
+    named = [root / name for name in single.split()]
     return named + sorted((root / "docs").rglob("*.md"))
 
 

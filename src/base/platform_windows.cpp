@@ -12,7 +12,6 @@
 #include <io.h>
 #include <map>
 #include <mutex>
-#include <random>
 #include <sys/stat.h>
 #include <thread>
 #include <utility>
@@ -321,11 +320,14 @@ bool is_locked(const fs::path& file) {
 
 std::error_code make_unique_folder(fs::path& path) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
-    std::random_device chance;
     for (int tries = 0; tries < 100; ++tries) {
         std::wstring name = path.wstring();
-        for (std::size_t i = name.size() - 6; i < name.size(); ++i)
-            name[i] = static_cast<wchar_t>(letters[chance() % letters.size()]);
+        LARGE_INTEGER time{};
+        ::QueryPerformanceCounter(&time);
+        auto number = static_cast<std::uint64_t>(time.QuadPart) * 1000003 + ::GetCurrentProcessId();
+        for (std::size_t i = name.size() - 6; i < name.size(); ++i, number /= letters.size()) {
+            name[i] = static_cast<wchar_t>(letters[number % letters.size()]);
+        }
         if (::CreateDirectoryW(name.c_str(), nullptr)) {
             path = name;
             return {};

@@ -121,8 +121,3 @@ TEST_CASE("The indexes of the manual, of the reference and of models name every 
         CHECK(named.contains(page));
     }
 }
-
-TEST_CASE("CITATION.cff has the version of the program", "[docs]") {
-    const std::vector<std::string> lines = lines_of("CITATION.cff");
-    CHECK(std::find(lines.begin(), lines.end(), "version: " ESPALIER_VERSION) != lines.end());
-}

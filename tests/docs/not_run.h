@@ -24,6 +24,8 @@ inline const std::vector<NotRun>& not_run() {
         {"docs/installing.md", "./dev packages", "builds everything once more", ""},
         {"docs/installing.md", "sudo apt install ./build/packages/*.deb",
          "./dev packages --check installs them into a Debian of its own", ""},
+        {"packaging/README.md", "python3 -m venv --system-site-packages venv", "belongs to the next command", ""},
+        {"packaging/README.md", "venv/bin/pip install --no-build-isolation .", "builds everything once more", ""},
         {"docs/studio.md", "espalier studio", "serves until the user ends it; ./dev page --check uses it", ""},
         {"docs/studio.md", "espalier studio models/trees/honda.l",
          "serves until the user ends it; ./dev page --check uses it", ""},

@@ -47,7 +47,8 @@ inline std::vector<fs::path> all_pages() {
         if (entry.path().extension() == ".md") found.push_back(fs::relative(entry.path(), root));
     }
     std::sort(found.begin(), found.end());
-    for (const char* page : {"output/README.md", "CONTRIBUTING.md", "README.md"}) found.insert(found.begin(), page);
+    for (const char* page : {"output/README.md", "packaging/README.md", "CONTRIBUTING.md", "README.md"})
+        found.insert(found.begin(), page);
     return found;
 }
 

@@ -15,7 +15,7 @@ const std::map<std::string, std::vector<std::string>> rooms{
     {"packets", {}},
     {"growth", {"protocol", "document", "packets"}},
     {"session", {"protocol", "document", "packets", "growth"}},
-    {"server", {"protocol", "session"}},
+    {"server", {"protocol", "growth", "session"}},
 };
 
 /// "growth" of "studio/growth/spool.h"; "" of what lies elsewhere.

@@ -19,7 +19,7 @@ constexpr float furthest = 1e30F;
 
 /// Values of corners between them.
 template <class Value>
-Value within(const RayScene::Hit& hit, const Value& a, const Value& b, const Value& c) {
+Value within(const geometry::RayScene::Hit& hit, const Value& a, const Value& b, const Value& c) {
     return (1 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
 }
 
@@ -49,7 +49,7 @@ glm::vec3 bent(const LitPart& part, const std::array<std::size_t, 3>& at, const 
 
 /// Where smooth surfaces would be: flat triangles would shade each other's edges. Hanika 2021, Hacking the shadow
 /// terminator.
-glm::vec3 smooth_point(const LitPart& part, const std::array<std::size_t, 3>& at, const RayScene::Hit& hit,
+glm::vec3 smooth_point(const LitPart& part, const std::array<std::size_t, 3>& at, const geometry::RayScene::Hit& hit,
                        const glm::vec3& point, float side) {
     const auto lifted = [&](std::size_t corner) {
         const glm::vec3 normal = side * part.normals[corner];
@@ -115,7 +115,7 @@ ThinOptics thin_optics(const glm::vec3& colour) {
 LitScene::LitScene(std::vector<LitPart> parts, const std::optional<LitGround>& ground)
     : parts_(std::move(parts)), ground_(ground) {
     std::vector<std::vector<glm::vec3>> corners;
-    std::vector<RayScene::Part> rays;
+    std::vector<geometry::RayScene::Part> rays;
     for (const LitPart& part : parts_) {
         std::vector<glm::vec3>& of_part = corners.emplace_back();
         for (const std::int32_t corner : part.corners) {
@@ -152,7 +152,7 @@ std::optional<LitSurface> LitScene::on_ground(const glm::vec3& origin, const glm
     return surface;
 }
 
-LitSurface LitScene::surface(const RayScene::Hit& hit, const glm::vec3& direction) const {
+LitSurface LitScene::surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const {
     const LitPart& part = parts_[hit.part];
     const std::array<std::size_t, 3> at = corners_of(part, hit.triangle);
     const auto [a, b, c] = at;

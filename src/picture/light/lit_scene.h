@@ -77,12 +77,12 @@ public:
     const std::optional<LitGround>& ground() const { return ground_; }
 
 private:
-    LitSurface surface(const RayScene::Hit& hit, const glm::vec3& direction) const;
+    LitSurface surface(const geometry::RayScene::Hit& hit, const glm::vec3& direction) const;
     std::optional<LitSurface> on_ground(const glm::vec3& origin, const glm::vec3& direction, float from) const;
 
     std::vector<LitPart> parts_;
     std::optional<LitGround> ground_;
-    RayScene rays_;
+    geometry::RayScene rays_;
     bool is_opaque_ = true;
     float size_ = 1;
 };
