@@ -243,6 +243,9 @@ entry environments/intercrop.toml "Maize and lupine in one soil" "Willey 1979; d
 entry environments/intercrop-maize.toml "Two maize plants" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/intercrop-lupine.toml "Two lupines" "Willey 1979; de Wit 1958" -- --field water:slice --no-legend
 entry environments/hydrotropism.toml "A root turns to water" "Jaffe, Takahashi & Biro 1985" -- --field water:slice --no-legend --azimuth 0 --elevation 5
+entry environments/plough-pan.toml "Roots above a plough pan" "Bengough et al. 2011" -- --elevation 3
+entry environments/dry-spell.toml "Roots after a dry spell" "Stasovski & Peterson 1991" -- --elevation 3
+entry environments/tree-roots.toml "Roots of a tree" "Köstler, Brückner & Bibelriether 1968" -- --elevation 30
 entry environments/split-pot.toml "Split roots" "Couvreur et al. 2012" -- --field roots:slice --no-legend --azimuth 0 --elevation 5
 entry environments/nitrate-in-rain.toml "Nitrate that rain washes down" "van Leer 1974; Barber 1995" --steps 24 -- --field nitrate:slice --no-legend
 entry environments/barley-layers.toml "Barley in layers of nitrate" "Drew 1975"
@@ -252,6 +255,9 @@ entry models/roots/maize.l "Maize roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/wheat.l "Wheat roots" "Pagès, Jordan & Picard 1989"
 entry models/roots/lupine.l "Lupine roots" "Pagès, Jordan & Picard 1989"
 grown_by environments/hydrotropism.toml models/roots/hydrotropic.l "Root that turns to water" "Jaffe, Takahashi & Biro 1985"
+grown_by environments/plough-pan.toml models/roots/impeded.l "Roots in strong and cold soil" "Bengough et al. 2011"
+grown_by environments/dry-spell.toml models/roots/mortal.l "Roots that die in dry soil" "Stasovski & Peterson 1991"
+grown_by environments/tree-roots.toml models/roots/tree.l "Roots of a tree" "Köstler, Brückner & Bibelriether 1968"
 grown_by environments/split-pot.toml models/roots/split.l "Roots in two halves" "Pagès, Jordan & Picard 1989"
 grown_by environments/barley-layers.toml models/roots/barley.l "Barley root" "Drew 1975; Pagès et al. 1989"
 entry environments/root-2d.toml "Root that follows wet soil" "Mech & Prusinkiewicz 1996" -- --field water:slice --no-legend --azimuth 0 --elevation 0

@@ -34,6 +34,14 @@ grow hydraulic-lift environments/hydraulic-lift.toml
 for scene in drought-deep drought-shallow intercrop intercrop-maize intercrop-lupine split-pot; do
     grow "$scene" "environments/$scene.toml"
 done
+grow plough-pan environments/plough-pan.toml
+grow plough-pan-loose environments/plough-pan.toml --set environment.strength.file=soils/loose.csv
+grow plough-pan-summer environments/plough-pan.toml --set environment.temperature.file=soils/summer.csv
+for soil in plough-pan plough-pan-loose plough-pan-summer; do
+    render "$soil.png" "$soil" --size 260x360 --no-legend --scale-bar --elevation 3
+done
+grow dry-spell environments/dry-spell.toml
+grow dry-spell-wet environments/dry-spell.toml --set environment.head.file=soils/wet.csv
 grow hydrotropism environments/hydrotropism.toml
 grow split-wet environments/split-pot.toml --set environment.water.regions.0.initial.head=-100
 grow split-feddes environments/split-pot.toml --set 'environment.roots.model="feddes"'
@@ -207,6 +215,7 @@ with_palette view.png
     --output "$pictures/intercrop-plot.png"
 "$espalier" plot "$work/drought-deep" "$work/drought-shallow" --quantity roots.transpiration,roots.depth \
     --output "$pictures/drought-plot.png"
+"$espalier" plot "$work/dry-spell" "$work/dry-spell-wet" --quantity length,internodes --output "$pictures/dry-spell-plot.png"
 "$espalier" plot "$work/split-pot" "$work/split-wet" "$work/split-feddes" --quantity roots.transpiration,roots.collar \
     --output "$pictures/split-plot.png"
 "$espalier" plot "$work/two-trees" "$work/lone-tree" --per total --quantity organs,light.mean --dark \

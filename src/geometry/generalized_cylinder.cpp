@@ -236,7 +236,7 @@ private:
     void end_piece(std::uint32_t first, std::size_t point) {
         const CylinderPoint& owner = cylinder_.points[std::min(point, cylinder_.points.size() - 1)];
         mesh_.pieces.push_back({owner.module, first, std::uint32_t(mesh_.triangles.size()) - first, owner.order,
-                                owner.colour, owner.look, MeshPiece::Kind::cylinder});
+                                owner.colour, owner.look, MeshPiece::Kind::cylinder, !whole_});
     }
 
     const GeneralizedCylinder& cylinder_;

@@ -1,4 +1,4 @@
-// Geometry stages change what is recorded of a plant, and nothing else.
+// Geometry stages change what is recorded of a plant and what light falls on, and nothing else.
 #include "espalier/simulation/simulation.h"
 
 #include "catch.h"
@@ -88,7 +88,7 @@ std::map<std::string, std::string> files_of(const std::filesystem::path& folder)
 
 }  // namespace
 
-TEST_CASE_METHOD(Staged, "recorders see the stages' geometry, the environment and World do not", "[simulation]") {
+TEST_CASE_METHOD(Staged, "recorders see the stages' geometry, the turtle's queries and World do not", "[simulation]") {
     World plain(scene("")), staged(scene(stages));
     plain.start();
     staged.start();
@@ -109,6 +109,38 @@ TEST_CASE_METHOD(Staged, "recorders see the stages' geometry, the environment an
     CHECK(seen.internodes[0].base == drawn.internodes[0].base);
     CHECK(glm::distance(seen.internodes[2].tip, drawn.internodes[0].base) == Approx(1.5));
     CHECK(seen.organs.size() > drawn.organs.size());
+}
+
+TEST_CASE("light falls on what stages draw, and answers the modules that bear it", "[simulation][canopy-light]") {
+    TemporaryFolder folder;
+    folder.write("bare.l",
+                 "environment light;\nlsystem: 1\nderivation length: 1\n"
+                 "axiom: @v?light(0,0)F(1)?light(0,0)F(1)\nendlsystem\n");
+    const auto absorbed = [&](const std::string& process, const std::string& lines) {
+        World world(read_scene_text("[[plant]]\nmodel = 'bare.l'\nturtle.line_width = 0\n" + lines +
+                                        "[environment.light]\nprocess = '" + process +
+                                        "'\nbands.par = { leaf = [0, 0], stem = 0, soil = 0 }\n"
+                                        "sky = { par = 1000, diffuse = 1 }\n",
+                                    "scene.toml", folder.path()));
+        world.start();
+        std::map<std::string, double> found;
+        for (const Quantity& quantity : world.environment().statistics(0)) found[quantity.name] = quantity.value;
+        const auto& answers = world.string(0).parameters;
+        found["answers"] = answers[1] + answers[4];
+        return found;
+    };
+    for (const std::string process : {"ray-light", "canopy-light"}) {
+        CHECK(absorbed(process, "").at("light.leaf_area") == 0);
+        auto leafy = absorbed(process, "[[plant.stage]]\nstage = 'leaves'\nper_node = 20\nsize = 0.1\nspread = 0\n");
+        CHECK(leafy["light.leaf_area"] == Approx(2 * 20 * 2 * 0.1 * 0.1));
+        CHECK(leafy["light.absorbed"] > 0.1 * 0.8 * 86.4);
+        CHECK(leafy["answers"] == Approx(leafy["light.absorbed"]));
+        auto fruits =
+            absorbed(process, "[[plant.stage]]\nstage = 'leaves'\nkind = 'sphere'\nper_node = 20\nsize = 0.1\n");
+        CHECK(fruits["light.leaf_area"] == 0);
+        CHECK(fruits["answers"] == Approx(fruits["light.absorbed"]));
+        CHECK(fruits["light.absorbed"] > 0.1 * 86.4 * 40 * 0.0314);
+    }
 }
 
 TEST_CASE_METHOD(Staged, "plants with stages go on bit for bit where they were saved", "[simulation]") {

@@ -24,6 +24,11 @@ struct PlantView {
     const ModuleString* string = nullptr;
     const Interpretation* interpretation = nullptr;
     bool asks = true;  ///< false: there are no queries, not even to the turtle
+    /// As geometry stages leave the plant and recorders show it; null: as the turtle does.
+    const PlantGeometry* staged = nullptr;
+
+    /// What light falls on. Queries come from where the turtle was.
+    const PlantGeometry& drawn() const { return staged ? *staged : interpretation->geometry; }
 };
 
 /// The world at one step. `dt` is the time a derivation step stands for, in the scene's unit.

@@ -82,6 +82,7 @@ struct MeshPiece {
     std::uint16_t colour;
     Look look;
     Kind kind;
+    bool is_open = false;  ///< a cylinder with an open contour: something flat, with two sides
 };
 
 /// Triangles in the world's coordinates, their normals outward; pieces of one cylinder share vertices.

@@ -1,4 +1,4 @@
-// A geometry stage changes what is drawn of a plant, not what grows. One file in src/turtle/stages/ per stage.
+// A geometry stage changes what is drawn of a plant, not its string. One file in src/turtle/stages/ per stage.
 #pragma once
 
 #include "espalier/base/random.h"
@@ -14,7 +14,7 @@
 
 namespace espalier::turtle {
 
-/// A plant on its way from the turtle to the recorders. The environment saw the geometry as the turtle left it.
+/// A plant on its way from the turtle to the light that falls on it and to the recorders. Queries are the turtle's own.
 struct StagedPlant {
     PlantGeometry& geometry;     ///< a copy, to be changed
     const ModuleString& string;  ///< the string that was interpreted: internodes name its modules

@@ -16,6 +16,11 @@ namespace {
 
 constexpr std::uint16_t leaf_material = 0;
 
+/// Of a closed thing, half is turned away from any light.
+double seen_share(LitKind kind) {
+    return kind == LitKind::leaf ? 1 : 0.5;
+}
+
 }  // namespace
 
 void CanopyLeaves::clear() {
@@ -41,20 +46,13 @@ void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, doubl
                        bool with_stems) {
     drawn_.clear();
     drawn_.add_leaves(plant, geometry);
+    drawn_.add_bodies(plant, geometry);
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
         const DrawnFace face = drawn_[i];
-        const std::uint16_t material = optics.require_material(LitKind::leaf, face.owner.colour, plant);
-        const Owner owner{plant, face.owner.module, material, LitKind::leaf};
-        const glm::dvec3 middle = face.middle();
-        const bool is_small = std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
-            return glm::distance(corner, middle) <= longest / 2;
-        });
-        if (is_small) {
-            add(owner, middle, face.area());
-            continue;
-        }
-        face.for_triangles(
-            [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { cut(owner, a, b, c, longest); });
+        const LitKind kind = lit_kind(face.owner.of);
+        if (kind == LitKind::stem && !with_stems) continue;
+        const std::uint16_t material = optics.require_material(kind, face.owner.colour, plant);
+        add(face, {plant, face.owner.module, material, kind}, longest);
     }
     if (!with_stems) return;
     for (const Internode& internode : geometry.internodes) {
@@ -63,12 +61,22 @@ void CanopyLeaves::add(std::uint32_t plant, const PlantGeometry& geometry, doubl
     }
 }
 
+void CanopyLeaves::add(const DrawnFace& face, const Owner& owner, double longest) {
+    const glm::dvec3 middle = face.middle();
+    const bool is_small = std::all_of(face.corners.begin(), face.corners.end(), [&](const glm::dvec3& corner) {
+        return glm::distance(corner, middle) <= longest / 2;
+    });
+    if (is_small) return add(owner, middle, seen_share(owner.kind) * face.area());
+    face.for_triangles(
+        [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { cut(owner, a, b, c, longest); });
+}
+
 // Halves the longest side until all are short.
 void CanopyLeaves::cut(const Owner& owner, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                        double longest) {
     const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
     if (std::max({ab, bc, ca}) <= longest) {
-        add(owner, (a + b + c) / 3.0, 0.5 * glm::cross(b - a, c - a));
+        add(owner, (a + b + c) / 3.0, seen_share(owner.kind) * 0.5 * glm::cross(b - a, c - a));
     } else if (ab >= bc && ab >= ca) {
         const glm::dvec3 middle = 0.5 * (a + b);
         cut(owner, a, middle, c, longest);

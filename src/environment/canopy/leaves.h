@@ -18,7 +18,8 @@
 
 namespace espalier::environment {
 
-/// A part of a leaf or stem that lies in one voxel. A stem's two sides are opposite parts of its surface.
+/// A part of a leaf, stem or body that lies in one voxel. Light also meets the backs of closed things, so these are
+/// there for the half of the surface that is turned to it, and pieces have half of their area.
 struct LeafPiece {
     std::uint32_t plant, module;
     glm::dvec3 middle;
@@ -54,8 +55,8 @@ std::vector<float> per_volume(const CanopyVoxels& voxels, const SortedPieces& so
 class CanopyLeaves {
 public:
     void clear();
-    /// Everything flat that the plant has drawn, and its stems if asked for, cut into pieces no longer than `longest`,
-    /// metres. Throws RunError for leaves whose colour no material names.
+    /// Everything flat that the plant has drawn, its spheres, and its stems if asked for, cut into pieces no longer
+    /// than `longest`, metres. Throws RunError for leaves whose colour no material names.
     void add(std::uint32_t plant, const PlantGeometry& geometry, double longest, const Optics& optics, bool with_stems);
     /// Area (m2) at a place, without a direction of its own.
     void add(std::uint32_t plant, std::uint32_t module, const glm::dvec3& place, double area);
@@ -76,6 +77,7 @@ private:
         LitKind kind;
     };
 
+    void add(const DrawnFace& face, const Owner& owner, double longest);
     void cut(const Owner& owner, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double longest);
     void add_stem(const Owner& owner, const Internode& internode, double longest);
     void add(const Owner& owner, const glm::dvec3& middle, const glm::dvec3& area);

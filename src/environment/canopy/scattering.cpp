@@ -136,7 +136,8 @@ CanopyScattering::Emission CanopyScattering::scattered(const CanopyFlux& flux, s
     emission.front.resize(pieces_.size());
     emission.back.resize(pieces_.size());
     for_each_if_worth(pieces_.size(), pieces_.size(), [&](std::size_t i) {
-        const auto& [front, back] = optics_.of(pieces_.pieces[i].material, band);
+        const LeafPiece& piece = pieces_.pieces[i];
+        const auto [front, back] = optics_.of(piece.kind, piece.material, band);
         emission.front[i] = front.reflectance * flux.front[i] + back.transmittance * flux.back[i];
         emission.back[i] = back.reflectance * flux.back[i] + front.transmittance * flux.front[i];
     });

@@ -103,7 +103,7 @@ std::optional<std::uint16_t> Optics::material_of(LitKind kind, std::uint16_t col
     for (const auto& [known, material] : by_colour_) {
         if (known == colour) return material;
     }
-    if (kind == LitKind::stem) return stem;
+    if (kind != LitKind::leaf) return stem;
     return lists_materials_ ? others_ : std::optional(leaf);
 }
 
@@ -113,6 +113,13 @@ std::uint16_t Optics::require_material(LitKind kind, std::uint16_t colour, std::
         fmt::format("plant {} draws a leaf in colour {}, which no material names: add it to the 'colours' of one, "
                     "or leave 'colours' out of the material of all others",
                     plant, colour));
+}
+
+TwoSides Optics::of(LitKind kind, std::uint16_t material, std::size_t band) const {
+    const TwoSides& sides = materials_[material][band];
+    if (kind == LitKind::leaf) return sides;
+    const SideOptics outside{sides.front.reflectance, 0};
+    return {outside, outside};
 }
 
 double Optics::soil(const glm::dvec3& place, std::size_t band) const {
@@ -135,7 +142,7 @@ const std::string& optics_help() {
         R"(  leaf        [reflectance, transmittance]; par [0.1, 0.1], nir [0.4, 0.4] (Goudriaan 1977)
   leaf_back   the same for light that falls on the back; default: as the front. The front of a leaf is the side that
               its corners run round counter-clockwise
-  stem        reflectance of stems; par 0.16, nir 0.39 (trees; Oleson et al. 2010, table 3.1)
+  stem        reflectance of stems and spheres; par 0.16, nir 0.39 (trees; Oleson et al. 2010, table 3.1)
   soil        reflectance of the soil; par 0.1, nir 0.2 (the same, table 3.3: class 14, wet)
   soil_bright where soil_map is white; default: as soil
   solid       0: reflectance of solids

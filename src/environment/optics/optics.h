@@ -5,6 +5,7 @@
 
 #include "environment/optics/soil_map.h"
 #include "environment/sky/bands.h"
+#include "geometry/drawn/faces.h"
 
 #include <array>
 #include <cstdint>
@@ -16,7 +17,12 @@ namespace espalier::environment {
 
 constexpr std::size_t most_bands = 8;
 
-enum class LitKind : std::uint8_t { leaf, stem, solid };
+/// A body is closed, as a fruit: like stems, it has the optical numbers of stems and lets nothing through.
+enum class LitKind : std::uint8_t { leaf, stem, body, solid };
+
+constexpr LitKind lit_kind(FaceOf of) {
+    return of == FaceOf::leaf ? LitKind::leaf : of == FaceOf::stem ? LitKind::stem : LitKind::body;
+}
 
 /// Shares of the light that falls on a side; Lambert's law says where they go. What is left is absorbed.
 struct SideOptics {
@@ -36,13 +42,14 @@ public:
     explicit Optics(const Settings& settings);
 
     const std::vector<LightBand>& bands() const { return bands_; }
-    /// Of leaves or stems drawn in a colour; none if the scene's materials leave it out.
+    /// Of leaves, stems or bodies drawn in a colour; none if the scene's materials leave it out.
     std::optional<std::uint16_t> material_of(LitKind kind, std::uint16_t colour) const;
     /// The same, or a RunError that names the plant's number.
     std::uint16_t require_material(LitKind kind, std::uint16_t colour, std::uint32_t plant) const;
     /// "leaf", "stem", or what the scene calls it.
     const std::string& material_name(std::uint16_t material) const { return names_[material]; }
-    const TwoSides& of(std::uint16_t material, std::size_t band) const { return materials_[material][band]; }
+    /// What is closed has one side, and lets no light through.
+    TwoSides of(LitKind kind, std::uint16_t material, std::size_t band) const;
     /// Soil at a place, and solids.
     double soil(const glm::dvec3& place, std::size_t band) const;
     double solid(std::size_t band) const { return solids_[band]; }

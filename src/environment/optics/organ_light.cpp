@@ -41,12 +41,14 @@ void OrganLight::begin(const WorldView& world, const Daylight& light) {
     meetings_.assign(slots() * bands(), {});
     views_.assign(slots(), {});
     areas_.assign(slots(), 0);
+    body_areas_.assign(slots(), 0);
 }
 
 OrganLight::Answered OrganLight::answered_by(const Query& query, std::size_t offset, std::size_t band) const {
     if (query.plant >= plants_ || query.module + offset >= starts_[query.plant + 1] - starts_[query.plant]) return {};
     const std::size_t slot = starts_[query.plant] + query.module + offset;
-    const double area = areas_[slot], absorbed = meetings_[slot * bands() + band].absorbed;
+    const double area = area_of(slot);
+    const double absorbed = meetings_[slot * bands() + band].absorbed;
     const double per_area = area > 0 ? absorbed / area : 0;
     const double in_time = light_.seconds > 0 ? 1e6 * amount(per_area, band) / light_.seconds : 0;
     return {area, light_.on_ground > 0 ? per_area / light_.on_ground : 0, amount(absorbed, band), in_time};
@@ -102,7 +104,7 @@ double OrganLight::value(const std::string& what, std::size_t slot, std::size_t 
     if (what == "back") return amount(meeting.back, band);
     if (what == "reflected") return amount(meeting.front + meeting.back - meeting.absorbed, band);
     if (what == "error") return amount(meeting.error, band);
-    const double area = areas_[slot];
+    const double area = area_of(slot);
     return area > 0 && light_.seconds > 0 ? 1e6 * amount(meeting.absorbed, band) / area / light_.seconds : no_value;
 }
 

@@ -40,6 +40,8 @@ public:
     Meeting& meeting(std::size_t slot, std::size_t band) { return meetings_[slot * bands() + band]; }
     View& view(std::size_t slot) { return views_[slot]; }
     double& leaf_area(std::size_t slot) { return areas_[slot]; }
+    /// Half the surface of bodies: the light meets half of this on average, as of leaves.
+    double& body_area(std::size_t slot) { return body_areas_[slot]; }
 
     /// Writes f, m, e of each band; `open_share(band)` is f where the module behind the query draws nothing.
     template <class OpenShare>
@@ -70,6 +72,7 @@ private:
         double area, share, amount, rate;
     };
     Answered answered_by(const Query& query, std::size_t offset, std::size_t band) const;
+    double area_of(std::size_t slot) const { return areas_[slot] > 0 ? areas_[slot] : body_areas_[slot]; }
     double value(const std::string& what, std::size_t slot, std::size_t band) const;
 
     std::vector<LightBand> bands_;
@@ -79,7 +82,7 @@ private:
 
     Daylight light_;
     std::vector<std::size_t> starts_;
-    std::vector<double> factors_, areas_;
+    std::vector<double> factors_, areas_, body_areas_;
     std::vector<Meeting> meetings_;
     std::vector<View> views_;
 };

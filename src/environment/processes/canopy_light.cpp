@@ -133,7 +133,7 @@ private:
         leaves_.clear();
         if (!asks_area_) {
             for (const PlantView& plant : world.plants) {
-                leaves_.add(plant.plant, plant.interpretation->geometry, edge_, optics_, stems_);
+                leaves_.add(plant.plant, plant.drawn(), edge_, optics_, stems_);
             }
             return;
         }
@@ -217,13 +217,15 @@ private:
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             if (pieces[i].plant >= plants_) continue;
             const std::size_t slot = organs_.start(pieces[i].plant) + pieces[i].module;
-            const auto& [front, back] = optics_.of(pieces[i].material, band);
+            const auto [front, back] = optics_.of(pieces[i].kind, pieces[i].material, band);
             OrganLight::Meeting& meeting = organs_.meeting(slot, band);
             meeting.front += flux.front[i];
             meeting.back += flux.back[i];
             meeting.absorbed += flux.front[i] * (1 - front.reflectance - front.transmittance) +
                                 flux.back[i] * (1 - back.reflectance - back.transmittance);
-            if (band == 0 && pieces[i].kind == LitKind::leaf) organs_.leaf_area(slot) += area_of(pieces[i]);
+            if (band > 0) continue;
+            if (pieces[i].kind == LitKind::leaf) organs_.leaf_area(slot) += area_of(pieces[i]);
+            if (pieces[i].kind == LitKind::body) organs_.body_area(slot) += area_of(pieces[i]);
         }
     }
 
@@ -247,7 +249,7 @@ private:
     /// What a small leaf of the distribution would absorb there, over the light on open level ground.
     double open_share(const Query& query, std::size_t band) const {
         if (!(light_.on_ground > 0)) return 0;
-        const SideOptics& leaf = optics_.of(0, band).front;
+        const SideOptics& leaf = optics_.of(LitKind::leaf, 0, band).front;
         const double met = bands_[band].flux.isotropic[voxels_.number_of(query.pose.position)];
         return met * (1 - leaf.reflectance - leaf.transmittance) / light_.on_ground;
     }
@@ -290,13 +292,14 @@ private:
 const std::string& canopy_light_help() {
     static const std::string text =
         std::string(
-            R"(Leaves and stems fill voxels evenly and at random. Light of each direction passes the voxels along its exact path, and
+            R"(Leaves, stems and spheres fill voxels evenly and at random. Light of each direction passes the voxels along its exact path, and
 exp(-projected area per area across the path) of it is left (Beer's law); the leaves of a voxel share what it loses by
 the area that each turns to the light. What they and the soil do not absorb is scattered as Lambert's law says, and
 goes on in `scattering` directions, generation by generation. docs/light.md says when that is right.
 
 ?name(f)        -> f: light that the leaves of the module that follows in the string absorb per area, over what falls
-                   on open level ground. If it draws no leaf, what a small leaf of `leaf_angles` in its place would
+                   on open level ground. If it draws no leaf but a sphere, light of this per half of its surface; if
+                   neither, what a small leaf of `leaf_angles` in its place would
 ?name(f, m)     -> m: mol of photons that leaves and stems of this module absorb in the step
 ?name(f, m, e)  -> e: umol m-2 s-1 that the leaves absorb while there is light
 ?name(a, ...)      with area = "queries": a is the leaf area (m2) of the query itself, and f, m, e come after it
@@ -305,8 +308,9 @@ Three more parameters for each further band tell the same of it. Other parameter
 voxel         0.2 m; edge of a voxel
 beams         2: beams from each voxel's width of the top
 days          1: days that a unit of time stands for
-area          "drawn": leaves are the polygons, patches, surfaces and discs that plants have drawn; or "queries"
-stems         true: internodes take light too
+area          "drawn": leaves are the polygons, patches, surfaces, discs and open cylinders that plants have drawn; or
+              "queries"
+stems         true: internodes and closed generalized cylinders take light too
 leaf_angles   "spherical": how leaves that are not drawn are inclined; or "planophile", "erectophile", "plagiophile",
               "extremophile", "uniform" (de Wit 1965), "horizontal", "vertical"
 leaf_ratio    ellipsoidal angles instead: horizontal over vertical axis of the spheroid (Campbell 1986)

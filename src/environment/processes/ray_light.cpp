@@ -178,7 +178,7 @@ private:
         }
         static const PlantGeometry nothing;
         for (std::uint32_t plant = 0; plant < plants_; ++plant) {
-            const PlantGeometry& geometry = views[plant] ? views[plant]->interpretation->geometry : nothing;
+            const PlantGeometry& geometry = views[plant] ? views[plant]->drawn() : nothing;
             triangles_.add(geometry, static_cast<std::uint32_t>(organs_.start(plant)), plant, optics_);
         }
         for (const auto& solid : solids_) triangles_.add(*solid, solid_voxel_);
@@ -195,6 +195,7 @@ private:
         for (std::size_t slot = 0; slot < organs_.slots(); ++slot) {
             organs_.view(slot) = {};
             organs_.leaf_area(slot) = 0;
+            organs_.body_area(slot) = 0;
             for (std::size_t b = 0; b < bands(); ++b) organs_.meeting(slot, b) = {};
         }
         by_plant_.assign(plants_ * bands() * trials, 0);
@@ -288,8 +289,9 @@ private:
         }
         triangles_.visit_areas([&](const LitTriangles::Owner& owner, const glm::dvec3& area) {
             if (owner.kind == LitKind::solid) return;
+            const double seen = owner.kind == LitKind::leaf ? 1 : 0.5;  // of a closed thing, the other half is behind
             if (owner.kind == LitKind::leaf) organs_.leaf_area(owner.slot) += glm::length(area);
-            const double seen = owner.kind == LitKind::leaf ? 1 : 0.5;  // of a stem, the other half is behind
+            if (owner.kind == LitKind::body) organs_.body_area(owner.slot) += seen * glm::length(area);
             for (const LightBeam& beam : light_.beams) {
                 if (!beam.is_sun) continue;
                 organs_.view(owner.slot).open_sun += seen * beam.photons * std::abs(glm::dot(area, beam.towards));
@@ -319,7 +321,7 @@ private:
     }
 
     double open_share(const glm::dvec3& place, std::size_t band) const {
-        const SideOptics& leaf = optics_.of(0, band).front;
+        const SideOptics& leaf = optics_.of(LitKind::leaf, 0, band).front;
         const double absorbed = 1 - leaf.reflectance - leaf.transmittance;
         return light_.on_ground > 0 ? absorbed * paths_.open_light(place) / light_.on_ground : 0;
     }
@@ -371,12 +373,13 @@ private:
 const std::string& ray_light_help() {
     static const std::string text =
         std::string(
-            R"(Paths of light begin at sun, sky and lamps, and end at the leaves, stems, solids and the soil that absorb them, as the
-plants of the step are drawn. What is not absorbed is scattered as Lambert's law says, by leaves to both sides.
+            R"(Paths of light begin at sun, sky and lamps, and end at the leaves, stems, spheres, solids and the soil that absorb them, as
+the plants of the step are drawn. What is not absorbed is scattered as Lambert's law says, by leaves to both sides.
 
 ?name(f)        -> f: light that the leaves of the module that follows in the string absorb per area, over what falls
-                   on open level ground. If it draws no leaf, what a small leaf of any direction in its place would
-                   absorb of sun and sky, scattered light apart
+                   on open level ground. If it draws no leaf but a sphere, light of this per half of its surface; if
+                   neither, what a small leaf of any direction in its place would absorb of sun and sky, scattered
+                   light apart
 ?name(f, m)     -> m: mol of photons that leaves and stems of this module absorb in the step
 ?name(f, m, e)  -> e: umol m-2 s-1 that the leaves absorb while there is light
 Three more parameters for each further band tell the same of it.

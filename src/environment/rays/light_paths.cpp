@@ -227,9 +227,7 @@ void LightPaths::enter_opposite(Path& path) const {
 
 SideOptics LightPaths::optics_of(const LitTriangles::Owner& owner, bool on_back, std::size_t band) const {
     if (owner.kind == LitKind::solid) return {optics_.solid(band), 0};
-    SideOptics optics = optics_.of(owner.material, band)[on_back];
-    if (owner.kind == LitKind::stem) optics.transmittance = 0;
-    return optics;
+    return optics_.of(owner.kind, owner.material, band)[on_back];
 }
 
 void LightPaths::note_meeting(const Path& path, const LitTriangles::Owner& owner, bool on_back) {

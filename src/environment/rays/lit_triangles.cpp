@@ -21,9 +21,10 @@ void LitTriangles::add(const PlantGeometry& geometry, std::uint32_t first_slot, 
     faces_.clear();
     faces_.add_leaves(plant, geometry);
     faces_.add_stems(plant, geometry);
+    faces_.add_bodies(plant, geometry);
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const DrawnFace face = faces_[i];
-        const LitKind kind = face.owner.is_stem() ? LitKind::stem : LitKind::leaf;
+        const LitKind kind = lit_kind(face.owner.of);
         const Owner owner{first_slot + face.owner.module, optics.require_material(kind, face.owner.colour, plant),
                           kind};
         face.for_triangles([&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { add(a, b, c, owner); });

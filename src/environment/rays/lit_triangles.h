@@ -27,8 +27,8 @@ public:
 
     /// Forgets all triangles.
     void clear();
-    /// Leaves and stems as `DrawnFaces` has them, a part of their own. `first_slot` is that of the plant's first
-    /// module. Throws RunError for leaves without a material.
+    /// Leaves, stems and bodies as `DrawnFaces` has them, a part of their own. `first_slot` is that of the plant's
+    /// first module. Throws RunError for leaves without a material.
     void add(const PlantGeometry& geometry, std::uint32_t first_slot, std::uint32_t plant, const Optics& optics);
     /// The surface of a solid with bounds, from voxels of that length; a part of its own.
     void add(const Shape& solid, double voxel);

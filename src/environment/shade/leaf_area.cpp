@@ -21,7 +21,7 @@ void LeafArea::collect(std::span<const PlantView> plants) {
     DrawnFaces leaves;
     for (const PlantView& plant : plants) {
         leaves.clear();
-        leaves.add_leaves(plant.plant, plant.interpretation->geometry);
+        leaves.add_leaves(plant.plant, plant.drawn());
         for (std::size_t i = 0; i < leaves.size(); ++i) add(leaves[i].middle(), glm::length(leaves[i].area()));
     }
 }

@@ -14,8 +14,18 @@
 namespace espalier::geometry {
 namespace {
 
-FaceOwner owner_of(std::uint32_t plant, const Organ& organ) {
-    return {plant, organ.module, Kind::organ, organ.colour, organ.look.back_colour, organ.look.texture};
+FaceOwner owner_of(std::uint32_t plant, const Organ& organ, FaceOf of = FaceOf::leaf) {
+    return {plant, organ.module, Kind::organ, organ.colour, organ.look.back_colour, organ.look.texture, of};
+}
+
+bool is_closed(const MeshPiece& piece) {
+    return piece.kind == MeshPiece::Kind::cylinder && !piece.is_open;
+}
+
+FaceOwner owner_of(std::uint32_t plant, const MeshPiece& piece) {
+    const Kind kind = piece.kind == MeshPiece::Kind::cylinder ? Kind::cylinder : Kind::patch;
+    const FaceOf of = is_closed(piece) ? FaceOf::stem : FaceOf::leaf;
+    return {plant, piece.module, kind, piece.colour, piece.look.back_colour, piece.look.texture, of};
 }
 
 // A square of its area.
@@ -61,19 +71,16 @@ void DrawnFaces::add_leaves(std::uint32_t plant, const PlantGeometry& geometry, 
         add({plant, polygon.module, Kind::polygon, polygon.colour, look.back_colour, look.texture},
             {&geometry.vertices[polygon.first], polygon.count});
     }
-    add_patches(plant, geometry.mesh);
+    for (const MeshPiece& piece : geometry.mesh.pieces) {
+        if (!is_closed(piece)) add_piece(owner_of(plant, piece), geometry.mesh, piece);
+    }
     add_organs(plant, geometry, palette);
 }
 
-void DrawnFaces::add_patches(std::uint32_t plant, const DrawnMesh& mesh) {
+void DrawnFaces::add_piece(const FaceOwner& owner, const DrawnMesh& mesh, const MeshPiece& piece) {
     const auto corner = [&](std::uint32_t i) { return mesh.vertices[mesh.triangles[i]].position; };
-    for (const MeshPiece& piece : mesh.pieces) {
-        if (piece.kind != MeshPiece::Kind::patch) continue;
-        const FaceOwner owner{plant,        piece.module,           Kind::patch,
-                              piece.colour, piece.look.back_colour, piece.look.texture};
-        for (std::uint32_t i = piece.first; i + 2 < piece.first + piece.count; i += 3) {
-            add(owner, std::array{corner(i), corner(i + 1), corner(i + 2)});
-        }
+    for (std::uint32_t i = piece.first; i + 2 < piece.first + piece.count; i += 3) {
+        add(owner, std::array{corner(i), corner(i + 1), corner(i + 2)});
     }
 }
 
@@ -82,9 +89,12 @@ void DrawnFaces::add_organs(std::uint32_t plant, const PlantGeometry& geometry, 
     std::vector<glm::dvec3> corners;
     for (const Organ& organ : geometry.organs) {
         if (organ.shape == Organ::Shape::disc) add(owner_of(plant, organ), square_of(organ));
-        const SurfaceMeshes::Entry* surface =
-            organ.shape == Organ::Shape::surface ? surfaces.find(organ.surface) : nullptr;
-        if (!surface) continue;
+        if (organ.shape != Organ::Shape::surface) continue;
+        const SurfaceMeshes::Entry* const surface = surfaces.find(organ.surface);
+        if (!surface) {
+            add(owner_of(plant, organ), rhombus_of(organ));
+            continue;
+        }
         for (std::size_t face = 0, next = 0; face < surface->mesh.faces.size(); ++face) {
             FaceOwner owner = owner_of(plant, organ);
             if (palette) {
@@ -106,7 +116,8 @@ void DrawnFaces::add_stems(std::uint32_t plant, const PlantGeometry& geometry) {
     for (std::size_t i = 0; i < geometry.internodes.size(); ++i) {
         const Internode& internode = geometry.internodes[i];
         const std::uint16_t texture = i < geometry.textures.size() ? geometry.textures[i] : std::uint16_t{0};
-        add_stem({plant, internode.module, Kind::axis, internode.colour, internode.colour, texture}, internode);
+        add_stem({plant, internode.module, Kind::axis, internode.colour, internode.colour, texture, FaceOf::stem},
+                 internode);
     }
 }
 
@@ -127,6 +138,37 @@ void DrawnFaces::add_stem(const FaceOwner& owner, const Internode& internode) {
     for (std::size_t i = 0; i < sides; ++i) {
         add(owner, std::array{low[i], low[i + 1], high[i + 1]});
         add(owner, std::array{low[i], high[i + 1], high[i]});
+    }
+}
+
+void DrawnFaces::add_bodies(std::uint32_t plant, const PlantGeometry& geometry) {
+    for (const MeshPiece& piece : geometry.mesh.pieces) {
+        if (is_closed(piece)) add_piece(owner_of(plant, piece), geometry.mesh, piece);
+    }
+    OrganMeshes meshes;
+    for (const Organ& organ : geometry.organs) {
+        if (organ.shape == Organ::Shape::sphere && organ.size.x > 0) add_sphere(plant, organ, meshes);
+    }
+}
+
+void DrawnFaces::add_sphere(std::uint32_t plant, const Organ& organ, OrganMeshes& meshes) {
+    const OrganMesh& mesh = meshes.of(organ);
+    const auto corner = [&](std::size_t i) { return mesh.vertices[mesh.faces.indices[i]].position; };
+    double surface = 0;
+    std::size_t next = 0;
+    for (const std::uint32_t count : mesh.faces.counts) {
+        surface += glm::length(area_vector(count, [&](std::size_t i) { return corner(next + i); }));
+        next += count;
+    }
+    const double widening = organ.size.x * std::sqrt(std::numbers::pi / surface);
+    std::vector<glm::dvec3> corners;
+    next = 0;
+    for (const std::uint32_t count : mesh.faces.counts) {
+        corners.clear();
+        for (const std::size_t end = next + count; next < end; ++next) {
+            corners.push_back(organ.pose.position + widening * (corner(next) - organ.pose.position));
+        }
+        add(owner_of(plant, organ, FaceOf::body), corners);
     }
 }
 

@@ -1,4 +1,4 @@
-// The faces of drawn plants as light meets them: leaves and stems, each with its module and its material on both sides.
+// The faces of drawn plants as light meets them: leaves, stems and bodies, with their modules and materials.
 #pragma once
 
 #include "espalier/geometry/kind.h"
@@ -13,18 +13,20 @@
 
 namespace espalier::geometry {
 
+/// Light meets leaves on both sides, and stems (internodes, closed cylinders) and bodies (spheres) on their outside.
+enum class FaceOf : std::uint8_t { leaf, stem, body };
+
 /// Whose a face is, and what it is made of. Colours are indices into the plant's palette.
 struct FaceOwner {
     std::uint32_t plant;
     std::uint32_t module;  ///< index of the module in the plant's string, which knows its identity
-    Kind kind;             ///< polygon, patch or organ: a leaf; axis: a stem
+    Kind kind;
     std::uint16_t colour, back_colour;
     std::uint16_t texture;  ///< counted from 1 in Shapes::textures; 0: none
-
-    bool is_stem() const { return kind == Kind::axis; }
+    FaceOf of = FaceOf::leaf;
 };
 
-/// A polygon. Its front is the side from which the corners run counter-clockwise; stems have it outside.
+/// A polygon. Its front is the side from which the corners run counter-clockwise; stems and bodies have it outside.
 struct DrawnFace {
     const FaceOwner& owner;
     std::span<const glm::dvec3> corners;  ///< metres, of the world
@@ -39,17 +41,23 @@ struct DrawnFace {
     }
 };
 
+class OrganMeshes;
+
 /// Faces one after the other. The one place where light takes what a turtle has drawn.
 class DrawnFaces {
 public:
     void clear();
-    /// Adds all that a plant has drawn flat, in this order: its polygons, the triangles of its patches, the faces of
-    /// its surfaces, and its discs as squares of their area. Where the
-    /// palette is known, patches have the colours that `colours_of_patch` gives them, else those of their organs.
+    /// Adds all that a plant has drawn flat, in this order: its polygons, the triangles of its patches and of its
+    /// cylinders with open contours, the faces of its surfaces, and its discs as squares of their area. A surface that
+    /// no view file describes is the rhombus that pictures show. Where the palette is known, patches have the colours
+    /// that `colours_of_patch` gives them, else those of their organs.
     void add_leaves(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette = nullptr);
     /// Adds each internode as an open prism of twelve triangles with the surface of the cone; those without length or
     /// radius have none.
     void add_stems(std::uint32_t plant, const PlantGeometry& geometry);
+    /// Adds the triangles of closed cylinders, and spheres as polyhedra with the surface of the sphere. From all
+    /// directions together, those look as large as it (Cauchy 1841): a quarter of the surface.
+    void add_bodies(std::uint32_t plant, const PlantGeometry& geometry);
 
     std::size_t size() const { return owners_.size(); }
     DrawnFace operator[](std::size_t i) const {
@@ -58,9 +66,10 @@ public:
 
 private:
     void add(const FaceOwner& owner, std::span<const glm::dvec3> corners);
-    void add_patches(std::uint32_t plant, const DrawnMesh& mesh);
+    void add_piece(const FaceOwner& owner, const DrawnMesh& mesh, const MeshPiece& piece);
     void add_organs(std::uint32_t plant, const PlantGeometry& geometry, const Palette* palette);
     void add_stem(const FaceOwner& owner, const Internode& internode);
+    void add_sphere(std::uint32_t plant, const Organ& organ, OrganMeshes& meshes);
 
     std::vector<FaceOwner> owners_;
     std::vector<std::size_t> ends_{0};
@@ -73,6 +82,7 @@ namespace espalier {
 
 using geometry::DrawnFace;
 using geometry::DrawnFaces;
+using geometry::FaceOf;
 using geometry::FaceOwner;
 
 }  // namespace espalier

@@ -3,13 +3,27 @@
 #include "espalier/base/error.h"
 
 #include <algorithm>
+#if __has_include(<embree3/rtcore.h>)
 #include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 #include <limits>
 #include <string>
 #include <utility>
 
 namespace espalier::geometry {
 namespace {
+
+void intersect(RTCScene scene, RTCRayHit& ray) {
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect1(scene, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &ray);
+#endif
+}
 
 // The widest instructions differ between processors, and so would their rounding.
 constexpr const char* same_everywhere = "isa=sse2";
@@ -137,9 +151,7 @@ std::optional<RayScene::Hit> RayScene::first_hit(const glm::vec3& origin, const 
     RTCRayHit ray{ray_of(origin, direction, from, to), {}};
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(embree_->all->get(), &context, &ray);
+    intersect(embree_->all->get(), ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     const std::uint32_t part = embree_->part_of_instance[ray.hit.instID[0]];
     return Hit{part, ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};

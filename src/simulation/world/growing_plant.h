@@ -43,7 +43,7 @@ public:
     const Model& model() const { return *model_; }
     /// The string of the step before; null if its memory was passed on.
     const ModuleString* string_before() const { return keeps_previous_ ? &*previous_ : nullptr; }
-    PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_}; }
+    PlantView view() const { return {number, &model(), &*string, &*interpretation, asks_, &drawn().geometry}; }
     PlantFrame frame(std::vector<Quantity> quantities) const;
 
     std::uint32_t number;
@@ -55,7 +55,7 @@ public:
     bool stopped = false;
     Reusable<ModuleString> string;
     Reusable<Interpretation> interpretation;
-    /// For recorders: the interpretation as the geometry stages leave it.
+    /// For light and recorders: the interpretation as the geometry stages leave it.
     const Interpretation& drawn() const { return *(description->stages.empty() ? interpretation : staged_); }
     PlantMemory memory;
 

@@ -23,9 +23,11 @@ TEST_CASE("materials have optical numbers by colour, band and side", "[optics]")
     const std::uint16_t petal = *optics.material_of(LitKind::leaf, 7), other = *optics.material_of(LitKind::leaf, 1);
     CHECK(optics.material_name(petal) == "petal");
     CHECK(optics.material_name(other) == "other");
-    CHECK(optics.of(petal, 0).front.reflectance == 0.6);
-    CHECK(optics.of(petal, 0).back.reflectance == 0.1);
-    CHECK(optics.of(petal, 1).back.transmittance == 0.6);
+    CHECK(optics.of(LitKind::leaf, petal, 0).front.reflectance == 0.6);
+    CHECK(optics.of(LitKind::leaf, petal, 0).back.reflectance == 0.1);
+    CHECK(optics.of(LitKind::leaf, petal, 1).back.transmittance == 0.6);
+    CHECK(optics.of(LitKind::body, petal, 0).back.reflectance == 0.6);  // a fruit has no back that light meets
+    CHECK(optics.of(LitKind::body, petal, 1).back.transmittance == 0);
     CHECK(optics.material_name(*optics.material_of(LitKind::stem, 1)) == "stem");
 }
 

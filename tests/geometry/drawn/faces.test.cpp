@@ -1,6 +1,8 @@
 // What light meets of a drawn plant: areas, owners and both sides of its faces.
 #include "geometry/drawn/faces.h"
 
+#include "espalier/geometry/generalized_cylinder.h"
+
 #include "catch.h"
 
 #include <glm/geometric.hpp>
@@ -64,7 +66,7 @@ TEST_CASE("a stem has the surface of its cone, and its front outside", "[geometr
         CHECK(face.owner.plant == 2);
         CHECK(face.owner.module == 3);
         CHECK(face.owner.colour == 9);
-        CHECK(face.owner.is_stem());
+        CHECK(face.owner.of == FaceOf::stem);
         CHECK(glm::dot(face.area(), face.middle() - glm::dvec3(1, 2, face.middle().z)) > 0);
     }
 }
@@ -94,7 +96,7 @@ TEST_CASE("a surface is a leaf as large as it was stretched, with the colours of
     faces.add_leaves(0, square_leaf(0, 0));
     CHECK(area_of(faces) == Approx(6));
     CHECK(faces[0].owner.module == 7);
-    CHECK_FALSE(faces[0].owner.is_stem());
+    CHECK(faces[0].owner.of == FaceOf::leaf);
     CHECK(faces[0].owner.colour == 4);
     CHECK(faces[0].owner.back_colour == 5);
 
@@ -109,6 +111,68 @@ TEST_CASE("a surface is a leaf as large as it was stretched, with the colours of
     faces.clear();
     faces.add_leaves(0, square_leaf(11, 12), &materials);
     CHECK(faces[0].owner.colour == 4);
+}
+
+TEST_CASE("a surface that no view file describes is the rhombus that pictures show", "[geometry]") {
+    PlantGeometry geometry = square_leaf(0, 0);
+    geometry.shapes.reset();
+    DrawnFaces faces;
+    faces.add_leaves(0, geometry);
+    REQUIRE(faces.size() == 1);
+    CHECK(area_of(faces) == Approx(0.5 * (0.5 * 2) * 3));  // half as wide as its scale says
+    CHECK(glm::dot(faces[0].area(), geometry.organs[0].pose.up) > 0);
+}
+
+TEST_CASE("a sphere is a body with its surface, turned outward, whatever its sides", "[geometry]") {
+    for (const std::uint16_t sides : {3, 8, 31}) {
+        PlantGeometry geometry;
+        Organ& sphere = geometry.organs.emplace_back();
+        sphere.module = 4;
+        sphere.shape = Organ::Shape::sphere;
+        sphere.size = {0.3, 0, 0};
+        sphere.sides = sides;
+        sphere.pose.position = {5, 6, 7};
+        DrawnFaces faces;
+        faces.add_leaves(0, geometry);
+        CHECK(faces.size() == 0);
+        faces.add_bodies(0, geometry);
+        double surface = 0;
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            CHECK(faces[i].owner.of == FaceOf::body);
+            CHECK(faces[i].owner.module == 4);
+            CHECK(glm::dot(faces[i].area(), faces[i].middle() - sphere.pose.position) > 0);
+            surface += glm::length(faces[i].area());
+        }
+        CHECK(surface == Approx(std::numbers::pi * 0.09));
+    }
+}
+
+TEST_CASE("a closed cylinder is a stem, and one with an open contour is a leaf", "[geometry]") {
+    const Contour half(std::vector<glm::dvec3>{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, false);
+    for (const Contour* const contour : {static_cast<const Contour*>(nullptr), &half}) {
+        PlantGeometry geometry;
+        GeneralizedCylinder cylinder;
+        cylinder.sides = 40;
+        for (const double y : {0.0, 2.0}) {
+            CylinderPoint& point = cylinder.points.emplace_back();
+            point.module = 3;
+            point.pose.position = {0, y, 0};
+            point.width = 0.2;
+            point.contour = contour;
+        }
+        draw(cylinder, geometry);
+        DrawnFaces leaves, bodies;
+        leaves.add_leaves(0, geometry);
+        bodies.add_bodies(0, geometry);
+        const DrawnFaces &some = contour ? leaves : bodies, &none = contour ? bodies : leaves;
+        CHECK(none.size() == 0);
+        REQUIRE(some.size() > 0);
+        CHECK(some[0].owner.module == 3);
+        CHECK(some[0].owner.of == (contour ? FaceOf::leaf : FaceOf::stem));
+        if (contour) continue;
+        // The mantle and both ends.
+        CHECK(area_of(some) == Approx(std::numbers::pi * (0.2 * 2 + 0.02)).epsilon(0.005));
+    }
 }
 
 TEST_CASE("the triangles of a polygon are as large as the polygon", "[geometry]") {
