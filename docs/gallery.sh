@@ -85,7 +85,7 @@ entry models/species/weeping-willow.species "Weeping willow" "Weber & Penn 1995"
 entry environments/species/broadleaf.toml "Broadleaved tree by its age" "Lintermann & Deussen 1997" -- --light
 entry environments/species/palm.toml "Palm by its age" "Lintermann & Deussen 1997" -- --light
 entry environments/species/willow.toml "Weeping willow by its age" "Lintermann & Deussen 1997" -- --light
-entry models/trees/honda.l "Two branches at different angles" "Honda 1971" -- --light
+entry models/trees/honda.l "Two branches at different angles" "Honda 1971"
 entry models/trees/aono-kunii.l "Two constant angles" "Aono & Kunii 1984"
 entry models/trees/monopodial.l "Trees with one leading axis" "Prusinkiewicz & Lindenmayer 1990, figure 2.6" -- --size 360x360
 entry models/trees/sympodial.l "Trees whose apices fork" "Prusinkiewicz & Lindenmayer 1990, figure 2.7" -- --size 360x360
@@ -106,7 +106,7 @@ entry models/trees/strahler.l "Strahler numbers" "Strahler 1952"
 entry models/trees/tropisms.l "Tropisms" "" -- --size 360x360
 entry models/trees/twisted-stem.l "A stem with helical twist and taper" "Oppenheimer 1986"
 entry models/trees/unequal-flow.l "Growth by unequal flow" "Honda, Tomlinson & Fisher 1981"
-entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v -- --light
+entry models/trees/weeping.l "Branches that bend" "Prusinkiewicz & Lindenmayer 1990, section 2.1" --view models/trees/weeping.v
 entry models/pgraph/broadleaf.pgraph "Broadleaved tree of any size" "Lintermann & Deussen 1997" -- --light
 entry models/pgraph/bush.pgraph "Bush of components" "Lintermann & Deussen 1997" -- --light
 entry models/pgraph/palm.pgraph "Palm" "Lintermann & Deussen 1997" -- --light

@@ -56,7 +56,7 @@ grow lychnis models/herbs/lychnis.l
 
 render two-trees.png two-trees --size 640x480 --azimuth 20 --elevation 10
 grow willow models/species/weeping-willow.species --every 1000000
-render light-paths.png willow --size 640x480 --light --sun 60:35 --samples 48
+render light-paths.png willow --size 480x360 --light --sun 60:35 --samples 48
 render two-roots.png two-roots --size 640x480 --field water:volume --azimuth 15 --elevation 8 --no-legend
 render topiary.png topiary --size 640x480 --azimuth 25 --elevation 10
 render root-2d.png root-2d --size 640x640 --field water:slice --time --scale-bar

@@ -189,8 +189,8 @@ TEST_CASE("render: light makes pictures, sheets and films, the same with any num
     std::set<std::string> all{place.bytes("plain.png"), place.bytes("a.png")};
     std::size_t count = 2;
     for (const char* words : {"--sun 60:20", "--sky overcast", "--sky uniform", "--exposure -1", "--background light",
-                              "--dark", "--background transparent", "--no-ground", "--samples 9", "--noise 0.2",
-                              "--colour-by birth", "--plant left", "--azimuth 90", "--title Light"}) {
+                              "--dark", "--background transparent", "--samples 9", "--colour-by birth", "--plant left",
+                              "--azimuth 90", "--title Light"}) {
         CAPTURE(words);
         const std::string own = std::string(words) == "--samples 9" ? "--light --size 40x30 --quiet " : light;
         REQUIRE(place.run("render run --output x.png " + own + words).code == 0);

@@ -326,6 +326,18 @@ TEST_CASE("stage: colours span what was surveyed, not what a frame happens to ho
     CHECK(stage.legend().keys[0].title == "vigour");
 }
 
+TEST_CASE("colour bars say the units of what they show", "[pictures]") {
+    const RecordedFolder recorded;
+    const RecordedRun run(recorded.folder.path);
+    FrameGeometry geometry = run.geometry(run.frames().back());
+    const auto title = [&](const std::string& name) { return Colouring(run, name).key(run, geometry, {0, 1})->title; };
+    CHECK(title("vigour") == "vigour");
+    geometry.units["vigour"] = "umol m-2 s-1";
+    CHECK(title("vigour") == "vigour (umol m-2 s-1)");
+    CHECK(title("light") == "light");  // a share
+    CHECK(with_unit("water", "m3/m3") == "water (m3/m3)");
+}
+
 TEST_CASE("stage: a run in one plane is flat and seen from the front", "[pictures]") {
     if (!can_draw()) return;
     const HandmadePlant plant = branched_plant();

@@ -27,7 +27,8 @@ Settings settings_of(const Json& json, const fs::path& folder) {
     Settings settings;
     for (const auto& [key, value] : json.items()) {
         if (value.is_boolean()) settings.put(key, value.get<bool>());
-        if (value.is_number()) settings.put(key, value.get<double>());
+        if (value.is_number_integer()) settings.put(key, value.get<std::int64_t>());
+        if (value.is_number_float()) settings.put(key, value.get<double>());
         if (value.is_string() && key == "series") settings.put(key, folder / value.get<std::string>());
         if (value.is_string() && key != "series") settings.put(key, value.get<std::string>());
         if (value.is_array()) settings.put(key, value.get<std::vector<double>>());
